@@ -9,11 +9,14 @@ import json
 import pathlib
 import sys
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+except ImportError as error:
+    sys.exit(f"{error}: the pictures need NumPy and Matplotlib (apt install python3-matplotlib, and /usr/bin/python3)")
 import running
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]

@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "commands.hpp"
+#include "compare/solvers.hpp"
 #include "contact_report.hpp"
 #include "scabo/contact/files/fclib.hpp"
-#include "compare/solvers.hpp"
 #include "scabo/contact/files/text_problem.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/result/convergence.hpp"
@@ -74,7 +74,7 @@ void refuse_files_of_others(const std::filesystem::path& file, std::string_view 
                      {{{}, "exists and is not a trace written by Scabo: name another file, as in --trace=FILE.csv"}});
 }
 
-/// Files for the iterations and their plot.
+/// Files for the iterations and their plot, which is empty beside a device, as for --trace=/dev/stdout.
 struct TraceFiles {
   std::filesystem::path table, picture;
 };
@@ -87,13 +87,19 @@ TraceFiles trace_files(const ContactOptions& options) {
     throw InputError(options.trace,
                      {{{}, "is the name of the plot: give the name of the table, as in --trace=FILE.csv"}});
   refuse_files_of_others(files.table, trace_header);
-  refuse_files_of_others(files.picture, result::convergence_plot_mark);
+  std::error_code ignored;
+  const auto there = std::filesystem::symlink_status(files.table, ignored);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    files.picture.clear();
+  else
+    refuse_files_of_others(files.picture, result::convergence_plot_mark);
   return files;
 }
 
 void write_trace(const TraceFiles& files, const contact::SavedProblem& saved, const ContactOptions& options,
                  const Judged& judged) {
   result::write_file(files.table, report_trace(judged.solution));
+  if (files.picture.empty()) return;
   const std::string title = saved.title.empty() ? options.file : saved.title;
   const result::ConvergenceCurve curve{judged.solver, judged.solution.trace, is_solved(judged)};
   result::write_file(files.picture, result::convergence_plot({curve}, title, options.tolerance));

@@ -29,10 +29,10 @@ def picture(options, summary):
     figure = plt.figure(figsize=(13.2, 4.6), layout="constrained")
     left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1.35, 1.15, 1]})
     mesh = pictures.fields(options.results, len(summary["increments"]))
-    drawn = pictures.draw(left, mesh, 1e3 * mesh.point_data["displacement"][:, 0], np.linspace(0, 0.9, 10))
+    drawn = pictures.draw(left, mesh, 1e3 * mesh.point_data["displacement"][:, 0], np.linspace(0, 1, 11))
     pictures.draw_cells(left, options.results)
     left.annotate("weak layer", (20, -6), (9, -16.5), color="black", bbox=pictures.BOX_ON_LINES, arrowprops={"arrowstyle": "-", "lw": 0.8})
-    pictures.colour_bar(figure, drawn, left, "horizontal displacement (mm)", location="bottom", shrink=0.8)
+    pictures.colour_bar(figure, drawn, left, "horizontal displacement (mm)", count=6, location="bottom", shrink=0.8)
     left.set(title="flood: displacement, and the cells of dam.msh")
 
     drawn = pictures.draw(middle, mesh, pictures.values_of(mesh, "stress_yy", 1e-6), pictures.signed_levels(0.8, bands=8),

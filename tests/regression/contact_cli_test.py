@@ -2,6 +2,7 @@
 import csv
 import importlib.util
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -344,6 +345,12 @@ class Manners(Contact):
             self.assertIn("</svg>", picture)
         run = scabo("contact", "--json", "--trace", file, cwd=self.directory)  # the problem, not where its trace goes
         self.assertEqual(run.returncode, SOLVED, run.stderr)
+
+    def test_trace_into_a_pipe(self):
+        run = scabo("contact", self.write(*random_problem(2, 2, seed=2)), "--trace=/dev/stdout", cwd=self.directory)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertTrue(run.stdout.startswith("iteration,stage,residual"), run.stdout[:100])
+        self.assertFalse(os.path.exists("/dev/stdout.svg"))
 
     def test_trace_never_over_a_file_of_another_kind(self):
         file = self.write(*random_problem(2, 2, seed=2))

@@ -131,6 +131,19 @@ TEST(SlenderBeam, SaysWhatRoundingOfItsStiffnessCosts) {
   }
 }
 
+// Nor does the estimate overflow with displacements that do not: it was infinite for loads of 1e90.
+TEST(SlenderBeam, EstimateOfRoundingDoesNotDependOnTheSizeOfTheLoad) {
+  const std::string text = cantilever(300.0, "{order: 3, size: 15}"), unit = "force: [0, -1]";
+  const auto at = text.find(unit);
+  ASSERT_NE(at, std::string::npos);
+  const double expected = last(run(text)).lost_to_rounding;
+  EXPECT_GT(expected, 0.0);
+  for (const char* load : {"force: [0, -1e85]", "force: [0, -1e-85]"}) {
+    const auto solution = run(std::string(text).replace(at, unit.size(), load));
+    EXPECT_NEAR(last(solution).lost_to_rounding, expected, 1e-6 * expected) << load;
+  }
+}
+
 TEST(SlenderBeam, IsRefusedAsTooSlender) {
   try {
     const auto solution = run(cantilever(1e5, "{order: 3, size: 5000}"));

@@ -34,7 +34,8 @@ void remove_regular(const std::filesystem::path& path) {
 /// Zero, or the error that ended the write.
 int write_at(int descriptor, std::string_view content, off_t position) {
   while (!content.empty()) {
-    const ssize_t written = ::pwrite(descriptor, content.data(), content.size(), position);
+    ssize_t written = ::pwrite(descriptor, content.data(), content.size(), position);
+    if (written < 0 && errno == ESPIPE) written = ::write(descriptor, content.data(), content.size());  // a pipe
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return errno;
     content.remove_prefix(static_cast<std::size_t>(written));

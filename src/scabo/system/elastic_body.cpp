@@ -285,9 +285,11 @@ double ElasticBody::elastic_energy(const Vector& u, const Vector& f, const Vecto
 double ElasticBody::energy_lost(const Vector& u) const {
   // An estimate: digits that the rigid motions take from it do not count.
   const Vector strained = stiffness().unbounded ? u : motions_.taken_out_of(u);
-  const Vector square = strained.cwiseAbs2();
+  const double largest = strained.lpNorm<Eigen::Infinity>();
+  if (!(largest > 0.0)) return 0.0;
+  const Vector square = (strained / largest).cwiseAbs2();  // the fourth power of a displacement may overflow
   const double sum = square.dot(stiffness().times_squares(square));
-  return 0.5 * stiffness().rounding * std::sqrt(sum);  // errors of single entries, independent of each other
+  return 0.5 * stiffness().rounding * std::sqrt(sum) * largest * largest;  // errors of single entries, independent
 }
 
 double ElasticBody::stiff_force(const Vector& u) const {
