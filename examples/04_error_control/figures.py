@@ -5,8 +5,6 @@ import json
 import pathlib
 import sys
 
-import matplotlib.ticker
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import pictures
 import running
@@ -105,7 +103,7 @@ def convergence(refined, equal):
                 label="to a tolerance, true")
     axis.set(xlabel="degrees of freedom", ylabel="error / energy norm of the displacement")
     axis.set_xticks([30, 50, 100, 200, 500], labels=["30", "50", "100", "200", "500"])
-    axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+    axis.xaxis.set_minor_locator(plt.NullLocator())
     axis.grid(True, which="major")
     axis.legend()
     return figure

@@ -4,8 +4,6 @@ its error against the degrees of freedom, with equal cells too."""
 import pathlib
 import sys
 
-import matplotlib.ticker
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import pictures
 from pictures import np, plt
@@ -104,7 +102,7 @@ def convergence(curves):
         axis.loglog(*zip(*points), style, color=colour, markersize=4, label=name)
     axis.set(xlabel="degrees of freedom", ylabel="error of the pressure / pressure of Hertz")
     axis.set_xticks([2000, 5000, 10_000, 20_000, 50_000, 100_000], labels=["2,000", "5,000", "10,000", "20,000", "50,000", "100,000"])
-    axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+    axis.xaxis.set_minor_locator(plt.NullLocator())
     axis.legend()
     axis.grid(True, which="both")
     return figure
