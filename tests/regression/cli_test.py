@@ -292,6 +292,25 @@ loads: {push: {on: strip.right, traction: [0, 1]}}
         increment = summary_of(self.directory / "model.results")["increments"][0]
         self.assertAlmostEqual(increment["reactions"]["strip.left"][1], -1.0, delta=1e-10)
 
+    def test_a_gap_that_no_load_can_close_is_named(self):
+        """In other units than the bodies: the motion leaves no digits for the forces."""
+        (self.directory / "model.yaml").write_text("""
+scabo: 1
+materials: {rubber: {young: 1e9, poisson: 0.25}}
+bodies:
+  base: {material: rubber, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}, mesh: {size: 0.25}}
+  block: {material: rubber, shape: {rectangle: {corner: [0, 1], size: [1, 1]}}, mesh: {size: 0.25}}
+supports: [{on: base.bottom, fix: [x, y]}]
+loads: {press: {on: block.top, pressure: 1e6}}
+contacts: {joint: {between: [base.top, block.bottom], friction: 0.3, gap: 1}}
+""")
+        self.assertEqual(scabo("run", "model.yaml", cwd=self.directory).returncode, SOLVED)
+        for gap in ("1e+09", "1e+60"):
+            run = scabo("run", "model.yaml", "--quiet", "--set", f"contacts.joint.gap={gap}", cwd=self.directory)
+            self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+            self.assertIn(f"all pairs are open by {gap} or more at first", run.stderr)
+            self.assertIn(": a smaller gap or a larger load is needed", run.stderr)
+
     def test_quiet_prints_the_reason_only(self):
         (self.directory / "model.yaml").write_text(self.MODEL)
         run = scabo("run", "model.yaml", "--quiet", cwd=self.directory)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/contact/laws/evolution.hpp"
@@ -60,10 +61,37 @@ bool is_far_from_solved(const Prepared& prepared, const Attempt& tried) {
          tried.certificate.worst() > far * prepared.model.solver.tolerance;
 }
 
+/// How far all pairs are open without contact forces: a body that nothing else holds moves at least as far. 0 where one
+/// is closed.
+double smallest_opening(const contact::Problem& problem) {
+  if (problem.pairs() == 0) return 0.0;
+  double smallest = problem.q[0];
+  for (Eigen::Index i = 0; i < problem.q.size(); i += problem.dimension) smallest = std::min(smallest, problem.q[i]);
+  return std::max(smallest, 0.0);
+}
+
+/// Part of the largest force that rounding of a motion of this length leaves unbalanced.
+double rounding_of_motion(const Prepared& prepared, const Attempt& tried, double motion) {
+  const double scale = std::max(tried.force_scale, tried.state.largest_force);
+  if (!(scale > 0.0)) return 0.0;
+  double resisting = 0.0;
+  for (std::size_t p = 0; p < tried.state.u.size(); ++p)
+    resisting = std::max(resisting,
+                         prepared.structure.parts[p]->stiff_force(Vector::Constant(tried.state.u[p].size(), motion)));
+  return std::numeric_limits<double>::epsilon() * resisting / scale;
+}
+
 /// Where motions are so large beside deformations that forces are lost in rounding; empty where they are not.
-std::string lost_in_rounding(const Attempt& tried, double tolerance) {
+std::string lost_in_rounding(const Prepared& prepared, const Attempt& tried, double tolerance) {
   constexpr double allowance = 1e-3;  // Attempt::rounding allows for a thousand roundings
   const double lost = allowance * tried.rounding;
+  const double opening = smallest_opening(tried.problem), closing = rounding_of_motion(prepared, tried, opening);
+  if (closing > std::max(0.1 * lost, tolerance) && std::isfinite(closing))
+    return fmt::format(
+        "; all pairs are open by {:.3g} or more at first, and the motion that closes them is so large beside the "
+        "deformation of the bodies that rounding of the displacements may leave {:.1g} of the forces unbalanced: a "
+        "smaller gap or a larger load is needed, check their units",
+        opening, closing);
   if (!(lost > tolerance) || !std::isfinite(lost)) return {};
   return fmt::format(
       "; the motion is so large beside the deformation of the bodies that rounding of the displacements may leave "
@@ -145,7 +173,7 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
     reached.reason += "; " + why;
   const std::string remedy = tolerance_to_set(prepared, tried.certificate.worst());
-  reached.reason += remedy.empty() ? lost_in_rounding(tried, tolerance) : remedy;
+  reached.reason += remedy.empty() ? lost_in_rounding(prepared, tried, tolerance) : remedy;
 }
 
 }  // namespace
