@@ -365,8 +365,8 @@ class Curves(WithResults):
         np.testing.assert_array_equal(drawn.get_ydata(), [1.0, 0.1, curves.LEAST])
 
     def test_problems_with_fewer_pairs_are_told_apart(self):
-        numbers, fewer = np.array([0, 1, 2, 2, 3]), np.array([True, True, True, False, False])
-        attempt = curves.Attempt(1, 1, True, numbers, np.array([1.0, 0.5, 1e-15, 0.1, 1e-16]), fewer)
+        numbers, fewer = np.array([0, 1, 2, 2, 3, 3]), np.array([True, True, True, False, False, False])
+        attempt = curves.Attempt(1, 1, True, numbers, np.array([1.0, 0.5, 1e-15, 0.1, 1e-12, 1e-16]), fewer)
         self.assertEqual(curves.words_for_iterations([attempt]),
                          "1 iteration, and 2 on fewer pairs, whose solution is the start of the next problem")
         self.assertEqual(curves.words_for_iterations([curves.Attempt(1, 1, True, numbers[:3], np.ones(3), np.zeros(3, dtype=bool))]),
@@ -374,7 +374,7 @@ class Curves(WithResults):
         axis = style.plt.figure().subplots()
         curves.draw_attempt(axis, attempt, 1)
         drawn = [list(line.get_xdata()) for line in axis.lines if line.get_linestyle() == "-"]
-        self.assertEqual(drawn, [[0, 1, 2], [2, 3]], "no line from the solution of one problem to the start of the next")
+        self.assertEqual(drawn, [[0, 1, 2], [2, 3, 3]], "no line from the solution of one problem to the start of the next")
 
     def test_a_name_that_begins_with_an_underscore_is_in_the_legend(self):
         figure = plot.history(self.results, "hysteresis")

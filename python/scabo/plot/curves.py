@@ -342,7 +342,8 @@ def draw_attempt(axis, attempt, count):
     residuals = np.where(np.isfinite(attempt.residuals), np.maximum(attempt.residuals, LEAST), np.nan)
     colour = colour_of(attempt.number, count) if attempt.accepted else style.RED
     dashes = "-" if attempt.accepted else "--"
-    starts = np.flatnonzero(np.diff(attempt.iterations) <= 0) + 1  # of the next problem, whose residual is another one
+    # A number again after a problem with fewer pairs: the start of the next one, whose residual is another one.
+    starts = np.flatnonzero((np.diff(attempt.iterations) <= 0) & attempt.coarse[:-1]) + 1
     for rows in np.split(np.arange(len(residuals)), starts):
         axis.plot(attempt.iterations[rows], residuals[rows], color=colour, linestyle=dashes, linewidth=0.9)
     mark = mark_of(attempt.number, count) if attempt.accepted else "x"
