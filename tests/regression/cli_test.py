@@ -310,6 +310,9 @@ contacts: {joint: {between: [base.top, block.bottom], friction: 0.3, gap: 1}}
             self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
             self.assertIn(f"all pairs are open by {gap} or more at first", run.stderr)
             self.assertIn(": a smaller gap or a larger load is needed", run.stderr)
+        run = scabo("run", "model.yaml", "--quiet", "--set", "contacts.joint.gap=-1e99", cwd=self.directory)
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+        self.assertNotIn("(1 iterations)", run.stderr)
 
     def test_quiet_prints_the_reason_only(self):
         (self.directory / "model.yaml").write_text(self.MODEL)

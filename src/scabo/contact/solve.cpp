@@ -65,11 +65,11 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
                   options.deadline.seconds(), solution.iterations);
   else if (singular)
     std::snprintf(text, sizeof text,
-                  "no contact forces that balance the loads were found on any branch tried (%d iterations)",
-                  solution.iterations);
+                  "no contact forces that balance the loads were found on any branch tried (%d iteration%s)",
+                  solution.iterations, solution.iterations == 1 ? "" : "s");
   else
-    std::snprintf(text, sizeof text, "the Newton iterations stalled from every start tried (%d iterations)",
-                  solution.iterations);
+    std::snprintf(text, sizeof text, "the Newton iterations stalled from every start tried (%d iteration%s)",
+                  solution.iterations, solution.iterations == 1 ? "" : "s");
   return text;
 }
 
