@@ -40,6 +40,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.patience = how.patience;
   options.fall = how.fall;
   options.first_fall = how.first_fall;
+  options.first_step = how.first_step;
   options.watched = how.watched;
   options.stage = how.stage;
   options.deadline = options_.deadline;

@@ -58,6 +58,7 @@ class Ladder {
     int patience = 0;         ///< NewtonOptions::patience
     double fall = 0.5;        ///< NewtonOptions::fall
     double first_fall = 1.0;  ///< NewtonOptions::first_fall
+    double first_step = 0.0;  ///< NewtonOptions::first_step
     int watched = 6;          ///< NewtonOptions::watched
     bool soft = false;        ///< contact/soft_newton, where it may
   };

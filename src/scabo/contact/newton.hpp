@@ -24,6 +24,7 @@ struct NewtonOptions {
   int patience = 0;             ///< ends when the smallest merit did not fall by `fall` in so many iterations; 0: never
   double fall = 0.5;
   double first_fall = 1.0;  ///< ends where the first iteration leaves more than this part of the merit
+  double first_step = 0.0;  ///< of soft_newton: ends where the first step is shorter
   std::string stage = "newton";
   Deadline deadline;                                   ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration;  ///< may be empty; what it throws ends the solve

@@ -23,7 +23,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double usual = 12.0;  // products of the start over the square of the mean friction bound
 constexpr int most_steps = 80;
-constexpr int patience = 6;                              // steps without a gain in |H| or in the products
+constexpr int patience = 6;                              // steps without a gain in H or in the products
 constexpr double gain = 0.9;                             // of the least so far
 constexpr double whole = 0.85;                           // least step after which Newton's method may follow
 constexpr double least_part = 0.98, most_part = 0.9995;  // of the way to the nearest boundary
@@ -90,7 +90,8 @@ class PlaneInteriorPoints::Implementation {
       deadline.spend(operations_of_system(problem_));
       const Vector p = forces(), a = a_.cwiseProduct(length_);
       const Residual at = equations_.residual(p, a);
-      const double residual = at.largest() / std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
+      const double mean = std::sqrt(at.merit() / static_cast<double>(N_));  // the merit is half of the sum
+      const double residual = mean / std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
       if (!std::isfinite(residual)) break;
       evaluate(at.motion);
       ++since;

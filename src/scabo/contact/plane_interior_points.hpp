@@ -34,8 +34,8 @@ class PlaneInteriorPoints {
   PlaneInteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start);
   ~PlaneInteriorPoints();
 
-  /// Steps until the largest |H|, over the largest force, is not above `aim` after a step that was nearly whole, or
-  /// until they no longer lead on. `residual` is that figure.
+  /// Steps until the root of the mean square of H, over the largest force, is not above `aim` after a step that was
+  /// nearly whole, or until they no longer lead on. `residual` is that figure.
   InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline);
 
  private:

@@ -163,8 +163,8 @@ bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
   Vector right = at.H;
   const double largest = std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
   const double left = of_residual * at.largest() / largest;
-  raise_ = multiple_ * std::clamp(left, least_raise, most_raise);
-  hold_ = multiple_ * std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_;
+  raise_ = std::clamp(left, least_raise, most_raise);
+  hold_ = std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_;
   for (const int motion : sliding_.hold(p, at, states, right)) hold_[motion] = firm * size_[motion];
   right = -right;
   reused_ = false;

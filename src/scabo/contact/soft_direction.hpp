@@ -41,11 +41,8 @@ class SoftDirection {
   int factorisations() const { return factorisations_; }
   /// Whether the last direction came by the factor of an earlier one.
   bool reused() const { return reused_; }
-  /// The next direction has a factor of its own, with this multiple of the usual softness.
-  void soften(double multiple) {
-    multiple_ = multiple;
-    held_.clear();
-  }
+  /// The next direction has a factor of its own.
+  void forget_factor() { held_.clear(); }
 
  private:
   using State = PairState;
@@ -61,7 +58,6 @@ class SoftDirection {
 
   const BDifferentiableEquations& equations_;
   SlidingBodies sliding_;
-  double multiple_ = 1.0;    ///< of the usual softness
   double raise_ = 0.0;       ///< on the rows of motions
   Vector size_, hold_;       ///< of the columns of G, squared; on the rows of balance
   std::vector<State> held_;  ///< of the factor; empty: none

@@ -1,7 +1,6 @@
 #include "scabo/contact/soft_newton.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "scabo/contact/soft_direction.hpp"
@@ -23,12 +22,11 @@ class SoftNewton {
     end_.a = a_;
     equations_.evaluate(p_, a_, at_);
     int gained_at = 0;
-    double gained = HUGE_VAL, step = 0.0, first = 0.0;
+    double gained = HUGE_VAL, step = 0.0;
+    bool moved = false;
     for (int steps = 0;; ++steps) {
       keep_best();
       record(step);
-      if (steps == 0) first = at_.merit();
-      if (steps == 1 && best_ > options_.first_fall * first) break;
       if (best_ <= options_.fall * gained) gained = best_, gained_at = steps;
       if (end_.converged || !std::isfinite(at_.merit()) || steps >= most_steps || options_.deadline.passed()) break;
       if (end_.iterations >= options_.iterations || steps - gained_at >= options_.patience) break;
@@ -38,12 +36,13 @@ class SoftNewton {
       if (!found) break;
       step = descending_step();
       if (step < least_step) {
-        // By its own factor, since GMRES leaves a part of the right-hand side; then with other softness.
-        if (!direction_.reused() && ++tried_ == multiples.size()) break;
-        direction_.soften(multiples[tried_]);
+        if (!direction_.reused()) break;
+        direction_.forget_factor();  // GMRES leaves a part of the right-hand side
         step = 0.0;
         continue;
       }
+      if (!moved && step < options_.first_step) break;
+      moved = true;
       p_ += step * d_.head(p_.size());
       a_ += step * d_.tail(a_.size());
       equations_.evaluate(p_, a_, at_);
@@ -56,9 +55,7 @@ class SoftNewton {
  private:
   static constexpr double sufficient = 1e-4;  // descent of the merit, of what the direction promises
   static constexpr double least_step = 1.0 / 16.0;
-  static constexpr int most_steps = 20;
-  /// Of the softness: more where rows contradict each other, less where a soft motion is held too firmly.
-  static constexpr std::array<double, 3> multiples{1.0, 100.0, 0.01};
+  static constexpr int most_steps = 60;               // those by the factor of an earlier one are cheap
   static constexpr double near = 1e3, fallen = 0.25;  // of the aim; of the least merit: what is left may be rounding
 
   double aim() const {
@@ -107,7 +104,6 @@ class SoftNewton {
   std::vector<Branch> before_;
   NewtonEnd end_;
   double best_ = HUGE_VAL;  // merit
-  std::size_t tried_ = 0;   // multiples
 };
 
 }  // namespace

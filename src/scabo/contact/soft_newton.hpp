@@ -10,9 +10,9 @@ namespace scabo::contact {
 /// Whether the equations have what a SoftDirection needs.
 bool may_soften(const Problem& problem);
 
-/// Of the options `small`, `relative`, `iterations`, `patience`, `fall`, `stage`, `deadline`, `on_iteration` and
-/// `content`. One iteration for each factorisation: steps with the factor of an earlier one have its number in the
-/// trace.
+/// Of the options `small`, `relative`, `iterations`, `patience`, `fall`, `first_step`, `stage`, `deadline`,
+/// `on_iteration` and `content`. One iteration for each factorisation: steps with the factor of an earlier one have its
+/// number in the trace.
 NewtonEnd soft_newton(const BDifferentiableEquations& equations, Vector p, Vector a, const NewtonOptions& options);
 
 }  // namespace scabo::contact
