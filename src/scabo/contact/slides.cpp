@@ -13,14 +13,12 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Friction that lets the steps of F(s) overlap is Newton's own business.
-constexpr double weak = 1e-3;
 constexpr double no_slip = 1e-9;  // of all slips
 
 bool may_slide(const Problem& problem) {
   return problem.dimension == 2 && problem.pairs() > 0 && problem.G.cols() > 0 && problem.W.is_dense() &&
          problem.mu_backward.size() == 0 && problem.cohesion.size() == 0 && problem.tension.size() == 0 &&
-         !has_many_motions(problem) && problem.mu.minCoeff() <= weak && problem.mu.maxCoeff() > 0.0;
+         !has_many_motions(problem) && problem.mu.minCoeff() <= little_friction && problem.mu.maxCoeff() > 0.0;
 }
 
 /// The largest coefficient of the pairs that slide by `slips` (N).
@@ -53,7 +51,7 @@ std::optional<SlidesApart> slides_apart(const Problem& problem) {
   Matrix basis(m, m);
   Index count = 0;
   for (Index k = 0; k < slides.cols(); ++k)
-    if (const double mu = friction_along(problem, slips_of(moved, k)); mu > 0.0 && mu <= weak)
+    if (const double mu = friction_along(problem, slips_of(moved, k)); mu > 0.0 && mu <= little_friction)
       basis.col(count++) = slides.col(k) / std::sqrt(mu);
   if (count == 0) return std::nullopt;
   const Matrix orthonormal =
@@ -74,7 +72,7 @@ bool has_slides(const Problem& problem) {
   const Matrix& G = problem.G.dense();
   for (Index k = 0; k < G.cols(); ++k) {
     if (!G.col(k)(Eigen::seqN(0, problem.pairs(), 2)).isZero(0.0)) continue;
-    if (const double mu = friction_along(problem, slips_of(G, k)); mu > 0.0 && mu <= weak) return true;
+    if (const double mu = friction_along(problem, slips_of(G, k)); mu > 0.0 && mu <= little_friction) return true;
   }
   return false;
 }

@@ -21,6 +21,10 @@
 
 namespace scabo::contact {
 
+/// The largest coefficient that counts as little. Of more, steps of F(s) overlap, and pairs that stick hold the body.
+/// Rollers and pins with less took Newton's method thousands of iterations, or it ended as not converged; with 0.3, 3.
+constexpr double little_friction = 0.1;
+
 /// a = basis b: the slides first. q, W and forces are those of the problem.
 struct SlidesApart {
   Problem problem;
