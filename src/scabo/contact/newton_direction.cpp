@@ -191,10 +191,12 @@ const Residual& NewtonDirection::with_slides_held(const Vector& p, const Residua
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i] == before[i]) continue;
     Branch& branch = held_.branches[i];
-    if (states[i].sticks)
+    if (states[i].sticks) {
       branch.tangent = Branch::Tangent::stick;
-    else
+    } else {
       branch.along = -branch.along;
+      branch.slope = std::abs(states[i].slope);
+    }
   }
   return held_;
 }

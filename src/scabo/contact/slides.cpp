@@ -17,8 +17,8 @@ constexpr double no_slip = 1e-9;  // of all slips
 
 bool may_slide(const Problem& problem) {
   return problem.dimension == 2 && problem.pairs() > 0 && problem.G.cols() > 0 && problem.W.is_dense() &&
-         problem.mu_backward.size() == 0 && problem.cohesion.size() == 0 && problem.tension.size() == 0 &&
-         !has_many_motions(problem) && problem.mu.minCoeff() <= little_friction && problem.mu.maxCoeff() > 0.0;
+         problem.cohesion.size() == 0 && problem.tension.size() == 0 && !has_many_motions(problem) &&
+         problem.mu.minCoeff() <= little_friction && (problem.mu.maxCoeff() > 0.0 || problem.mu_backward.size() > 0);
 }
 
 /// The largest coefficient of the pairs that slide by `slips` (N).
@@ -26,7 +26,7 @@ double friction_along(const Problem& problem, const Vector& slips) {
   double largest = 0.0;
   const double small = no_slip * slips.norm();
   for (Index i = 0; i < slips.size(); ++i)
-    if (std::abs(slips[i]) > small) largest = std::max(largest, problem.mu[i]);
+    if (std::abs(slips[i]) > small) largest = std::max(largest, problem.largest_mu(i));
   return largest;
 }
 
@@ -59,7 +59,7 @@ std::optional<SlidesApart> slides_apart(const Problem& problem) {
   basis.rightCols(m - count) = orthonormal.rightCols(m - count);
 
   SlidesApart apart{problem, basis};
-  if (problem.W.is_dense()) apart.problem.W = problem.W.with_holder(nullptr);  // it knows the motions as they were
+  apart.problem.W = problem.W.with_holder(nullptr);  // it knows the motions as they were
   Matrix G = problem.G.dense() * basis;
   G.leftCols(count)(Eigen::seqN(0, problem.pairs(), 2), Eigen::all).setZero();
   apart.problem.G = RigidMap(G);

@@ -97,14 +97,6 @@ bool presses_beside_another(const mesh::Mesh& mesh, const model::Model& model, c
   return false;
 }
 
-/// What the division of arcs changes of the bodies of a part, of each relative to itself.
-double lost_of_part(const Structure& structure, const model::Model& model, int body, const mesh::Mesh& mesh) {
-  double lost = 0.0;
-  for (const int of : structure.dofs.bodies_of(structure.dofs.part_of(body)))
-    lost = std::max(lost, mesh::lost_of_arcs(model, of, mesh));
-  return lost;
-}
-
 /// Takes the resultants along the motion about the common point out of the loads on a part, where they are no more than
 /// `lost` of a load.
 void balance(Structure& structure, std::size_t p, const mesh::Rays& rays, const Vec2& at, double lost) {
@@ -168,14 +160,17 @@ void let_slide(Structure& structure, const model::Model& model, mesh::Mesh& mesh
       deviation = std::max(deviation, std::abs(cross(pair.normal, normal)));
       pair.normal = normal;
     }
-    const double lost_of_a = slide.of_a ? lost_of_part(structure, model, contact.a.body, mesh) : 0.0,
-                 lost_of_b = slide.of_b ? lost_of_part(structure, model, contact.b.body, mesh) : 0.0;
-    if (*friction >= std::max({deviation, lost_of_a, lost_of_b, contact::little_friction})) continue;
+    if (*friction >= std::max(deviation, contact::little_friction)) continue;
     mesh::set_gaps(turned, contact.gap);
     const Vec2 at = turned[turned.size() / 2].point_b;
     interface.pairs = std::move(turned);
-    if (slide.of_a) balance(structure, structure.dofs.part_of(contact.a.body), *rays, at, lost_of_a);
-    if (slide.of_b) balance(structure, structure.dofs.part_of(contact.b.body), *rays, at, lost_of_b);
+    for (const auto& [body, moves] : {std::pair(contact.a.body, slide.of_a), std::pair(contact.b.body, slide.of_b)}) {
+      if (!moves) continue;
+      const std::size_t part = structure.dofs.part_of(body);
+      double lost = 0.0;
+      for (const int of : structure.dofs.bodies_of(part)) lost = std::max(lost, mesh::lost_of_arcs(model, of, mesh));
+      if (*friction < lost) balance(structure, part, *rays, at, lost);
+    }
   }
 }
 
