@@ -1,6 +1,6 @@
-// Bodies that roll or slide without friction along curved sides, and that nothing else holds: contact leaves one motion
-// free, which stays at rest, however the two sides are divided. The pressure is that of the closed form, not one that
-// keeps the body from a motion of many times its size.
+// Bodies that roll or slide along curved sides, and that nothing else holds: without friction contact leaves one motion
+// free, which stays at rest, and with little friction hardly holds it, however the two sides are divided. The pressure
+// is that of the closed form, not one that keeps the body from a motion of many times its size.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -155,6 +155,7 @@ TEST(Rolling, DiscsOnEachOtherWithLittleFriction) {
       {"kind: fem, order: 1", 0.02, 8.0, {1.0, 0.3}, false, 200.0, 1e-5},
       {"kind: fem, order: 2", 0.02, 8.0, large, false, 200.0, 1e-8},
       {"kind: fem, order: 2", 0.03, 8.0, turned, false, 200.0, 1e-14},
+      {"kind: polygons, order: 2", 0.04, 12.0, {0.1, -1.1}, false, 200.0, 1e-11},
   };
   for (const Hertz& model : models) {
     SCOPED_TRACE(fmt::format("{}, {}, {}, friction {}", model.mesh, model.size, model.radius, model.friction));
@@ -200,7 +201,8 @@ loads: {{press: {{on: upper.cut, pressure: 0.625}}}}
 
 // ---- a pin under its weight in a bore that is a thousandth wider -------------------------------------------
 
-std::string pin(const char* mesh, double size, const Drawing& draw, double dropped, const std::string& load) {
+std::string pin(const char* mesh, double size, const Drawing& draw, double dropped, const std::string& load,
+                double friction = 0.0) {
   return fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: 200, poisson: 0.3, density: 0.1}}}}
@@ -215,11 +217,11 @@ bodies:
     shape: {{circle: {{centre: {8}, radius: {9}}}}}
     mesh: {{{6}, size: {5}, refine: [{{on: rim, size: {10}, growth: 0.3}}]}}
 supports: [{{on: plate.edge_1, fix: [x, y]}}]
-contacts: {{joint: {{between: [plate.bore, pin.rim], friction: 0}}}}
+contacts: {{joint: {{between: [plate.bore, pin.rim], friction: {12}}}}}
 loads: {{{11}}}
 )",
                      draw.at(-5, -5), draw.at(5, -5), draw.at(5, 5), draw.at(-5, 5), draw.at(0, 0), draw.unit, mesh,
-                     1.1 * size * draw.unit, draw.at(0, dropped), 0.999 * draw.unit, size * draw.unit, load);
+                     1.1 * size * draw.unit, draw.at(0, dropped), 0.999 * draw.unit, size * draw.unit, load, friction);
 }
 
 // Elements of any order, also those whose weight acts beside the centre of the circle, in the middle of the bore or at
@@ -244,6 +246,34 @@ TEST(Rolling, PinInABoreThatIsALittleWider) {
                                   fmt::format("weight: {{on: pin, gravity: [{}, {}]}}", g.x(), g.y())));
     EXPECT_NEAR(largest_pressure(last(solution)), 0.2211, model.accuracy * 0.2211);
     EXPECT_TRUE(tells_of_undetermined_motion(solution));
+    EXPECT_LT(largest_displacement(last(solution)), 0.02);
+  }
+}
+
+// The same with little friction, also on concentric sides and where nodes are beside their rays by less than the
+// friction; the pin of straight elements, whose weight acts beside its centre, has the pressure that it has without
+// friction.
+TEST(Rolling, PinWithLittleFriction) {
+  struct {
+    const char* mesh;
+    double size;
+    Drawing drawing;
+    double dropped, friction;
+    double accuracy = 0.01;
+  } const models[] = {
+      {"kind: polygons, order: 1", 0.08, {1.0, 0.7}, 0.0, 1e-7},
+      {"kind: polygons, order: 3", 0.08, {1.0, 1.5}, 0.0, 1e-3},
+      {"kind: quadtree, order: 1", 0.05, {1.0, 1.5}, -0.001, 1e-9},
+      {"kind: quadtree, order: 2", 0.1, {1.0, 2.5}, 0.0, 2e-5},
+      {"kind: fem, order: 2", 0.1, {1.0, 0.0}, 0.0, 5e-4},
+      {"kind: fem, order: 1", 0.08, {1.0, 0.3}, 0.0, 1e-6, 0.06},
+  };
+  for (const auto& model : models) {
+    SCOPED_TRACE(fmt::format("{}, {}, friction {}", model.mesh, model.size, model.friction));
+    const Vec2 g = model.drawing.direction(0.0, -1.0);
+    const auto solution = run(pin(model.mesh, model.size, model.drawing, model.dropped,
+                                  fmt::format("weight: {{on: pin, gravity: [{}, {}]}}", g.x(), g.y()), model.friction));
+    EXPECT_NEAR(largest_pressure(last(solution)), 0.2211, model.accuracy * 0.2211);
     EXPECT_LT(largest_displacement(last(solution)), 0.02);
   }
 }

@@ -259,7 +259,7 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
 }
 
 Matrix neutral_motions(const Problem& problem) {
-  constexpr double no_friction = 1e-11;  // what it holds is less than the tolerance of any balance
+  constexpr double no_friction = 1e-12;  // what it holds is less than the tolerance of any balance
   const Eigen::Index N = problem.pairs(), m = problem.G.cols();
   if (N == 0 || m == 0 || has_many_motions(problem) || problem.W.is_sparse()) return Matrix(m, 0);
   std::vector<ContactState> strongest;

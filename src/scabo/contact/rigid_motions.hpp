@@ -21,7 +21,7 @@ std::optional<Vector> find_mechanism(const Problem& problem);
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
 
 /// Rigid motions (orthonormal columns, m x k) that no force of any pair resists, open or closed: of a body that slides
-/// along sides that are straight or concurrent without friction, or with a coefficient up to 1e-11. None where bodies
+/// along sides that are straight or concurrent without friction, or with a coefficient up to 1e-12. None where bodies
 /// are many.
 Matrix neutral_motions(const Problem& problem);
 
