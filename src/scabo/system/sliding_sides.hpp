@@ -13,10 +13,10 @@
 
 namespace scabo::system {
 
-/// Directs the normals of such pairs, those of elastic sides without bond, strength or so much friction that pairs stick
-/// (contact/slides.hpp) and carry what the deviations leave, along the lines through the common point and the node of
-/// the body that moves about it: exactly, but for rounding. Where both bodies may, through the point halfway between the
-/// two nodes. Sides that touch all along and share a node with another contact keep their normals.
+/// Directs the normals of such pairs, those of elastic sides without bond, strength or so much friction that pairs
+/// stick (contact/slides.hpp) and carry what the deviations leave, along the lines through the common point and the
+/// node of the body that moves about it: exactly, but for rounding. Where both bodies may, through the point halfway
+/// between the two nodes. Sides that touch all along and share a node with another contact keep their normals.
 ///
 /// Loads on a body that may turn about the common point keep no moment about it that the division of its arcs explains
 /// and friction might not carry: up to the part that the area between arcs and elements is of the body, where the
