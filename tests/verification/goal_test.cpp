@@ -346,6 +346,47 @@ contacts:
   }
 }
 
+// A block that slides all along its joint carries T = mu_b N backward and T = -mu_f N forward, whatever its shape: so
+// much of the load that presses it is in the tangential force, and nothing of what drives it.
+TEST(DualProblem, KnowsTheFrictionOfTheDirectionThatSlips) {
+  constexpr double forward = 0.2, backward = 0.5, width = 2.0, pressure = 500.0;
+  for (const double drive : {0.01, -0.01}) {
+    model::Model model = input::parse_model(fmt::format(R"(scabo: 1
+materials: {{m: {{young: 1e9, poisson: 0.3}}}}
+bodies:
+  lower: {{material: m, shape: {{rectangle: {{corner: [-1, -1], size: [4, 1]}}}}, mesh: {{size: 0.5}}}}
+  upper: {{material: m, shape: {{rectangle: {{corner: [0, 0], size: [{}, 0.5]}}}}, mesh: {{size: 0.4}}}}
+supports: [{{on: lower.bottom, fix: [x, y]}}, {{on: upper.top, displacement: [{}, null], name: drive}}]
+loads: {{press: {{on: upper.top, pressure: {}}}}}
+contacts: {{joint: {{between: [lower.top, upper.bottom], friction: {{forward: {}, backward: {}}}}}}}
+output: {{error_of: [joint.tangential_force, joint.normal_force, drive.reaction_x]}}
+)",
+                                                        width, drive, pressure, forward, backward),
+                                            "test.yaml");
+    const std::vector<model::Quantity> quantities = std::exchange(model.output.error_of, {});
+    const double normal = pressure * width, tangential = drive > 0.0 ? -forward * normal : backward * normal;
+    const double exact[] = {tangential, normal, -tangential};
+    int rates = 0;
+    analysis::Options options;
+    options.on_state = [&](const analysis::Prepared& prepared, const analysis::State& state,
+                           const analysis::StaticSolution& solution) {
+      EXPECT_EQ(contact_of(solution.increments.back()).stick, 0);
+      for (std::size_t k = 0; k < std::size(exact); ++k) {
+        const model::Quantity& quantity = quantities.at(k);
+        const auto z =
+            analysis::dual_displacements(prepared, state, analysis::derivative_of(prepared, state, solution, quantity));
+        double rate = 0.0;
+        for (std::size_t b = 0; b < z.size(); ++b)
+          if (const Vector& force = prepared.structure.loads[0][b]; force.size() > 0) rate += z[b].dot(force);
+        EXPECT_NEAR(rate, exact[k], 1e-8 * normal) << quantity.name << ", driven by " << drive;
+        ++rates;
+      }
+    };
+    ASSERT_EQ(analysis::solve_static(model, options).outcome, analysis::Outcome::solved);
+    EXPECT_EQ(rates, 3);
+  }
+}
+
 // A number that cannot be reached within the limits keeps its bar.
 TEST(ErrorBars, ToleranceThatCannotBeReachedIsReported) {
   const model::Model model = input::parse_model(

@@ -58,7 +58,7 @@ class Newton {
   bool find_direction(double first, NewtonDirection::Ties ties) {
     double alpha = eased_ * options_.regularisation * std::clamp(at_.largest() / first, 1e-8, 1.0);
     for (int attempt = 0; attempt < 4; ++attempt, alpha *= 100.0) {
-      if (direction_.find(at_, alpha, ties, d_)) return true;
+      if (direction_.find(p_, at_, alpha, ties, d_)) return true;
       if (alpha == 0.0) return false;
     }
     return false;

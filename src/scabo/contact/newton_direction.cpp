@@ -6,6 +6,7 @@
 
 #include "scabo/contact/newton_direction_workspace.hpp"
 #include "scabo/contact/pair_operator.hpp"
+#include "scabo/contact/slides.hpp"
 
 namespace scabo::contact {
 
@@ -57,10 +58,11 @@ NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
   const Problem& problem = equations.problem();
   work_->redundant =
       problem.G.cols() > many_motions && problem.pairs() > many_pairs && equations.proximal_weight() == 0.0;
+  if (has_slides(problem)) sliding_.emplace(equations);
 }
 NewtonDirection::~NewtonDirection() = default;
 
-bool NewtonDirection::find(Residual& at, double regularisation, Ties ties, Vector& d) {
+bool NewtonDirection::find(const Vector& p, Residual& at, double regularisation, Ties ties, Vector& d) {
   if (ties == Ties::free) {
     for (Branch& branch : at.branches) {
       if (branch.normal_tie) branch.contact = false;
@@ -71,18 +73,18 @@ bool NewtonDirection::find(Residual& at, double regularisation, Ties ties, Vecto
         branch.tangent = Branch::Tangent::slip;
       }
     }
-    return solve(at, regularisation, d);
+    return solve(p, at, regularisation, d);
   }
   constexpr int rounds = 8;
   for (int round = 0; round < rounds; ++round) {
-    if (!solve(at, regularisation, d)) return round > 0 ? solve(at, 1e-8, d) : false;
+    if (!solve(p, at, regularisation, d)) return round > 0 ? solve(p, at, 1e-8, d) : false;
     if (equations_.follow(at, d) == 0) return true;
   }
-  enumerate(at, regularisation, d);  // a direction of any branch is better than none
+  enumerate(p, at, regularisation, d);  // a direction of any branch is better than none
   return true;
 }
 
-bool NewtonDirection::enumerate(Residual& at, double regularisation, Vector& d) {
+bool NewtonDirection::enumerate(const Vector& p, Residual& at, double regularisation, Vector& d) {
   std::vector<std::size_t> tied;
   for (std::size_t i = 0; i < at.branches.size(); ++i)
     if (at.branches[i].tied()) tied.push_back(i);
@@ -101,7 +103,7 @@ bool NewtonDirection::enumerate(Residual& at, double regularisation, Vector& d) 
       if (branch.edge) branch.tangent = (bits & 4) == 0 ? Branch::Tangent::slip : Branch::Tangent::stick;
       if (branch.tip) branch.tangent = (bits & 4) == 0 ? Branch::Tangent::stick : Branch::Tangent::free;
     }
-    if (!solve(at, regularisation, tried)) continue;
+    if (!solve(p, at, regularisation, tried)) continue;
     Residual followed = at;
     if (equations_.follow(followed, tried) != 0) continue;
     d = tried;
@@ -173,7 +175,37 @@ void NewtonDirection::gather(const Vector& motion, Vector& rows) const {
   }
 }
 
-bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d) {
+const Residual& NewtonDirection::with_slides_held(const Vector& p, const Residual& at) {
+  staying_.clear();
+  if (!sliding_) return at;
+  std::vector<PairState> states;
+  states.reserve(at.branches.size());
+  for (const Branch& branch : at.branches) {
+    const bool slips = branch.tangent == Branch::Tangent::slip;
+    states.push_back(
+        {branch.contact, branch.tangent == Branch::Tangent::stick, slips ? branch.slope * branch.along[0] : 0.0});
+  }
+  const std::vector<PairState> before = states;
+  held_ = at;
+  staying_ = sliding_->hold(p, at, states, held_.H);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i] == before[i]) continue;
+    Branch& branch = held_.branches[i];
+    if (states[i].sticks) {
+      branch.tangent = Branch::Tangent::stick;
+    } else {
+      branch.along = -branch.along;
+      branch.slope = std::abs(states[i].slope);
+    }
+  }
+  return held_;
+}
+
+bool NewtonDirection::solve(const Vector& p, const Residual& at, double regularisation, Vector& d) {
+  return solve_on_branches(with_slides_held(p, at), regularisation, d);
+}
+
+bool NewtonDirection::solve_on_branches(const Residual& at, double regularisation, Vector& d) {
   const Problem& problem = equations_.problem();
   lay_out(at);
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
@@ -202,6 +234,8 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
              solve_sparse(regularisation);
   else if (holding_pays(problem, size + m) && solve_by_holding(regularisation))
     solved = true;
+  else if (!staying_.empty() && size + m <= most_of_dense)
+    solved = solve_dense(regularisation);
   else if (problem.W.is_dense() && !work_->line_fails && size + m > least_of_line && solve_along_joints(regularisation))
     solved = true;
   else if (problem.W.is_dense() && !work_->single_fails && size + m > least_of_single && size + m <= most_of_single &&

@@ -27,10 +27,12 @@
 #include <Eigen/LU>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/gmres.hpp"
+#include "scabo/contact/sliding_bodies.hpp"
 
 namespace scabo::contact {
 
@@ -49,8 +51,9 @@ class NewtonDirection {
   /// of d itself, up to eight systems and more.
   enum class Ties { free, as_d_takes_them };
 
-  /// d = [dp; da] for the branches of `at`, which at ties may be changed to those of d. False where there is none.
-  bool find(Residual& at, double regularisation, Ties ties, Vector& d);
+  /// d = [dp; da] for the branches of `at`, the residual at the forces p; at ties they may be changed to those of d.
+  /// False where there is none.
+  bool find(const Vector& p, Residual& at, double regularisation, Ties ties, Vector& d);
 
  private:
   struct Unknown {
@@ -59,8 +62,11 @@ class NewtonDirection {
     double scale = 0.0;           // of the row: r, r lambda
     double own = 0.0;             // 1 - lambda
   };
-  bool solve(const Residual& at, double regularisation, Vector& d);
-  bool enumerate(Residual& at, double regularisation, Vector& d);
+  bool solve(const Vector& p, const Residual& at, double regularisation, Vector& d);
+  /// The branches and H of `at` with those pairs held that hold bodies which all their pairs let slide.
+  const Residual& with_slides_held(const Vector& p, const Residual& at);
+  bool solve_on_branches(const Residual& at, double regularisation, Vector& d);
+  bool enumerate(const Vector& p, Residual& at, double regularisation, Vector& d);
   void lay_out(const Residual& at);
   bool solve_dense(double regularisation);
   bool solve_along_joints(double regularisation);
@@ -94,7 +100,10 @@ class NewtonDirection {
   Vector known_, moved_, right_, y_;
   struct Workspace;
   std::unique_ptr<Workspace> work_;
-  std::vector<bool> immovable_;  // dN, or empty
+  std::vector<bool> immovable_;           // dN, or empty
+  std::optional<SlidingBodies> sliding_;  // of a problem with slides (slides.hpp)
+  Residual held_;
+  std::vector<int> staying_;  // motions that are to stay as they are
 };
 
 }  // namespace scabo::contact

@@ -49,6 +49,11 @@ bool NewtonDirection::solve_dense(double regularisation) {
     }
   }
   if (m > 0) A.block(size, size, m, m).setZero();
+  for (const int motion : staying_) {
+    A.row(size + motion).head(n).setZero();
+    A(size + motion, size + motion) = 1.0;
+    right_[size + motion] = 0.0;
+  }
   if (n == 0) return true;
   const auto right = right_.head(n);
   auto y = y_.head(n);

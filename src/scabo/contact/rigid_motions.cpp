@@ -259,12 +259,14 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
 }
 
 Matrix neutral_motions(const Problem& problem) {
+  constexpr double no_friction = 1e-12;  // what it holds is less than the tolerance of any balance
   const Eigen::Index N = problem.pairs(), m = problem.G.cols();
   if (N == 0 || m == 0 || has_many_motions(problem) || problem.W.is_sparse()) return Matrix(m, 0);
   std::vector<ContactState> strongest;
   bool slides = false;
   for (Eigen::Index i = 0; i < N; ++i) {
-    const bool resists = problem.largest_mu(i) > 0.0 || problem.cohesion_of(i) > 0.0 || problem.tension_of(i) > 0.0;
+    const bool resists =
+        problem.largest_mu(i) > no_friction || problem.cohesion_of(i) > 0.0 || problem.tension_of(i) > 0.0;
     strongest.push_back(resists ? ContactState::stick : ContactState::slip);
     slides = slides || !resists;
   }

@@ -21,7 +21,8 @@ std::optional<Vector> find_mechanism(const Problem& problem);
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
 
 /// Rigid motions (orthonormal columns, m x k) that no force of any pair resists, open or closed: of a body that slides
-/// without friction along sides that are straight or concurrent. None where bodies are many.
+/// along sides that are straight or concurrent without friction, or with a coefficient up to 1e-12. None where bodies
+/// are many.
 Matrix neutral_motions(const Problem& problem);
 
 /// The problem without the rigid motions `neutral`, which stay as they are: a = kept b + neutral neutral' a_0. `kept`

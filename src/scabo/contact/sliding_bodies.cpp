@@ -24,6 +24,12 @@ bool slips(const std::vector<PairState>& states, Index row) {
   return row % 2 == 1 && state.presses && !state.sticks && state.slope != 0.0;
 }
 
+/// The slope of a pair that slips the other way.
+double other_way(const Problem& problem, std::size_t pair, double slope) {
+  const double side = slope > 0.0 ? -1.0 : 1.0;
+  return side * problem.mu_against(static_cast<Index>(pair), side);
+}
+
 }  // namespace
 
 SlidingBodies::SlidingBodies(const BDifferentiableEquations& equations)
@@ -144,11 +150,13 @@ std::vector<int> SlidingBodies::hold(const Vector& p, const Residual& at, std::v
         asked = asked || asks_for_motion(states, entry.row);
         if (!slips(states, entry.row)) continue;
         const auto pair = static_cast<std::size_t>(entry.row / 2);
-        const double slope = states[pair].slope, p_n = std::max(p[entry.row - 1], 0.0), bound = std::abs(slope) * p_n;
+        const double slope = states[pair].slope, turned = other_way(equations_.problem(), pair, slope),
+                     p_n = std::max(p[entry.row - 1], 0.0), bound = std::abs(slope) * p_n;
         const double trial = p[entry.row] - r[entry.row] * at.motion[entry.row];
         const double slip = std::copysign(std::max(std::abs(trial) - bound, 0.0) / r[entry.row], -slope);
         force += entry.value * slope * p_n;
-        turns.push_back({-slip / entry.value, 2.0 * std::abs(entry.value) * bound, pair});
+        const double fall = (std::abs(slope) + std::abs(turned)) * p_n;
+        turns.push_back({-slip / entry.value, std::abs(entry.value) * fall, pair});
       }
       if (asked || turns.empty()) break;
       if (std::abs(force) <= indifferent * at.largest()) {
@@ -164,7 +172,7 @@ std::vector<int> SlidingBodies::hold(const Vector& p, const Residual& at, std::v
         const Index row = 2 * static_cast<Index>(turn.pair) + 1;
         PairState& state = states[turn.pair];
         if (left > 0.0) {
-          state.slope = -state.slope;
+          state.slope = other_way(equations_.problem(), turn.pair, state.slope);
           H[row] = p[row] - state.slope * p[row - 1];
           continue;
         }

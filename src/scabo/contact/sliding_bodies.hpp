@@ -10,10 +10,12 @@
 //
 //     F(s) = f + sum over its slipping pairs of G_t p_t(s),   p_t = -mu p_n sign(u_t + G_t s)
 //
-// and F falls by 2 |G_t| mu p_n wherever a pair's slip turns: the pair at which F changes its sign sticks, those passed
-// before slip the other way. If that pair leads to a body that slides as well, both are one body, and another pair
-// holds the two. Where F(0) = 0 already (a block in the line of symmetry of a wall) any s is a solution, and the
-// motion stays as it is.
+// and F falls by 2 |G_t| mu p_n, where mu differs by direction by |G_t| (mu_f + mu_b) p_n, wherever a pair's slip
+// turns: the pair at which F changes its sign sticks, those passed before slip the other way. If that pair leads to a
+// body that slides as well, both are one body, and another pair holds the two. Where F(0) = 0 already (a block in the
+// line of symmetry of a wall) any s is a solution, and the motion stays as it is.
+//
+// The same holds of one roller with little friction (slides.hpp).
 #pragma once
 
 #include <Eigen/SparseCore>

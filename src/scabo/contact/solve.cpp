@@ -1,5 +1,6 @@
 #include "scabo/contact/solve.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/slides.hpp"
 #include "scabo/contact/starts/sweeps.hpp"
 
 namespace scabo::contact {
@@ -187,33 +189,15 @@ Solution climbed_solution(const Problem& problem, const Measure& measure, const 
 
 namespace {
 
-/// Loads that drive a neutral motion by less than this part of them are in balance along it.
-constexpr double balanced = 1e-10;
-
-/// Newton's equations are singular along motions that no pair resists, or worse, determined by the last digits of the
-/// normals alone, which then decide about the forces: the body would move by 1e10 times its deformation to satisfy
-/// them. These motions stay as they were.
-std::optional<Solution> solved_without_neutral(const Problem& problem, const Start& start,
-                                               const SolverOptions& options) {
-  if (!problem.W.is_dense()) return std::nullopt;
-  const Matrix neutral = neutral_motions(problem);
-  if (neutral.cols() == 0) return std::nullopt;
-  const Vector driven = neutral.transpose() * problem.f;
-  if (driven.norm() > balanced * std::max(problem.f.norm(), options.force_scale)) return std::nullopt;
-  const WithoutNeutral left = without_neutral(problem, neutral);
-  const Eigen::Index m = problem.G.cols();
-  const Vector a_start = start.a.size() == m ? start.a : Vector(Vector::Zero(m));
-  Start start_left = start;
-  start_left.a = left.kept.transpose() * a_start;
-  Solution solution = solve(left.problem, start_left, options);
-  solution.a = left.kept * solution.a + neutral * (neutral.transpose() * a_start);
-  if (solution.motion.size() > 0) solution.motion = left.kept * solution.motion;
+/// The solution of another form of the problem, whose forces and motions are those of this one.
+Solution judged_as_a_whole(Solution solution, const Problem& problem, const Start& start,
+                           const SolverOptions& options) {
   const std::string reason = solution.reason;
   Vector p_start = start.p;
   if (p_start.size() != problem.q.size()) p_start.setZero(problem.q.size());
   const Measure measure(problem, p_start, options.force_scale);
   const Status status = solution.status;
-  if (status == Status::solved) solution.status = Status::not_converged;  // until it is judged as a whole
+  if (status == Status::solved) solution.status = Status::not_converged;  // until it is judged
   complete(solution, problem, motion_of(problem, solution.p, solution.a), measure, options, false);
   if (status != Status::solved) {
     solution.status = status;
@@ -222,11 +206,7 @@ std::optional<Solution> solved_without_neutral(const Problem& problem, const Sta
   return solution;
 }
 
-}  // namespace
-
-[[gnu::hot]] Solution solve(const Problem& problem, const Start& start, const SolverOptions& options) {
-  check_sizes(problem);
-  if (std::optional<Solution> solution = solved_without_neutral(problem, start, options)) return *std::move(solution);
+[[gnu::hot]] Solution solved_as_it_is(const Problem& problem, const Start& start, const SolverOptions& options) {
   Vector p_start = start.p;
   if (p_start.size() != problem.q.size()) p_start.setZero(problem.q.size());
   const Measure measure(problem, p_start, options.force_scale);
@@ -257,6 +237,52 @@ std::optional<Solution> solved_without_neutral(const Problem& problem, const Sta
     return climbed;
   }
   return climbed_solution(problem, measure, p_start, start, options);
+}
+
+/// Loads that drive a neutral motion by less than this part of them are in balance along it.
+constexpr double balanced = 1e-10;
+
+/// Newton's equations are singular along motions that no pair resists, or worse, determined by the last digits of the
+/// normals alone, which then decide about the forces: the body would move by 1e10 times its deformation to satisfy
+/// them. These motions stay as they were.
+std::optional<Solution> solved_without_neutral(const Problem& problem, const Start& start,
+                                               const SolverOptions& options) {
+  if (!problem.W.is_dense()) return std::nullopt;
+  const Matrix neutral = neutral_motions(problem);
+  if (neutral.cols() == 0) return std::nullopt;
+  const Vector driven = neutral.transpose() * problem.f;
+  if (driven.norm() > balanced * std::max(problem.f.norm(), options.force_scale)) return std::nullopt;
+  const WithoutNeutral left = without_neutral(problem, neutral);
+  const Eigen::Index m = problem.G.cols();
+  const Vector a_start = start.a.size() == m ? start.a : Vector(Vector::Zero(m));
+  Start start_left = start;
+  start_left.a = left.kept.transpose() * a_start;
+  Solution solution = solve(left.problem, start_left, options);
+  solution.a = left.kept * solution.a + neutral * (neutral.transpose() * a_start);
+  if (solution.motion.size() > 0) solution.motion = left.kept * solution.motion;
+  return judged_as_a_whole(std::move(solution), problem, start, options);
+}
+
+/// Motions that weak friction alone resists, as motions of their own (slides.hpp).
+std::optional<Solution> solved_with_slides_apart(const Problem& problem, const Start& start,
+                                                 const SolverOptions& options) {
+  const std::optional<SlidesApart> apart = slides_apart(problem);
+  if (!apart) return std::nullopt;
+  Start start_apart = start;
+  if (start.a.size() == problem.G.cols()) start_apart.a = apart->basis.partialPivLu().solve(start.a);
+  Solution solution = solved_as_it_is(apart->problem, start_apart, options);
+  solution.a = apart->basis * solution.a;
+  if (solution.motion.size() > 0) solution.motion = (apart->basis * solution.motion).normalized();
+  return judged_as_a_whole(std::move(solution), problem, start, options);
+}
+
+}  // namespace
+
+[[gnu::hot]] Solution solve(const Problem& problem, const Start& start, const SolverOptions& options) {
+  check_sizes(problem);
+  if (std::optional<Solution> solution = solved_without_neutral(problem, start, options)) return *std::move(solution);
+  if (std::optional<Solution> solution = solved_with_slides_apart(problem, start, options)) return *std::move(solution);
+  return solved_as_it_is(problem, start, options);
 }
 
 std::optional<Solution> with_forces(const Solution& solution, Vector p, const Problem& problem, const Start& start,

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "scabo/contact/slides.hpp"
 #include "scabo/mesh/concurrent_rays.hpp"
 #include "scabo/mesh/interface.hpp"
 
@@ -159,7 +160,7 @@ void let_slide(Structure& structure, const model::Model& model, mesh::Mesh& mesh
       deviation = std::max(deviation, std::abs(cross(pair.normal, normal)));
       pair.normal = normal;
     }
-    if (*friction > 0.0 && *friction >= deviation) continue;
+    if (*friction >= std::max(deviation, contact::little_friction)) continue;
     mesh::set_gaps(turned, contact.gap);
     const Vec2 at = turned[turned.size() / 2].point_b;
     interface.pairs = std::move(turned);
@@ -168,7 +169,7 @@ void let_slide(Structure& structure, const model::Model& model, mesh::Mesh& mesh
       const std::size_t part = structure.dofs.part_of(body);
       double lost = 0.0;
       for (const int of : structure.dofs.bodies_of(part)) lost = std::max(lost, mesh::lost_of_arcs(model, of, mesh));
-      balance(structure, part, *rays, at, lost);
+      if (*friction < lost) balance(structure, part, *rays, at, lost);
     }
   }
 }

@@ -13,14 +13,15 @@
 
 namespace scabo::system {
 
-/// Directs the normals of such pairs, those of elastic sides without bond, strength or so much friction that it exceeds
-/// the deviations, along the lines through the common point and the node of the body that moves about it: exactly, but
-/// for rounding. Where both bodies may, through the point halfway between the two nodes. Sides that touch all along and
-/// share a node with another contact keep their normals.
+/// Directs the normals of such pairs, those of elastic sides without bond, strength or so much friction that pairs
+/// stick (contact/slides.hpp) and carry what the deviations leave, along the lines through the common point and the
+/// node of the body that moves about it: exactly, but for rounding. Where both bodies may, through the point halfway
+/// between the two nodes. Sides that touch all along and share a node with another contact keep their normals.
 ///
-/// Loads on a body that may turn about the common point keep no moment about it that the division of its arcs explains:
-/// up to the part that the area between arcs and elements is of the body. The weight of a disc of straight elements
-/// acts through their centroid, which is beside its centre, and nothing could balance that.
+/// Loads on a body that may turn about the common point keep no moment about it that the division of its arcs explains
+/// and friction might not carry: up to the part that the area between arcs and elements is of the body, where the
+/// coefficient is less than that part. The weight of a disc of straight elements acts through their centroid, which is
+/// beside its centre, and nothing could balance that.
 void let_slide(Structure& structure, const model::Model& model, mesh::Mesh& mesh);
 
 /// Adds to the forces on a part, on those that are not zero, what changes their resultants along the columns of `rigid`

@@ -205,11 +205,12 @@ TEST_P(BDifferentiable, DirectionSolvesTheLinearisedEquations) {
     const Kinked at = kinked(random, GetParam(), k % 2 == 0);
     const double factor = std::pow(10.0, uniform(random, -1, 1));
     const BDifferentiableEquations equations(at.problem, factor);
-    const Residual here = equations.residual(at.z.head(at.problem.q.size()), at.z.tail(at.problem.G.cols()));
+    const Vector p = at.z.head(at.problem.q.size());
+    const Residual here = equations.residual(p, at.z.tail(at.problem.G.cols()));
     const bool ties = std::any_of(here.branches.begin(), here.branches.end(), [](const Branch& b) { return b.tied(); });
     Residual followed = here;
     Vector d;
-    if (!NewtonDirection(equations).find(followed, 0.0, NewtonDirection::Ties::as_d_takes_them, d)) {
+    if (!NewtonDirection(equations).find(p, followed, 0.0, NewtonDirection::Ties::as_d_takes_them, d)) {
       EXPECT_GT(at.problem.G.cols(), 0) << "only rigid motions can leave a branch without a direction";
       continue;
     }

@@ -112,9 +112,10 @@ TEST_P(InteriorPointsOnTowers, NewtonFollowsThemInUnitsThatArePowersOfTwoWithout
     const Problem other = scaled(given).problem;
     const BDifferentiableEquations equations(other, 1.0);
     NewtonDirection direction(equations);
-    Residual at = equations.residual(std::ldexp(1.0, of_q - of_W) * sweeps.p(), Vector());
+    const Vector p = std::ldexp(1.0, of_q - of_W) * sweeps.p();
+    Residual at = equations.residual(p, Vector());
     Vector found;
-    EXPECT_TRUE(direction.find(at, 1e-6, NewtonDirection::Ties::free, found));
+    EXPECT_TRUE(direction.find(p, at, 1e-6, NewtonDirection::Ties::free, found));
     return found;
   };
   const Vector direction = direction_of(0, 0);

@@ -128,7 +128,7 @@ std::optional<ColdStart> sampled_start(const Problem& problem, const Vector& a) 
   for (Eigen::Index i = 0; i < problem.pairs(); ++i)
     impose(equations, start.p, i, few.branches[static_cast<std::size_t>(sampled->nearest(i))], at);
   Vector d;
-  if (NewtonDirection(equations).find(at, 0.0, NewtonDirection::Ties::as_d_takes_them, d)) {
+  if (NewtonDirection(equations).find(start.p, at, 0.0, NewtonDirection::Ties::as_d_takes_them, d)) {
     start.p += d.head(start.p.size());
     start.a += d.tail(start.a.size());
   }

@@ -55,7 +55,7 @@ std::optional<KeptStates> keep_states(const BDifferentiableEquations& equations,
   if (few * changes <= problem.pairs()) return std::nullopt;
   Vector d;
   NewtonDirection direction(equations);
-  if (!direction.find(at, 0.0, NewtonDirection::Ties::free, d)) return std::nullopt;
+  if (!direction.find(p, at, 0.0, NewtonDirection::Ties::free, d)) return std::nullopt;
   return KeptStates{p + d.head(p.size()), a + d.tail(a.size())};
 }
 
