@@ -57,8 +57,8 @@ struct CostConstants {
   double contact_bytes = 50.0;              ///< for k^2 of each body: W and matrices of Newton's method
   double contact_seconds = 6.5e-8;          ///< for (2N)^2 and one increment
   double wall_seconds = 1e-6;               ///< for 2N k of many bodies and one iteration, k of an average body
-  double wall_first_iterations = 8.0;       ///< of the first increment, from bonded pairs: 2 to 14
-  double wall_iterations = 10.0;            ///< of each one after it: 4 under small loads, 60 near the collapse load
+  double wall_first_iterations = 8.0;       ///< of the first increment: 4 to 19
+  double wall_iterations = 6.0;             ///< of each one after it: 4 under small loads, 35 near the collapse load
   double wall_bytes = 300.0;                ///< for 2N k of many bodies: their saddle matrix and its factor
   double joined_iterations = 15.0;          ///< of Newton, each with twice the time of a factorisation
   double field_seconds = 1.8e-6;            ///< for n and one increment with fields
