@@ -16,6 +16,7 @@ Instead of the push, every block may be accelerated along the wall ("shaken"), a
     the first course slides     a = mu         it turns about its toe      a = B / H
 """
 import functools
+import sys
 
 DENSITY, GRAVITY = 2000.0, 9.81
 
@@ -81,9 +82,12 @@ def limit_load(columns, courses, friction, shaken=False):
     """Largest push (Pa), or acceleration (g), for which forces within the friction cones balance every block: the static theorem of limit analysis
     as a linear programme (Livesley, Int. J. Numer. Methods Eng. 12 (1978) 1853). Above it nothing can stand; below it a wall
     whose joints slide without opening may still fall. Every joint carries forces at its two ends. Needs SciPy."""
-    import numpy
-    import scipy.optimize
-    import scipy.sparse
+    try:
+        import numpy
+        import scipy.optimize
+        import scipy.sparse
+    except ImportError as error:
+        sys.exit(f"{error}: limit loads need NumPy and SciPy (Debian: python3-scipy, for /usr/bin/python3)")
 
     height = height_of(columns)
     spans = courses_of(columns, courses, height)
