@@ -208,7 +208,7 @@ class Places(support.InTemporaryDirectory):
         (self.directory / "loop").symlink_to("loop")
         (self.directory / "nowhere").symlink_to("gone")
         (self.directory / "file").write_text("mine")
-        for place, status, text in (("", WRONG_INPUT, "--output: the name of the directory is empty"),
+        for place, status, text in (("", WRONG_INPUT, "--output: is empty: give a value"),
                                     ("loop", FAILURE, "form a loop"), ("loop/out", FAILURE, "form a loop"),
                                     ("nowhere", FAILURE, "a directory that does not exist"),
                                     ("n" * 300, FAILURE, "name is too long"), ("a/" * 3000, FAILURE, "name is too long"),
