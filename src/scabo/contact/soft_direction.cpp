@@ -23,6 +23,9 @@ constexpr double firm = 1.0;
 constexpr int most_products = 30, most_changed = 100;
 constexpr GmresOptions by_old_factor{1e-8, most_products, most_products};
 constexpr double exact_enough = 1e-6;
+/// The softness for |H| up to which a step with an earlier factor does without: most states are right, and of the last
+/// digits only the softness is left (towers of fine blocks: |H| fell by 3 % a step from 1e-8 on).
+constexpr double settled = 1e-3;
 
 }  // namespace
 
@@ -158,27 +161,35 @@ void SoftDirection::solve(const Vector& right, Vector& x) {
   x.tail(m) = y_.tail(m);
 }
 
+/// By the factor of an earlier step.
+bool SoftDirection::reuse_factor(const std::vector<State>& states, const Vector& right, Vector& d) {
+  d.setZero(right.size());
+  const double remains = gmres([&](const Vector& x, Vector& image) { apply(states, x, image); },
+                               [&](const Vector& b, Vector& x) { solve(b, x); }, right, d, by_old_factor);
+  reused_ = remains <= exact_enough && d.allFinite();
+  return reused_;
+}
+
 bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
   std::vector<State> states = states_of(at);
   Vector right = at.H;
   const double largest = std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
   const double left = of_residual * at.largest() / largest;
-  raise_ = std::clamp(left, least_raise, most_raise);
-  hold_ = std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_;
-  for (const int motion : sliding_.hold(p, at, states, right)) hold_[motion] = firm * size_[motion];
+  Vector staying = Vector::Zero(size_.size());
+  for (const int motion : sliding_.hold(p, at, states, right)) staying[motion] = firm * size_[motion];
   right = -right;
   reused_ = false;
-  if (!held_.empty()) {
-    int changed = 0;
-    for (std::size_t i = 0; i < states.size(); ++i) changed += !(states[i] == held_[i]);
-    if (changed <= most_changed) {
-      d.setZero(right.size());
-      const double remains = gmres([&](const Vector& x, Vector& image) { apply(states, x, image); },
-                                   [&](const Vector& b, Vector& x) { solve(b, x); }, right, d, by_old_factor);
-      reused_ = remains <= exact_enough && d.allFinite();
-      if (reused_) return true;
-    }
+  int changed = 0;
+  for (std::size_t i = 0; i < held_.size(); ++i) changed += !(states[i] == held_[i]);
+  const bool may_reuse = !held_.empty() && changed <= most_changed;
+  if (may_reuse && left <= settled) {
+    raise_ = 0.0;
+    hold_ = staying;
+    if (reuse_factor(states, right, d)) return true;
   }
+  raise_ = std::clamp(left, least_raise, most_raise);
+  hold_ = (std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_).cwiseMax(staying);
+  if (may_reuse && reuse_factor(states, right, d)) return true;
   held_ = std::move(states);
   if (!factorise()) {
     held_.clear();

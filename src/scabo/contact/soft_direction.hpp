@@ -52,6 +52,7 @@ class SoftDirection {
   };
   static std::vector<State> states_of(const Residual& at);
   bool asks_for_motion(const std::vector<State>& states, Eigen::Index row) const;
+  bool reuse_factor(const std::vector<State>& states, const Vector& right, Vector& d);
   void apply(const std::vector<State>& states, const Vector& x, Vector& image);
   bool factorise();
   void solve(const Vector& right, Vector& x);
