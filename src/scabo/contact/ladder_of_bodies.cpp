@@ -45,7 +45,8 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   constexpr double most_beyond = 0.045;
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
   const bool small = problem_.pairs() <= most_of_paths_first;
-  if (!small && may_soften(problem_) && beyond_cones(problem_, start.p) > most_beyond) return nothing();
+  const bool inner = !small && may_soften(problem_) && may_take_interior_points(problem_);
+  if (inner && beyond_cones(problem_, start.p) > most_beyond) return nothing();
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};
   if (may_follow_path(problem_)) how.first_fall = 0.15;
