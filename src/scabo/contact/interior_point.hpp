@@ -49,7 +49,10 @@ struct InteriorPointEnd {
   std::vector<Iteration> trace;  ///< its residual, its step length; merit is m / 2
 };
 
-/// Coulomb's law alone with mu > 0; W sparse, or dense with at most 1,000 rows.
+/// W sparse, or dense with at most 1,000 rows, and loads: what interior points of either kind need.
+bool may_factorise_with_pairs(const Problem& problem);
+
+/// The same, with Coulomb's law alone and mu > 0.
 bool may_take_interior_points(const Problem& problem);
 
 /// `content`, which may be empty, judges forces and motions after each step. All pairs start with the same normal

@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "scabo/contact/judge.hpp"
+#include "scabo/contact/interior_point.hpp"
+#include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/soft_newton.hpp"
@@ -82,7 +84,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   // Products of interior points from the last increment, over those from bonded forces.
   constexpr double near_by = 0.025;
   const int most = paths ? std::min(few, options_.iterations) : 0;
-  const bool inner = many && may_take_interior_points(problem_);
+  const bool inner = many && may_take_plane_interior_points(problem_);
   if (!cold && !many && problem_.G.cols() > 0 && better(on_kept_states(p, a))) return best;
   if (!cold && inner && !paths_first) {
     constexpr int most_of_soft = 14, slowly = 5;
@@ -109,7 +111,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (collapse()) return best;
   }
   if (inner) {
-    if (better(inside({1.0, 10.0, 1000.0}))) return best;
+    if (may_take_interior_points(problem_) && better(inside({1.0, 10.0, 1000.0}))) return best;
     // Of more bodies nothing that follows was ever seen to succeed, and it takes minutes.
     if (has_many_motions(problem_)) return best;
   }

@@ -25,12 +25,13 @@ bool tells_of_a_fall(const PathEnd& end) {
   return end.how != PathEnd::How::broken && end.left > rounding;
 }
 
-/// Tension and friction beyond their bounds, as a part of all normal forces.
+/// Tension and friction beyond what the pairs bear, as a part of all normal forces.
 double beyond_cones(const Problem& problem, const Vector& p) {
   double beyond = 0.0, all = 0.0;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    const double normal = p[2 * i], bound = problem.mu[i] * std::max(normal, 0.0);
-    beyond += std::max(-normal, 0.0) + std::max(std::abs(p[2 * i + 1]) - bound, 0.0);
+    const double normal = p[2 * i], tangential = p[2 * i + 1];
+    beyond += std::max(-normal - problem.tension_of(i), 0.0) +
+              std::max(std::abs(tangential) - problem.friction_bound(i, normal, tangential), 0.0);
     all += std::abs(normal);
   }
   return all > 0.0 ? beyond / all : 0.0;
@@ -45,7 +46,7 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   constexpr double most_beyond = 0.045;
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
   const bool small = problem_.pairs() <= most_of_paths_first;
-  const bool inner = !small && may_soften(problem_) && may_take_interior_points(problem_);
+  const bool inner = !small && may_soften(problem_) && may_take_plane_interior_points(problem_);
   if (inner && beyond_cones(problem_, start.p) > most_beyond) return nothing();
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};

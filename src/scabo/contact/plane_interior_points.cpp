@@ -22,6 +22,11 @@ using Array = Eigen::ArrayXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double usual = 12.0;  // products of the start over the square of the mean friction bound
+/// Of the largest coefficient. Pairs with less friction, or none, get so much; Newton's method follows with what they
+/// have.
+constexpr double least_friction = 1e-6;
+/// Of the largest force of the start: strengths above, also those without limit, count as so much.
+constexpr double largest_strength = 1e3;
 constexpr int most_steps = 80;
 constexpr int patience = 6;                              // steps without a gain in H or in the products
 constexpr double gain = 0.9;                             // of the least so far
@@ -69,16 +74,13 @@ class PlaneInteriorPoints::Implementation {
       : problem_(problem),
         equations_(problem, 1.0),
         N_(problem.pairs()),
-        m_(problem.G.cols()),
-        mu_(problem.mu.array()) {
+        m_(problem.G.cols()) {
     lay_out();
     a_ = a.cwiseQuotient(length_);
     p_n_.resize(N_), p_t_.resize(N_), u_n_.resize(N_), forward_.resize(N_), backward_.resize(N_);
     normal_.resize(N_), plus_.resize(N_), minus_.resize(N_);
-    double mean = 0.0;
-    for (Index i = 0; i < N_; ++i) mean += std::abs(p[2 * i]) / static_cast<double>(N_);
-    const double friction = mu_.mean();
-    divide(p, a, usual * start * friction * friction * std::max(mean * mean, 1e-300));
+    const double bound = take_strengths(p);
+    divide(p, a, usual * start * std::max(bound * bound, 1e-300));
   }
 
   InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline) {
@@ -93,6 +95,8 @@ class PlaneInteriorPoints::Implementation {
       const double mean = std::sqrt(at.merit() / static_cast<double>(N_));  // the merit is half of the sum
       const double residual = mean / std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
       if (!std::isfinite(residual)) break;
+      evaluate(at.motion);
+      rounding_ = middle_;
       evaluate(at.motion);
       ++since;
       if (middle_ <= gain * least_middle_ || residual <= gain * least_residual_) since = 0;
@@ -117,17 +121,38 @@ class PlaneInteriorPoints::Implementation {
   }
 
  private:
+  /// Coefficients, and strengths that the forces `p` suggest where they are none or all too large. Returns the mean
+  /// friction bound.
+  double take_strengths(const Vector& p) {
+    const auto normal = [&](Index i) { return std::abs(p[2 * i]); };
+    double mean = 0.0, bound = 0.0;
+    for (Index i = 0; i < N_; ++i) mean += normal(i) / static_cast<double>(N_);
+    const double most = largest_strength * p.lpNorm<Eigen::Infinity>();
+    const double least = least_friction * std::max(problem_.mu.maxCoeff(), least_friction);
+    mu_.resize(N_), mu_backward_.resize(N_), cohesion_.resize(N_), tension_.resize(N_);
+    for (Index i = 0; i < N_; ++i) {
+      cohesion_[i] = std::min(problem_.cohesion_of(i), most);
+      tension_[i] = std::min(problem_.tension_of(i), most);
+      mu_[i] = std::max(problem_.mu_against(i, -1.0), least);
+      mu_backward_[i] = std::max(problem_.mu_against(i, 1.0), least);
+      bound += (0.5 * (mu_[i] + mu_backward_[i]) * mean + std::min(cohesion_[i], mean)) / static_cast<double>(N_);
+    }
+    return bound;
+  }
+
   /// Factors from forces and motions, all products `middle`.
   void divide(const Vector& p, const Vector& a, double middle) {
     const Residual at = equations_.residual(p, a);
     for (Index i = 0; i < N_; ++i) {
       const double r_n = equations_.r()[2 * i], r_t = equations_.r()[2 * i + 1];
-      const auto [p_n, gap] = divided(p[2 * i] - r_n * at.motion[2 * i], r_n * middle);
-      p_n_[i] = p_n, u_n_[i] = gap / r_n;
-      const auto [s_plus, s_minus] =
-          divided_bound(p[2 * i + 1] - r_t * at.motion[2 * i + 1], mu_[i] * p_n, r_t * middle);
-      p_t_[i] = 0.5 * (s_plus - s_minus);
-      normal_[i] = p_n, plus_[i] = s_plus, minus_[i] = s_minus;
+      const auto [normal, gap] = divided(p[2 * i] + tension_[i] - r_n * at.motion[2 * i], r_n * middle);
+      p_n_[i] = normal - tension_[i], u_n_[i] = gap / r_n;
+      const double pressure = pressure_of(i, middle).first, forth = cohesion_[i] + mu_[i] * pressure,
+                   back = cohesion_[i] + mu_backward_[i] * pressure;
+      p_t_[i] = divided_bound(p[2 * i + 1] - r_t * at.motion[2 * i + 1], forth, back, r_t * middle);
+      const double s_least = 1e-12 * std::max(forth, back);
+      const double s_plus = std::max(forth + p_t_[i], s_least), s_minus = std::max(back - p_t_[i], s_least);
+      normal_[i] = normal, plus_[i] = s_plus, minus_[i] = s_minus;
       forward_[i] = middle / s_plus, backward_[i] = middle / s_minus;
     }
     since_divided_ = 0;
@@ -149,16 +174,24 @@ class PlaneInteriorPoints::Implementation {
     return difference > 0.0 ? std::pair(larger, m / larger) : std::pair(m / larger, larger);
   }
 
-  /// s+ and s- of a tangential force p_t = (s+ - s-) / 2 within `bound` = (s+ + s-) / 2 and slip v+ - v- with p_t - (v+
-  /// - v-) = `difference`: what of a force is beyond the bound is slip. By bisection; it grows with p_t.
-  static std::pair<double, double> divided_bound(double difference, double bound, double m) {
-    double low = -bound, high = bound;
+  /// A tangential force between -`forth` and `back` with slip v+ - v- such that p_t - (v+ - v-) = `difference`: what of
+  /// a force is beyond its bounds is slip. By bisection; it grows with p_t.
+  static double divided_bound(double difference, double forth, double back, double m) {
+    double low = -forth, high = back;
     for (int k = 0; k < 50; ++k) {
       const double p_t = 0.5 * (low + high);
-      (p_t - m / (bound + p_t) + m / (bound - p_t) < difference ? low : high) = p_t;
+      (p_t - m / (forth + p_t) + m / (back - p_t) < difference ? low : high) = p_t;
     }
-    const double p_t = 0.5 * (low + high), least = 1e-12 * bound;
-    return {std::max(bound + p_t, least), std::max(bound - p_t, least)};
+    return 0.5 * (low + high);
+  }
+
+  /// What of p_n presses, (p_n)+, and its derivative; where there is tensile strength rounded off at zero as much as
+  /// products of this size round off the law.
+  std::pair<double, double> pressure_of(Index i, double middle) const {
+    if (tension_[i] == 0.0) return {p_n_[i], 1.0};
+    const double root = std::sqrt(p_n_[i] * p_n_[i] + 4.0 * middle * equations_.r()[2 * i]);
+    const double pressure = p_n_[i] > 0.0 ? 0.5 * (p_n_[i] + root) : 0.5 * (root * root - p_n_[i] * p_n_[i]) / (root - p_n_[i]);
+    return {pressure, pressure / root};
   }
 
   /// [W G; G' 0] with whole blocks on its diagonal, rigid motions of unit length.
@@ -216,11 +249,14 @@ class PlaneInteriorPoints::Implementation {
 
   /// `motion`: at the present forces.
   void evaluate(const Vector& motion) {
-    off_normal_ = p_n_ - normal_;
-    off_plus_ = mu_ * p_n_ + p_t_ - plus_;
-    off_minus_ = mu_ * p_n_ - p_t_ - minus_;
+    off_normal_ = p_n_ + tension_ - normal_;
+    off_plus_.resize(N_), off_minus_.resize(N_), forth_.resize(N_), back_.resize(N_);
     distance_.resize(2 * N_);
     for (Index i = 0; i < N_; ++i) {
+      const auto [pressure, slope] = pressure_of(i, rounding_);
+      off_plus_[i] = cohesion_[i] + mu_[i] * pressure + p_t_[i] - plus_[i];
+      off_minus_[i] = cohesion_[i] + mu_backward_[i] * pressure - p_t_[i] - minus_[i];
+      forth_[i] = mu_[i] * slope, back_[i] = mu_backward_[i] * slope;
       distance_[2 * i] = motion[2 * i] - u_n_[i];
       distance_[2 * i + 1] = motion[2 * i + 1] - forward_[i] + backward_[i];
     }
@@ -236,7 +272,7 @@ class PlaneInteriorPoints::Implementation {
       const double plus = forward_[i] / plus_[i], minus = backward_[i] / minus_[i], normal = u_n_[i] / normal_[i];
       const auto& at = diagonal_[static_cast<std::size_t>(i)];
       K_.valuePtr()[at[0]] += normal;
-      K_.valuePtr()[at[1]] += mu_[i] * (plus - minus);
+      K_.valuePtr()[at[1]] += forth_[i] * plus - back_[i] * minus;
       K_.valuePtr()[at[2]] += plus + minus;
       row_[2 * i] = 1.0 / (1.0 + normal);
       row_[2 * i + 1] = 1.0 / (1.0 + plus + minus);
@@ -276,7 +312,7 @@ class PlaneInteriorPoints::Implementation {
     d.p_n.resize(N_), d.p_t.resize(N_);
     for (Index i = 0; i < N_; ++i) d.p_n[i] = x[2 * i], d.p_t[i] = x[2 * i + 1];
     d.a = x.tail(m_);
-    d.normal = d.p_n, d.plus = mu_ * d.p_n + d.p_t, d.minus = mu_ * d.p_n - d.p_t;
+    d.normal = d.p_n, d.plus = forth_ * d.p_n + d.p_t, d.minus = back_ * d.p_n - d.p_t;
     d.u_n = (change.normal - u_n_ * d.normal) / normal_;
     d.forward = (change.forward - forward_ * d.plus) / plus_;
     d.backward = (change.backward - backward_ * d.minus) / minus_;
@@ -424,15 +460,20 @@ class PlaneInteriorPoints::Implementation {
   BDifferentiableEquations equations_;
   Index N_, m_;
   // Forces, the factors of the products, and by how much p_n, s+ and s- differ from the first factors.
-  Array mu_, p_n_, p_t_, normal_, plus_, minus_, u_n_, forward_, backward_, off_normal_, off_plus_, off_minus_;
+  Array mu_, mu_backward_, cohesion_, tension_, forth_, back_, p_n_, p_t_, normal_, plus_, minus_, u_n_, forward_, backward_, off_normal_, off_plus_, off_minus_;
   Vector a_, length_, f_, distance_, balance_, row_;
   Products now_;
   Sparse G_, whole_, K_;
   std::vector<std::array<Index, 3>> diagonal_;  // entries nn, tn and tt of every pair
   linalg::SparseGeneralSolver lu_;
+  double rounding_ = 0.0;  ///< products by which (p_n)+ is rounded off in this step
   double middle_ = 0.0, step_ = 1.0, least_middle_ = HUGE_VAL, least_residual_ = HUGE_VAL;
   int steps_ = 0, since_divided_ = 0, divided_again_ = 0;
 };
+
+bool may_take_plane_interior_points(const Problem& problem) {
+  return problem.dimension == 2 && may_factorise_with_pairs(problem);
+}
 
 PlaneInteriorPoints::PlaneInteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start)
     : implementation_(std::make_unique<Implementation>(problem, p, a, start)) {}

@@ -25,6 +25,9 @@
 
 namespace scabo::contact {
 
+/// A plane problem with W sparse, or dense with at most 1,000 rows; any law of the pairs.
+bool may_take_plane_interior_points(const Problem& problem);
+
 class PlaneInteriorPoints {
  public:
   /// From forces p, in the cones or not, and motions a of the rigid bodies, W_ii being 1 in the mean. Where p_n - r u_n

@@ -147,7 +147,8 @@ std::vector<int> SlidingBodies::hold(const Vector& p, const Residual& at, std::v
       for (const int motion : motions) force += f[motion];
       bool asked = false;
       for (const Entry& entry : together(motions)) {
-        asked = asked || asks_for_motion(states, entry.row);
+        // Pairs with cohesion would jump by more than friction.
+        asked = asked || asks_for_motion(states, entry.row) || equations_.problem().cohesion_of(entry.row / 2) > 0.0;
         if (!slips(states, entry.row)) continue;
         const auto pair = static_cast<std::size_t>(entry.row / 2);
         const double slope = states[pair].slope, turned = other_way(equations_.problem(), pair, slope),

@@ -109,8 +109,7 @@ class SoftNewton {
 }  // namespace
 
 bool may_soften(const Problem& problem) {
-  return problem.dimension == 2 && problem.W.is_sparse() && problem.G.cols() > 0 && problem.mu_backward.size() == 0 &&
-         problem.cohesion.size() == 0 && problem.tension.size() == 0;
+  return problem.dimension == 2 && problem.W.is_sparse() && problem.G.cols() > 0;
 }
 
 NewtonEnd soft_newton(const BDifferentiableEquations& equations, Vector p, Vector a, const NewtonOptions& options) {

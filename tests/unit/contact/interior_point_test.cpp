@@ -16,6 +16,7 @@
 #include "scabo/contact/held_slips.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/ladder.hpp"
+#include "scabo/contact/newton.hpp"
 #include "scabo/contact/newton_direction.hpp"
 #include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
@@ -304,6 +305,72 @@ TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
   EXPECT_GT(solvable, 20);
   EXPECT_GE(solved, solvable - 2);
 }
+
+struct LawCase {
+  const char* name;
+  void (*give)(Problem& problem, double force);  ///< the law, with strengths in proportion to a mean force
+};
+
+class PlaneInteriorPointsForLaws : public ::testing::TestWithParam<LawCase> {};
+
+/// The same blocks with pairs of other laws.
+TEST_P(PlaneInteriorPointsForLaws, FindForcesOfFloatingBlocks) {
+  std::mt19937 random(8);
+  int solved = 0, solvable = 0;
+  for (int k = 0; k < 40; ++k) {
+    Problem problem = scaled(test::floating_problem(random, 10 + k, 0.8)).problem;
+    const double force = problem.f.lpNorm<Eigen::Infinity>() / problem.pairs();
+    GetParam().give(problem, force);
+    if (solve(problem).status != Status::solved) continue;
+    ++solvable;
+    Vector p = Vector::Zero(problem.q.size());
+    for (int i = 0; i < problem.pairs(); ++i) p[2 * i] = force;
+    ASSERT_TRUE(may_take_plane_interior_points(problem));
+    PlaneInteriorPoints points(problem, p, Vector::Zero(problem.G.cols()), 1.0);
+    // Pairs without friction get a millionth of the largest coefficient.
+    const InteriorPointEnd end = points.advance(1e-6, {}, {});
+    EXPECT_LE(end.iterations, 40) << k;
+    if (end.residual > 1e-6) continue;  // a path that turned back
+    ++solved;
+    const BDifferentiableEquations equations(problem, 1.0);
+    const NewtonEnd exact = newton(equations, end.p, end.a, {.relative = 1e-13});
+    EXPECT_TRUE(exact.converged) << k;
+    EXPECT_LE(exact.iterations, 4) << k;
+    EXPECT_LT(test::violation(problem, exact.p, exact.a), 1e-9) << k;
+  }
+  EXPECT_GT(solvable, 15);
+  EXPECT_GE(solved, solvable - 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, PlaneInteriorPointsForLaws,
+    ::testing::Values(LawCase{"WithoutFriction",
+                              [](Problem& problem, double) {
+                                for (int i = 0; i < problem.pairs(); i += 3) problem.mu[i] = 0.0;
+                              }},
+                      LawCase{"FrictionByDirection",
+                              [](Problem& problem, double) { problem.mu_backward = 0.5 * problem.mu; }},
+                      LawCase{"Cohesion",
+                              [](Problem& problem, double force) {
+                                problem.cohesion = Vector::Constant(problem.pairs(), 0.3 * force);
+                              }},
+                      LawCase{"CohesionAndTension",
+                              [](Problem& problem, double force) {
+                                problem.cohesion = Vector::Constant(problem.pairs(), 0.5 * force);
+                                problem.tension = Vector::Constant(problem.pairs(), 0.2 * force);
+                              }},
+                      LawCase{"ShearStrength",
+                              [](Problem& problem, double force) {
+                                problem.mu.setZero();
+                                problem.cohesion = Vector::Constant(problem.pairs(), 0.3 * force);
+                              }},
+                      LawCase{"BondedAtTheEnds",
+                              [](Problem& problem, double) {
+                                problem.cohesion = problem.tension = Vector::Zero(problem.pairs());
+                                for (const int i : {0, problem.pairs() - 1})
+                                  problem.cohesion[i] = problem.tension[i] = HUGE_VAL;
+                              }}),
+    [](const auto& param) { return std::string(param.param.name); });
 
 /// The matrix of soft_direction.hpp at forces p, times d, row by row.
 Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equations, const Vector& p, const Residual& at,

@@ -75,10 +75,17 @@ double violation(const contact::Problem& problem, const Vector& p, const Vector&
     const double g = motion[d * i], pn = p[d * i];
     const Vector slip = motion.segment(d * i + 1, d - 1), friction = p.segment(d * i + 1, d - 1);
     const double ds = slip.norm(), pt = friction.norm();
-    worst = std::max({worst, -g, -pn, std::min(std::abs(g), std::abs(pn))});
-    if (problem.mu_backward.size() >
-        0) {  // -mu_f p_n <= p_t <= mu_b p_n, forward slip at the lower end, backward at the upper
-      const double low = friction[0] + problem.mu[i] * pn, high = problem.mu_backward[i] * pn - friction[0];
+    const double cohesion = problem.cohesion_of(i), tension = problem.tension_of(i);
+    if (std::isinf(tension)) {  // bonded
+      worst = std::max({worst, std::abs(g), ds});
+      continue;
+    }
+    worst = std::max({worst, -g, -(pn + tension), std::min(std::abs(g), std::abs(pn + tension))});
+    if (problem.mu_backward.size() > 0 || cohesion > 0.0) {
+      // -c - mu_f (p_n)+ <= p_t <= c + mu_b (p_n)+, forward slip at the lower end, backward at the upper
+      const double pressure = cohesion > 0.0 ? std::max(pn, 0.0) : pn;
+      const double low = friction[0] + cohesion + problem.mu_against(i, -1.0) * pressure,
+                   high = cohesion + problem.mu_against(i, 1.0) * pressure - friction[0];
       worst = std::max({worst, -low, -high, std::min(ds, std::abs(slip[0] > 0.0 ? low : high))});
       continue;
     }
