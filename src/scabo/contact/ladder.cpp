@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "scabo/contact/judge.hpp"
 #include "scabo/contact/interior_point.hpp"
-#include "scabo/contact/plane_interior_points.hpp"
+#include "scabo/contact/judge.hpp"
 #include "scabo/contact/newton_direction.hpp"
+#include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 #include "scabo/contact/soft_newton.hpp"
 #include "scabo/contact/starts/bonded_start.hpp"

@@ -71,10 +71,7 @@ class PlaneInteriorPoints::Implementation {
 
  public:
   Implementation(const Problem& problem, const Vector& p, const Vector& a, double start)
-      : problem_(problem),
-        equations_(problem, 1.0),
-        N_(problem.pairs()),
-        m_(problem.G.cols()) {
+      : problem_(problem), equations_(problem, 1.0), N_(problem.pairs()), m_(problem.G.cols()) {
     lay_out();
     a_ = a.cwiseQuotient(length_);
     p_n_.resize(N_), p_t_.resize(N_), u_n_.resize(N_), forward_.resize(N_), backward_.resize(N_);
@@ -190,7 +187,8 @@ class PlaneInteriorPoints::Implementation {
   std::pair<double, double> pressure_of(Index i, double middle) const {
     if (tension_[i] == 0.0) return {p_n_[i], 1.0};
     const double root = std::sqrt(p_n_[i] * p_n_[i] + 4.0 * middle * equations_.r()[2 * i]);
-    const double pressure = p_n_[i] > 0.0 ? 0.5 * (p_n_[i] + root) : 0.5 * (root * root - p_n_[i] * p_n_[i]) / (root - p_n_[i]);
+    const double pressure =
+        p_n_[i] > 0.0 ? 0.5 * (p_n_[i] + root) : 0.5 * (root * root - p_n_[i] * p_n_[i]) / (root - p_n_[i]);
     return {pressure, pressure / root};
   }
 
@@ -460,7 +458,8 @@ class PlaneInteriorPoints::Implementation {
   BDifferentiableEquations equations_;
   Index N_, m_;
   // Forces, the factors of the products, and by how much p_n, s+ and s- differ from the first factors.
-  Array mu_, mu_backward_, cohesion_, tension_, forth_, back_, p_n_, p_t_, normal_, plus_, minus_, u_n_, forward_, backward_, off_normal_, off_plus_, off_minus_;
+  Array mu_, mu_backward_, cohesion_, tension_, forth_, back_, p_n_, p_t_, normal_, plus_, minus_, u_n_, forward_,
+      backward_, off_normal_, off_plus_, off_minus_;
   Vector a_, length_, f_, distance_, balance_, row_;
   Products now_;
   Sparse G_, whole_, K_;

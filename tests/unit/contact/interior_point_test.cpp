@@ -342,35 +342,36 @@ TEST_P(PlaneInteriorPointsForLaws, FindForcesOfFloatingBlocks) {
   EXPECT_GE(solved, solvable - 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, PlaneInteriorPointsForLaws,
-    ::testing::Values(LawCase{"WithoutFriction",
-                              [](Problem& problem, double) {
-                                for (int i = 0; i < problem.pairs(); i += 3) problem.mu[i] = 0.0;
-                              }},
-                      LawCase{"FrictionByDirection",
-                              [](Problem& problem, double) { problem.mu_backward = 0.5 * problem.mu; }},
-                      LawCase{"Cohesion",
-                              [](Problem& problem, double force) {
-                                problem.cohesion = Vector::Constant(problem.pairs(), 0.3 * force);
-                              }},
-                      LawCase{"CohesionAndTension",
-                              [](Problem& problem, double force) {
-                                problem.cohesion = Vector::Constant(problem.pairs(), 0.5 * force);
-                                problem.tension = Vector::Constant(problem.pairs(), 0.2 * force);
-                              }},
-                      LawCase{"ShearStrength",
-                              [](Problem& problem, double force) {
-                                problem.mu.setZero();
-                                problem.cohesion = Vector::Constant(problem.pairs(), 0.3 * force);
-                              }},
-                      LawCase{"BondedAtTheEnds",
-                              [](Problem& problem, double) {
-                                problem.cohesion = problem.tension = Vector::Zero(problem.pairs());
-                                for (const int i : {0, problem.pairs() - 1})
-                                  problem.cohesion[i] = problem.tension[i] = HUGE_VAL;
-                              }}),
-    [](const auto& param) { return std::string(param.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, PlaneInteriorPointsForLaws,
+                         ::testing::Values(LawCase{"WithoutFriction",
+                                                   [](Problem& problem, double) {
+                                                     for (int i = 0; i < problem.pairs(); i += 3) problem.mu[i] = 0.0;
+                                                   }},
+                                           LawCase{"FrictionByDirection",
+                                                   [](Problem& problem, double) {
+                                                     problem.mu_backward = 0.5 * problem.mu;
+                                                   }},
+                                           LawCase{"Cohesion",
+                                                   [](Problem& problem, double force) {
+                                                     problem.cohesion = Vector::Constant(problem.pairs(), 0.3 * force);
+                                                   }},
+                                           LawCase{"CohesionAndTension",
+                                                   [](Problem& problem, double force) {
+                                                     problem.cohesion = Vector::Constant(problem.pairs(), 0.5 * force);
+                                                     problem.tension = Vector::Constant(problem.pairs(), 0.2 * force);
+                                                   }},
+                                           LawCase{"ShearStrength",
+                                                   [](Problem& problem, double force) {
+                                                     problem.mu.setZero();
+                                                     problem.cohesion = Vector::Constant(problem.pairs(), 0.3 * force);
+                                                   }},
+                                           LawCase{"BondedAtTheEnds",
+                                                   [](Problem& problem, double) {
+                                                     problem.cohesion = problem.tension = Vector::Zero(problem.pairs());
+                                                     for (const int i : {0, problem.pairs() - 1})
+                                                       problem.cohesion[i] = problem.tension[i] = HUGE_VAL;
+                                                   }}),
+                         [](const auto& param) { return std::string(param.param.name); });
 
 /// The matrix of soft_direction.hpp at forces p, times d, row by row.
 Vector soft_rows(const Problem& problem, const BDifferentiableEquations& equations, const Vector& p, const Residual& at,
