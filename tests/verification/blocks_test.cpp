@@ -188,11 +188,12 @@ TEST(Wall, CarriesNearlyItsCollapsePush) {
     const Vec2 carried = floor_forces(blocks, solution, last(solution));
     EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
     EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
-    EXPECT_LE(last(solution).newton_iterations, 13);
+    EXPECT_LE(last(solution).newton_iterations, 10);
     EXPECT_EQ(last(solution).halvings, 0);
   };
   for (const double friction : {0.3, 0.6, 1.0}) carries({4, 4, friction}, 0.99);
   for (const double friction : {0.3, 0.6}) carries({8, 8, friction}, 0.99);
+  carries({8, 8, 0.3}, 0.95);  // 14 iterations where a path came first, and turned back
   carries({8, 8, 1.0}, 0.9);
 }
 
