@@ -212,5 +212,78 @@ loads: {{water: {{on: ground.rim, pressure: 1e6}}}}
   EXPECT_NE(warning("springs: [{on: ground.rim_start, k_x: 1e6, k_y: 0}]"), "");
 }
 
+// A rigid disc of radius a in the infinite plane, whose mean displacement vanishes over the circle of radius rho:
+// Kelvin's force and a dipole, F = 2 pi mu (kappa + 1) u / (kappa ln(rho / a)).
+TEST(Outside, HoldsARigidDiscByKelvinsForce) {
+  const double E = 1e5, nu = 0.3, mu = 0.5 * E / (1.0 + nu), a = 2.0, thickness = 0.7;
+  for (const std::string& plane : {"stress", "strain"})
+    for (const Vec2& reference : {Vec2(0.0, -50.0), Vec2(300.0, 400.0)}) {
+      const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: {}, thickness: {}}}
+materials: {{rock: {{young: {}, poisson: {}}}}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {{circle: {{centre: [0, 0], radius: {}}}}}
+    mesh: {{size: 0.8, order: 4}}
+    reference: [{}, {}]
+  disc: {{rigid: true, shape: {{circle: {{centre: [0, 0], radius: {}}}}}}}
+contacts: {{rim: {{between: [ground.rim, disc.rim], bond: true}}}}
+supports: [{{on: disc, rotation: 0, displacement: [1e-3, 2e-3], name: drive}}]
+)",
+                                            plane, thickness, E, nu, a, reference.x(), reference.y(), a));
+      const double kappa = plane == "stress" ? (3.0 - nu) / (1.0 + nu) : 3.0 - 4.0 * nu;
+      const double stiffness =
+          2.0 * std::numbers::pi * mu * (kappa + 1.0) * thickness / (kappa * std::log(reference.norm() / a));
+      const Vec2 expected = stiffness * Vec2(1e-3, 2e-3);
+      EXPECT_LE((last(solution).reactions.front() - expected).norm(), 1e-8 * expected.norm())
+          << plane << ", " << reference.norm();
+    }
+}
+
+// What springs and unbounded ground share: a hole without a line of symmetry, turned, mirrored and in other units.
+TEST(Outside, SharesALoadWithSpringsInEveryUnitAndDirection) {
+  const auto springs_of = [](double angle, bool mirrored, double length, double force) {
+    const auto turned = [&](Vec2 x) {
+      if (mirrored) x.y() = -x.y();
+      return Vec2(std::cos(angle) * x.x() - std::sin(angle) * x.y(), std::sin(angle) * x.x() + std::cos(angle) * x.y());
+    };
+    const auto text_of = [&](const Vec2& x, double scale) {
+      const Vec2 y = scale * turned(x);
+      return fmt::format("[{:.17g}, {:.17g}]", y.x(), y.y());
+    };
+    const double stress = force / (length * length);
+    const auto solution = run(fmt::format(
+        R"(
+scabo: 1
+analysis: {{plane: strain, thickness: {:.17g}}}
+materials: {{rock: {{young: {:.17g}, poisson: 0.3}}}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {{polygon: {{vertices: [{}, {}, {}]}}}}
+    mesh: {{size: {:.17g}, order: 3}}
+    reference: {}
+springs: [{{on: ground.edge_1, k_n: {:.17g}, k_t: {:.17g}}}]
+loads: {{push: {{on: ground.edge_1, traction: {}}}}}
+)",
+        length, 1e5 * stress, text_of({-1.0, -1.0}, length), text_of({1.3, -1.0}, length), text_of({0.4, 1.5}, length),
+        0.5 * length, text_of({0.0, -50.0}, length), 2e4 * stress / length, 1e4 * stress / length,
+        text_of({20.0, 50.0}, stress)));
+    const Vec2 back = last(solution).springs.front() / force;  // undoes the turn, then the mirror
+    const Vec2 unturned(std::cos(angle) * back.x() + std::sin(angle) * back.y(),
+                        -std::sin(angle) * back.x() + std::cos(angle) * back.y());
+    return Vec2(unturned.x(), mirrored ? -unturned.y() : unturned.y());
+  };
+  const Vec2 expected = springs_of(0.0, false, 1.0, 1.0);
+  EXPECT_LE((springs_of(0.65, false, 1.0, 1.0) - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_LE((springs_of(-1.2, true, 1.0, 1.0) - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_LE((springs_of(0.0, false, 1e3, 1e-3) - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_LE((springs_of(0.2, false, 1e-3, 1e-6) - expected).norm(), 1e-9 * expected.norm());
+}
+
 }  // namespace
 }  // namespace scabo::verification

@@ -12,6 +12,7 @@
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
 #include "scabo/element/ring_doubling.hpp"
+#include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/cholesky_factor.hpp"
 #include "scabo/linalg/parallel.hpp"
 
@@ -117,21 +118,57 @@ Matrix with_translations(const Block& block, const Matrix& K_I) {
   return K;
 }
 
+/// What a circle around the scaling centre, far away, knows of the ring: every point of it lies on the ray of a point
+/// of the ring.
+struct Circle {
+  Matrix mean;           // 2 x n: mean over the angle of the displacement of the ring
+  double log_far = 0.0;  // mean over the angle of ln xi on the circle, eq. (6)
+};
+
+Circle circle_of(const Ring& ring, double far) {
+  Circle circle;
+  circle.mean = Matrix::Zero(2, places_of(ring.nodes.size()));
+  double angle = 0.0, log_of_radius = 0.0, largest = 0.0;
+  for (const Vec2& x : ring.nodes) largest = std::max(largest, x.norm());
+  for (const mesh::LineElement& element : ring.elements) {
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+    for (std::size_t q = 0; q < basis.rule().points.size(); ++q) {
+      const Vector N = basis.values_at_rule().row(static_cast<Eigen::Index>(q)).transpose();
+      const BoundaryPoint point =
+          boundary_point(ring, element, N, basis.derivatives_at_rule().row(static_cast<Eigen::Index>(q)).transpose());
+      const double part = basis.rule().weights[q] * point.jacobian() / point.x.squaredNorm();
+      angle += part;
+      log_of_radius += part * std::log(point.x.norm() / largest);
+      for (std::size_t i = 0; i < element.nodes.size(); ++i)
+        circle.mean.middleCols<2>(place_of(element.nodes[i])) +=
+            part * N[static_cast<Eigen::Index>(i)] * Matrix::Identity(2, 2);
+    }
+  }
+  circle.mean /= angle;
+  circle.log_far = std::log(far) - log_of_radius / angle;
+  return circle;
+}
+
 /// Stiffness of an unbounded block, eqs. (5) and (6): forces f = -q for every u. `K`: of v_h.
-Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, double far) {
+Matrix unbounded_stiffness(Block& block, const Deflated& d, const Matrix& K, const Circle& circle) {
   const auto m = static_cast<Eigen::Index>(block.J.size());
   const Matrix Q = block.v_of(Matrix::Identity(block.R.rows(), block.R.rows()));
   if (m == 0) return K;
   const Matrix H_I = d.H(Eigen::all, block.I);
   block.V = -d.E2.llt().solve(H_I.transpose());
   block.C = d.M_inverse - H_I * block.V;
-  // F from u: a - A S^-1 v = -(C ln(far) + A S^-1 V) F.
+  // q_I = -K v_h + (E1'V + G_I') F, and R'q = F.
+  const Matrix pull = d.E1.transpose() * block.V + Matrix(d.G(Eigen::all, block.I)).transpose();
+  // The mean over the circle of the displacements u of its rays is W u, W R = 1.
+  const Matrix mean = circle.mean * block.T, of_a = mean * block.R;
+  const Matrix W = (of_a.transpose() * of_a).inverse() * of_a.transpose() * mean;
+  const Matrix mean_V = W(Eigen::all, block.I) * block.V, work = block.V.transpose() * pull;
+  const Matrix N = symmetrised(mean_V) - 0.5 * (work - work.transpose());
+  // F from u: a - A S^-1 v = -(C ln(far) + N + A S^-1 V) F. K is symmetric, as V'(E1'V + G_I') + N is.
   const Matrix moving = block.S.transpose().partialPivLu().solve(block.A.transpose()).transpose();  // A S^-1
   Matrix a_of_u = -moving * Q;
   for (Eigen::Index j = 0; j < m; ++j) a_of_u(j, block.J[static_cast<std::size_t>(j)]) += 1.0;
-  const Matrix F_of_u = -(block.C * std::log(far) + moving * block.V).inverse() * a_of_u;
-  // q_I = -K v_h + (E1'V + G_I') F, and R'q = F.
-  const Matrix pull = d.E1.transpose() * block.V + Matrix(d.G(Eigen::all, block.I)).transpose();
+  const Matrix F_of_u = -(block.C * circle.log_far + N + moving * block.V).inverse() * a_of_u;
   const Matrix q_I = -K * (Q - block.V * F_of_u) + pull * F_of_u;
   Matrix f(block.R.rows(), block.R.rows());
   f(block.I, Eigen::all) = -q_I;
@@ -171,8 +208,9 @@ struct Whole {
   double thickness;
   const Domain& domain;
   const CoefficientMatrices& matrices;
-  const Matrix& motions;        // n x 3: two translations, the rotation
-  Eigen::Index all_digits = 0;  // rows of a block up to which K has its last digits without being asked
+  const Matrix& motions;           // n x 3: two translations, the rotation
+  Eigen::Index all_digits = 0;     // rows of a block up to which K has its last digits without being asked
+  const Circle* circle = nullptr;  // unbounded
 };
 
 /// What is found of a block besides itself.
@@ -218,7 +256,7 @@ Block solve_block(const Whole& whole, Eigen::SparseMatrix<double> T, BlockResult
   if (!domain.unbounded) finish_bounded(whole, block, result);
   block.S = std::move(ring.S);
   block.A = -(Matrix(d.G(Eigen::all, block.I)) * block.S + Matrix(d.H(Eigen::all, block.I)));
-  if (domain.unbounded) result.K = unbounded_stiffness(block, d, ring.K, domain.far);
+  if (domain.unbounded) result.K = unbounded_stiffness(block, d, ring.K, *whole.circle);
   ring.K.resize(0, 0);  // large ones: no copy of what is no longer needed
   return block;
 }
@@ -282,6 +320,8 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   solution.domain = domain;
   solution.blocks.resize(bases.size());
   Whole whole{ring, D, thickness, domain, matrices, motions};
+  const Circle circle = domain.unbounded ? circle_of(ring, domain.far) : Circle();
+  whole.circle = &circle;
   if (D.contrast() > great_contrast) whole.all_digits = most_exact_rows;
   if (slenderness(ring) > great_slenderness) whole.all_digits = most_slender_rows;
   std::vector<BlockResult> results(bases.size());

@@ -16,9 +16,15 @@
 //     v = v_h + V F,  V = -E2^-1 H',   xi a,xi = A v_h + C F,  C = M^-1 - H V                               (5)
 //
 // so that a grows with ln xi and the displacement is defined only up to a translation proportional to F. The stiffness
-// computed here is that of a domain whose translation vanishes at xi = far (for F = 0: at infinity, for any far),
+// computed here is that of a domain whose mean displacement over a circle around the scaling centre vanishes (for F =
+// 0: at infinity, for any circle). Its radius is far times the largest distance of the ring from the centre. A bar is
+// the mean over the angle, r the distance of the ring over the largest one:
 //
-//     a = A S^-1 v_h - C F ln(far)                                                                          (6)
+//     a = A S^-1 v_h - (C (ln(far) - bar(ln r)) + N) F,
+//     sym N = sym bar(V),  skew N = -skew V'(E1'V + G_I')                                                  (6)
+//
+// V depends on the rows J, as a does; with bar(V), (6) does not. The skew part of N is the one for which Betti's
+// theorem holds, so that K is symmetric; where a line of symmetry makes the mean fulfil it, it is that of bar(V).
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -51,7 +57,7 @@ struct Block {
 /// The domain of a ring: inside it, or outside it to infinity.
 struct Domain {
   bool unbounded = false;
-  double far = 1e3;  ///< > 1, eq. (6)
+  double far = 1e3;  ///< radius of the circle over the largest distance of the ring, > 1, eq. (6)
   bool operator==(const Domain&) const = default;
 };
 

@@ -58,9 +58,12 @@ bool check_rotation(Checking& checking, const std::string& path, const Support& 
   const Body& body = checking.body(support.on.body);
   if (body.rigid && support.on.kind == Place::Kind::body && support.axes == SupportAxes::xy) return true;
   checking.error(path, "rotation",
-                 body.rigid
+                 !body.rigid
+                     ? fmt::format("'{}' is elastic: only rigid bodies have a rotation; put one on it", body.name)
+                 : support.on.kind != Place::Kind::body
                      ? fmt::format("is that of a rigid body as a whole: write on: {}", body.name)
-                     : fmt::format("'{}' is elastic: only rigid bodies have a rotation; put one on it", body.name));
+                     : "the displacement beside it is [ux, uy], null where it is free: a direction of its own does not "
+                       "go with a rotation");
   return false;
 }
 
