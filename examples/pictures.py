@@ -80,13 +80,13 @@ def draw_cells(axis, directory, magnification=0.0, factor=1.0, **options):
     style.draw_cells(axis, scabo_plot.Results(directory).cells(), magnification, factor, **options)
 
 
-def draw(axis, mesh, values, levels, magnification=0.0):
+def draw(axis, mesh, values, levels, magnification=0.0, factor=1.0, unit="m"):
     """Filled contours of `values` at the points on the deformed body; where they are not a number, nothing. Levels on both sides of
-    zero: a signed quantity."""
-    triangles, moved = geometry.triangles(mesh), geometry.moved(mesh, magnification)
+    zero: a signed quantity. Coordinates times `factor` are in `unit`."""
+    triangles, moved = geometry.triangles(mesh), factor * geometry.moved(mesh, magnification)
     drawn = style.contours(axis, moved, triangles, values, levels, lines=levels[0] < 0 < levels[-1])
     style.draw_outline(axis, moved, geometry.outline(triangles))
-    label_map(axis, magnification)
+    label_map(axis, magnification, unit)
     return drawn
 
 

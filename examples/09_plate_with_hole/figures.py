@@ -41,7 +41,7 @@ def picture(options):
     left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1, 1, 1.05]})
     for axis, kind in ((left, "polygons"), (middle, "quadtree")):
         mesh = pictures.fields(options.results / f"{kind}_0.006")
-        drawn = pictures.draw(axis, mesh, pictures.values_of(mesh, "von_mises", 1e-6), np.linspace(0, 340, 18))
+        drawn = pictures.draw(axis, mesh, pictures.values_of(mesh, "von_mises", 1e-6), np.linspace(0, 360, 19))
         pictures.draw_cells(axis, options.results / f"{kind}_0.006")
         axis.set(xlim=(0.197, 0.403), ylim=(-0.003, 0.203), title=f"kind: {kind}")
     pictures.colour_bar(figure, drawn, [left, middle], "von Mises stress (MPa)", shrink=0.85)

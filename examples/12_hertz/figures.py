@@ -71,18 +71,16 @@ def picture(options):
     results = options.results / "refined_0.01"
     mesh = pictures.fields(results)
     stress = pictures.values_of(mesh, "von_mises", 1e-6)
-    left.fill([-0.2, 0.2, 0.2, -0.2], [0, 0, -0.2, -0.2], color=BODY)
+    left.fill([-200, 200, 200, -200], [0, 0, -200, -200], color=BODY)
     angle = np.linspace(np.pi, 2 * np.pi, 181)
-    left.fill(RADIUS * np.cos(angle), RADIUS + RADIUS * np.sin(angle), color=BODY)
-    pictures.draw_cells(left, results)
-    pictures.label_map(left)
-    left.annotate("the next picture", (0, 0), (0.058, 0.022), color=pictures.RED, arrowprops={"arrowstyle": "->", "color": pictures.RED})
-    left.set(xlim=(-0.125, 0.125), ylim=(-0.165, 0.06), title="cells of the roller and of the middle of the block")
+    left.fill(1e3 * RADIUS * np.cos(angle), 1e3 * (RADIUS + RADIUS * np.sin(angle)), color=BODY)
+    pictures.draw_cells(left, results, factor=1e3)
+    pictures.label_map(left, unit="mm")
+    left.annotate("the next picture", (0, 0), (58, 22), color=pictures.RED, arrowprops={"arrowstyle": "->", "color": pictures.RED})
+    left.set(xlim=(-125, 125), ylim=(-165, 60), title="cells of the roller and of the middle of the block")
 
-    mesh.points = mesh.points * 1e3
-    drawn = pictures.draw(middle, mesh, stress, np.linspace(0, 350, 15))
+    drawn = pictures.draw(middle, mesh, stress, np.linspace(0, 350, 15), factor=1e3, unit="mm")
     pictures.draw_cells(middle, results, factor=1e3)
-    pictures.label_map(middle, unit="mm")
     pictures.colour_bar(figure, drawn, middle, "von Mises stress (MPa)", count=8, location="bottom", shrink=0.9)
     middle.set(xlim=(-2.2, 2.2), ylim=(-2.4, 1.6), title="the contact: cells and stress")
 

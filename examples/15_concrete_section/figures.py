@@ -55,8 +55,8 @@ def picture(results, image):
         pictures.label_map(axis, unit="mm")
     for bar in bars[:2]:
         bar.set_axis_off()
-    figure.colorbar(vertical, cax=bars[2], orientation="horizontal", label="MPa", ticks=range(8, 33, 4))
-    figure.colorbar(horizontal, cax=bars[3], orientation="horizontal", label="MPa (tension positive)",
+    figure.colorbar(vertical, cax=bars[2], orientation="horizontal", label="vertical compression (MPa)", ticks=range(8, 33, 4))
+    figure.colorbar(horizontal, cax=bars[3], orientation="horizontal", label="horizontal stress (MPa)",
                     ticks=np.linspace(*horizontal.levels[[0, -1]], 5))
     return figure
 

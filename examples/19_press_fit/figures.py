@@ -29,7 +29,7 @@ def picture(options, history, area):
     left, middle, right = figure.subplots(1, 3, gridspec_kw={"width_ratios": [1.15, 1, 1]})
     mesh = pictures.fields(options.results, 1)
     hoop = hoop_stress(mesh)
-    drawn = pictures.draw(left, mesh, hoop / 1e6, pictures.signed_levels(180, bands=8))
+    drawn = pictures.draw(left, mesh, hoop / 1e6, pictures.signed_levels(180, bands=8), factor=1e3, unit="mm")
     pictures.colour_bar(figure, drawn, left, "hoop stress (MPa)", shrink=0.9)
     left.set(title="pressed on")
     numbers = hand.calculate()

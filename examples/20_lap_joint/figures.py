@@ -29,7 +29,7 @@ def picture(options, summary, history):
     parts = figure.subfigures(2, 1, height_ratios=[1.0, 1.4])
     top = parts[0].subplots()
     mesh = pictures.fields(options.results, 11)
-    drawn = pictures.draw(top, mesh, pictures.values_of(mesh, "stress_yy", 1e-6), pictures.signed_levels(80, bands=8))
+    drawn = pictures.draw(top, mesh, pictures.values_of(mesh, "stress_yy", 1e-6), pictures.signed_levels(80, bands=8), factor=1e3, unit="mm")
     pictures.colour_bar(parts[0], drawn, top, "normal stress (MPa)", orientation="horizontal", aspect=45, shrink=0.6)
     top.set(title="slipping: stress from the plane of symmetry to the washers")
     left, right = parts[1].subplots(1, 2)
@@ -37,7 +37,8 @@ def picture(options, summary, history):
         lap = pictures.pairs_of(options.results, number)["lap"]
         left.plot(1e3 * lap["x"], lap["pressure"] / 1e6, style, color=colour, label=name)
     left.set(xlabel="x (mm)", ylabel="pressure (MPa)", ylim=(0, 70), title="pressure between the plates")
-    moved = [1e3 * 0.1e-3 * increment["factors"].get("pull", 0.0) for increment in summary["increments"]]
+    pulled = 0.1e-3  # m, of model.yaml
+    moved = [1e3 * pulled * increment["factors"].get("pull", 0.0) for increment in summary["increments"]]
     slip = hand.calculate()["slip"] / 1e3
     for sign in (-1, 1):
         right.axhline(sign * slip, color=pictures.GREY, label="mu N, by hand" if sign > 0 else None)

@@ -22,8 +22,8 @@ def main():
     left, right = figure.subplots(1, 2, gridspec_kw={"width_ratios": [1.5, 1]})
     mesh = pictures.fields(options.results, HALF_WAY)
     drawn = pictures.draw(left, mesh, np.maximum(pictures.values_of(mesh, "stress_yy", -1e-6), 0),
-                          np.linspace(0, 160, 9), magnification=1)
-    pictures.colour_bar(figure, drawn, left, "pressure across, −σyy (MPa)", location="bottom", shrink=0.9)
+                          np.linspace(0, 160, 9), magnification=1, factor=1e3, unit="mm")
+    pictures.colour_bar(figure, drawn, left, r"pressure across, $-\sigma_{yy}$ (MPa)", location="bottom", shrink=0.9)
     left.set(title="pushed by 40 mm (upper half)")
     for results, pushed, colour in ((options.results, True, pictures.BLUE), (pulled, False, pictures.RED)):
         force = 2 * pictures.table_of(results, "history.csv")["force"][3:]

@@ -28,12 +28,13 @@ def picture(options, summary, history):
     figure = plt.figure(figsize=(9.6, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2, gridspec_kw={"width_ratios": [1.15, 1]})
     mesh = pictures.fields(options.results, AT_PEAK + 1)
-    drawn = pictures.draw(left, mesh, pictures.values_of(mesh, "stress_xx", 1e-3), pictures.signed_levels(16, bands=4))
+    drawn = pictures.draw(left, mesh, pictures.values_of(mesh, "stress_xx", 1e-3), pictures.signed_levels(16, bands=4),
+                          factor=1e3, unit="mm")
     pictures.colour_bar(figure, drawn, left, "stress along the track (kPa)", location="bottom", shrink=0.9)
     left.axhline(0, color=pictures.GREY, lw=3, zorder=0)
-    left.annotate("", (0.0805, 0.01), (0.096, 0.01), arrowprops={"arrowstyle": "-|>", "color": "black"})
-    left.text(0.097, 0.01, "13 N", va="center", fontsize=8)
-    left.set(xlim=(-0.005, 0.11), ylim=(-0.006, 0.028), title="pushed back, just before it slides")
+    left.annotate("", (80.5, 10), (96, 10), arrowprops={"arrowstyle": "-|>", "color": "black"})
+    left.text(97, 10, "13 N", va="center", fontsize=8)
+    left.set(xlim=(-5, 110), ylim=(-6, 28), title="pushed back, just before it slides")
 
     travel = [1.0 * increment["factors"].get("carriage", 0.0) for increment in summary["increments"]]
     calculated = np.array(hand.calculate()["path"])

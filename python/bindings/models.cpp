@@ -10,6 +10,7 @@
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/input/document.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/input/text_file.hpp"
 #include "scabo/result/history.hpp"
 #include "scabo/run/plan.hpp"
 #include "tree.hpp"

@@ -118,6 +118,22 @@ class Geometry(WithResults):
         cracked = np.array([[0, 1], [1, 2], [0, 3], [2, 5], [3, 6], [5, 8]])  # open: the faces go on to other rings
         np.testing.assert_array_equal(geometry.nodes_on(cracked, 0), [0, 1, 2])
 
+    def test_points_between_nodes_belong_to_the_boundary(self):
+        ring = np.array([[0, 3], [1, 3], [1, 4], [2, 4], [2, 5], [0, 5]])  # three nodes, a point between each two
+        np.testing.assert_array_equal(geometry.nodes_on(ring, 0), [0, 1, 2])
+        np.testing.assert_array_equal(geometry.boundary_sides(ring, [0, 1, 2]), ring)
+        cracked = np.array([[0, 3], [1, 3], [1, 4], [2, 4], [0, 5], [2, 7], [5, 10], [7, 10]])  # faces to the next ring, and the tip
+        np.testing.assert_array_equal(geometry.nodes_on(cracked, 0), [0, 1, 2])
+        np.testing.assert_array_equal(geometry.boundary_sides(cracked, [0, 1, 2]), cracked[:4])
+
+    def test_quadrilaterals_are_divided_by_their_shorter_diagonal(self):
+        for shift, diagonal in ((0.7, {1, 3}), (-0.7, {0, 2}), (0.0, {0, 2})):
+            points = np.array([[0, 0], [1, 0], [1 + shift, 1], [shift, 1]], dtype=float)
+            grid = vtu.Grid(points, np.arange(4), np.array([4]), np.array([vtu.QUAD]), {}, {})
+            first, second = (set(corners) for corners in geometry.triangles(grid).tolist())
+            self.assertEqual(first & second, diagonal)
+            self.assertAlmostEqual(geometry.areas(points, geometry.triangles(grid)).sum(), 1.0)
+
     def test_moved_points(self):
         grid = self.results.fields(1)
         x, y = grid.points.T

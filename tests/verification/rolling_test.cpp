@@ -209,7 +209,7 @@ loads: {{press: {{on: upper.cut, pressure: 0.625}}}}
 // ---- a pin under its weight in a bore that is a thousandth wider -------------------------------------------
 
 std::string pin(const char* mesh, double size, const Drawing& draw, double dropped, const std::string& load,
-                double friction = 0.0) {
+                double friction = 0.0, double radius = 0.999, const std::string& supports = "") {
   return fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: 200, poisson: 0.3, density: 0.1}}}}
@@ -223,12 +223,13 @@ bodies:
     material: steel
     shape: {{circle: {{centre: {8}, radius: {9}}}}}
     mesh: {{{6}, size: {5}, refine: [{{on: rim, size: {10}, growth: 0.3}}]}}
-supports: [{{on: plate.edge_1, fix: [x, y]}}]
+supports: [{{on: plate.edge_1, fix: [x, y]}}{13}]
 contacts: {{joint: {{between: [plate.bore, pin.rim], friction: {12}}}}}
 loads: {{{11}}}
 )",
                      draw.at(-5, -5), draw.at(5, -5), draw.at(5, 5), draw.at(-5, 5), draw.at(0, 0), draw.unit, mesh,
-                     1.1 * size * draw.unit, draw.at(0, dropped), 0.999 * draw.unit, size * draw.unit, load, friction);
+                     1.1 * size * draw.unit, draw.at(0, dropped), radius * draw.unit, size * draw.unit, load, friction,
+                     supports);
 }
 
 // Elements of any order, also those whose weight acts beside the centre of the circle, in the middle of the bore or at
@@ -282,6 +283,62 @@ TEST(Rolling, PinWithLittleFriction) {
                                   fmt::format("weight: {{on: pin, gravity: [{}, {}]}}", g.x(), g.y()), model.friction));
     EXPECT_NEAR(largest_pressure(last(solution)), 0.2211, model.accuracy * 0.2211);
     EXPECT_LT(largest_displacement(last(solution)), 0.02);
+  }
+}
+
+// A pin that a support keeps from turning, or friction, in a bore of its size or a little wider: chords of different
+// lengths have the pressure of elements of order 3. Normals weighted like the forces of a pressure turn to and fro
+// there, and gave 0.3 to 0.4, 0.25 to 0.3 and 0.17 to 0.22, the more the finer the mesh.
+TEST(Rolling, PinOfChordsThatIsHeld) {
+  const std::string held = ", {on: {body: pin, near: [0, 1]}, fix: x}";
+  struct {
+    double radius, friction;
+    std::string supports;
+    double pressure;
+  } const cases[] = {{0.999, 0.0, held, 0.2211}, {1.0, 0.0, held, 0.1989}, {1.0, 0.3, "", 0.1513}};
+  struct {
+    const char* mesh;
+    double size, accuracy;
+  } const meshes[] = {{"kind: polygons, order: 1", 0.08, 0.01},
+                      {"kind: polygons, order: 1", 0.04, 0.005},
+                      {"kind: quadtree, order: 1", 0.06, 0.02},
+                      {"kind: fem, order: 1", 0.04, 0.06}};
+  for (const auto& one : cases)
+    for (const auto& mesh : meshes) {
+      SCOPED_TRACE(fmt::format("{}, {}, radius {}, friction {}", mesh.mesh, mesh.size, one.radius, one.friction));
+      const auto solution = run(pin(mesh.mesh, mesh.size, {}, 0.0, "weight: {on: pin, gravity: [0, -1]}", one.friction,
+                                    one.radius, one.supports));
+      EXPECT_NEAR(largest_pressure(last(solution)), one.pressure, mesh.accuracy * one.pressure);
+    }
+}
+
+// The same of a shaft that is larger than its bore by a thousandth, without friction: p = E* d / (2 R) of Lame's thick
+// ring, everywhere; it was between 0.006 and 0.156.
+TEST(Rolling, PressFitOfChordsThatIsHeld) {
+  for (const double size : {0.2, 0.1, 0.05}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 200, poisson: 0.3}}}}
+bodies:
+  hub:
+    material: steel
+    shape: {{circle: {{centre: [0, 0], radius: 2}}}}
+    holes: {{bore: {{circle: {{centre: [0, 0], radius: 1}}}}}}
+    mesh: {{kind: polygons, order: 1, size: 0.3, refine: [{{on: bore, size: {0}, growth: 0.3}}]}}
+  shaft:
+    material: steel
+    shape: {{circle: {{centre: [0, 0], radius: 1.001}}}}
+    mesh: {{kind: polygons, order: 1, size: 0.3, refine: [{{on: rim, size: {1}, growth: 0.3}}]}}
+supports:
+  - {{on: {{body: hub, near: [-2, 0]}}, fix: [x, y]}}
+  - {{on: {{body: hub, near: [2, 0]}}, fix: y}}
+  - {{on: {{body: shaft, near: [0, 1.001]}}, fix: x}}
+contacts: {{joint: {{between: [hub.bore, shaft.rim], friction: 0}}}}
+)",
+                                          1.3 * size, size));
+    const double exact = 200.0 * 1e-3 * 3.0 / (8.0 * 0.91);  // E' d (b^2 - a^2) / (2 a b^2)
+    for (const analysis::PairResult& pair : contact_of(last(solution)).pairs)
+      EXPECT_NEAR(pair.pressure, exact, (size < 0.1 ? 0.015 : 0.06) * exact) << size;
   }
 }
 

@@ -148,7 +148,8 @@ def described(field, scale, place):
     parts = [field.increment, f"{field.name} ({shape})"]
     if field.largest >= 0:
         signed = bool((field.values[field.seen] < 0).any())
-        at = ",\u00a0".join(f"{place.factor * value:.4g}" for value in field.grid.points[field.largest])
+        rounding = 1e-12 * geometry.extent(field.grid.points)
+        at = ",\u00a0".join(f"{place.factor * value if abs(value) > rounding else 0.0:.4g}" for value in field.grid.points[field.largest])
         if field.dimension == "stress" and abs(field.values[field.largest]) > WITHOUT_BOUND * max(map(abs, field.range)) > 0:
             parts.append(f"grows without bound at ({at})")  # a number would only say how near to it the nearest point is
         else:

@@ -9,7 +9,10 @@ def triangles(grid):
     linear, quads = grid.cells(vtu.TRIANGLE), grid.cells(vtu.QUAD)
     quadratic, serendipity = grid.cells(vtu.QUADRATIC_TRIANGLE), grid.cells(vtu.QUADRATIC_QUAD)
     parts = [linear[:, [0, 1, 2]]]
-    if len(quads):
+    if len(quads):  # along the shorter diagonal: along the longer one, contours of narrow cells are ragged
+        first, second = (np.hypot(*(grid.points[quads[:, k + 2]] - grid.points[quads[:, k]]).T) for k in (0, 1))
+        other = second < first * (1 - 1e-6)
+        quads = np.where(other[:, None], np.roll(quads, -1, axis=1), quads)
         parts += [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]
     if len(quadratic):
         parts += [quadratic[:, corners] for corners in ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5])]
@@ -37,12 +40,24 @@ def distinct_sides(sides):
 
 def nodes_on(sides, first):
     """Numbers of the nodes of a super-element whose outline is in `sides` and whose first point is `first`: its points begin with them,
-    in the order of its boundary. Other points of an outline are those at which a crack or unbounded ground was sampled."""
-    along = set(map(tuple, np.sort(sides, axis=1).tolist()))
+    in the order of its boundary; between two of them there may be one more point. Other points of an outline are those at which a crack or
+    unbounded ground was sampled."""
+    along = {}
+    for one, other in sides.tolist():
+        along.setdefault(one, set()).add(other)
+        along.setdefault(other, set()).add(one)
     last = first
-    while (last, last + 1) in along:
+    while last in along and (last + 1 in along[last] or any(last + 1 in along[point] for point in along[last] if point > last + 1)):
         last += 1
     return np.arange(first, last + 1)
+
+
+def boundary_sides(sides, nodes):
+    """Those of the sides that are boundary elements, or parts of them: from nodes to nodes or to points between two nodes."""
+    is_node = np.isin(sides, nodes)
+    mixed = is_node[:, 0] != is_node[:, 1]
+    points, times = np.unique(sides[mixed][~is_node[mixed]], return_counts=True)
+    return sides[(is_node | np.isin(sides, points[times == 2])).all(axis=1)]
 
 
 def rigid_outlines(grid):

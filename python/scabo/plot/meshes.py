@@ -61,10 +61,11 @@ def mesh_of_fields(results, units, window):
                                                             f"the boundary only; {model['nodes']} nodes, {model['dofs']} degrees of freedom")
     axis = figure.add_subplot()
     bodies = grid.point_data["body"]
-    nodes = np.concatenate([geometry.nodes_on(sides, first) for first in np.flatnonzero(np.diff(bodies, prepend=0))])
-    divided = np.isin(sides, nodes).all(axis=1)
-    style.draw_outline(axis, points, sides[divided])
-    style.draw_outline(axis, points, sides[~divided], colors="0.5", linestyles=(0, (4, 3)))
+    firsts = np.intersect1d(np.flatnonzero(np.diff(bodies, prepend=0)), sides)  # not those of rigid bodies
+    nodes = np.concatenate([geometry.nodes_on(sides, first) for first in firsts] or [np.zeros(0, dtype=int)])
+    divided = geometry.boundary_sides(sides, nodes)
+    style.draw_outline(axis, points, divided)
+    style.draw_outline(axis, points, sides[~np.isin(sides, divided).all(axis=1)], colors="0.5", linestyles=(0, (4, 3)))
     if len(nodes) <= MOST_DOTS:
         axis.plot(*points[nodes].T, ".", color="black", markersize=3.5, markeredgewidth=0)
     finish_mesh(axis, results, place, window, height)

@@ -95,7 +95,7 @@ def add_elements(results, grid, outline, arrays):
         elastic = np.unique(bodies[outline[:, 0]]) if len(outline) else []
         nodes = [geometry.nodes_on(outline, first) for first in starts if bodies[first] in elastic]
         nodes = np.concatenate(nodes) if nodes else np.zeros(0, dtype=int)
-        sides = outline[np.isin(outline, nodes).all(axis=1)]
+        sides = geometry.boundary_sides(outline, nodes)
     else:
         place = places_of_nodes(cells, grid)
         rings = [place[ring] for ring in cells.lists(vtu.POLYGON)]

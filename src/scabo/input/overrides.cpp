@@ -8,6 +8,7 @@
 
 #include "scabo/input/numbers.hpp"
 #include "scabo/input/suggestions.hpp"
+#include "scabo/input/text_file.hpp"
 
 namespace scabo::input {
 

@@ -9,6 +9,7 @@
 #include "scabo/input/overrides.hpp"
 #include "scabo/input/parameters.hpp"
 #include "scabo/input/reading.hpp"
+#include "scabo/input/text_file.hpp"
 
 namespace scabo::input {
 

@@ -102,8 +102,12 @@ class Matching {
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
     partners_ = std::move(matching.partners);
-    const bool weighted = touch_everywhere() && !holds_apart();
+    const bool alike = touch_everywhere(), chords = alike && has_chords(), only_inside = chords && touches();
+    const auto is_end = [](const ContactSide& side, int node) {
+      return !side.closed && (node == 0 || node + 1 == side.size());
+    };
     for (const auto& [i, j] : partners_) {
+      const bool weighted = alike && (!chords || (only_inside && (is_end(a, i) || is_end(b, j))));
       interface_.pairs.push_back({.node_a = a.nodes[i],
                                   .node_b = b.nodes[j],
                                   .point_a = a.points[i],
@@ -122,20 +126,24 @@ class Matching {
     return (edge_a_.arc->centre - edge_b_.arc->centre).norm() <= 1e-6 * radius;
   }
 
-  /// Whether sides on concentric arcs are pressed or held apart by a gap without being free to slide, and one of them
-  /// consists of chords. Normals weighted like the forces of a pressure turn to and fro between chords of different
-  /// lengths l by up to l / (4 R). A gap d along them moves the nodes to and fro by d l / (4 R), and where friction
-  /// holds them there, the stress of that, about E d / (4 R), is as large as the pressure, however short the chords
-  /// are.
-  bool holds_apart() const {
+  /// Whether the sides are arcs, and one of them consists of chords. Normals weighted like the forces of a pressure
+  /// turn to and fro between chords of different lengths l by up to l / (4 R). A gap or a slip d along them moves the
+  /// nodes to and fro by d l / (4 R), and the stress of that, about E d / (4 R), may be as large as the pressure,
+  /// however short the chords are. A uniform pressure along the normals of the arcs differs from that on the chords by
+  /// less, the shorter they are.
+  bool has_chords() const {
     if (!edge_a_.arc || !edge_b_.arc) return false;
-    const double apart = std::abs(edge_a_.arc->radius - edge_b_.arc->radius);
-    const bool gap = contact_.gap != 0.0 || apart > 1e-9 * edge_a_.arc->radius;
     const auto of_chords = [](const ContactSide& side) {
       return std::any_of(side.elements.begin(), side.elements.end(),
                          [](const LineElement& element) { return element.nodes.size() == 2; });
     };
-    return !contact_.slides && gap && (of_chords(*side_a_) || of_chords(*side_b_));
+    return of_chords(*side_a_) || of_chords(*side_b_);
+  }
+
+  /// Whether the sides are not apart, so that a third body may meet them in a point. Normals there that are weighted
+  /// share its forces between the two contacts; with one normal in both, a force could pass around the point.
+  bool touches() const {
+    return contact_.gap == 0.0 && std::abs(edge_a_.arc->radius - edge_b_.arc->radius) <= 1e-9 * edge_a_.arc->radius;
   }
 
   Diagnostic not_matching(const LoneNode& lone) const {

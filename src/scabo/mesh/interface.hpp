@@ -6,7 +6,8 @@
 //
 // with the nodal normals n_A, n_B of contact_side.hpp, which pass on a uniform pressure exactly. Two arcs that are not
 // concentric, or an arc and a straight edge, touch in a narrow zone, and a body that rolls or slides along the other
-// one must not meet the differences of those normals: n_A, n_B are the normals of the undivided edges there. Swapping A
+// one must not meet the differences of those normals: n_A, n_B are the normals of the undivided edges there; and on
+// arcs of which one is divided into chords, elements of order 1, but for the ends of arcs that touch. Swapping A
 // and B gives -n and exactly the same g. The nodes match if x_B - x_A lies along n: |(x_B - x_A) . t| <= 1e-6 element
 // lengths. Where the two sides are apart and not parallel (a disc and a plane with equal divisions), corresponding
 // nodes are not exactly opposite: x_B - x_A may then also have any direction between the normals of the two sides,
@@ -39,17 +40,12 @@ struct Joint {
   const model::Place& b;
   double gap = 0.0;  ///< added to the geometric gap
   const Source& source;
-  bool slides = false;  ///< freely: without friction and everything else that holds it along the interface
   std::array<Vec2, 2> moved{Vec2::Zero(), Vec2::Zero()};  ///< translations of A and B
 
   bool has_moved() const { return !moved[0].isZero(0.0) || !moved[1].isZero(0.0); }
 };
-inline Joint joint_of(const model::Contact& contact) {
-  const bool slides = contact.friction == 0.0 && !contact.backward_friction && contact.friction_along.empty() &&
-                      contact.cohesion == 0.0 && !contact.shear_strength && !contact.bond;
-  return {contact.a, contact.b, contact.gap, contact.source, slides};
-}
-inline Joint joint_of(const model::Tie& tie) { return {tie.a, tie.b, 0.0, tie.source, false}; }
+inline Joint joint_of(const model::Contact& contact) { return {contact.a, contact.b, contact.gap, contact.source}; }
+inline Joint joint_of(const model::Tie& tie) { return {tie.a, tie.b, 0.0, tie.source}; }
 /// All contacts, then all ties.
 std::vector<Joint> joints_of(const model::Model& model, const Placement& placement = {});
 

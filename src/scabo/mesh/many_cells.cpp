@@ -162,12 +162,12 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
   const std::vector<NetLine> net = line_net(body, cracks);
   const auto asked = [&body, &sizes](const Vec2& x) { return wanted_size(body, sizes, x); };
   made.narrow = narrow_places(net, cracks.tips(), asked, body.mesh.size, options);
+  if (made.narrow.cells > options.most) return made;
   Sizing sizing{asked, body.mesh.size, body.mesh.refine.empty() && sizes.empty() && made.narrow.samples.empty()};
   if (!made.narrow.samples.empty()) {
     const auto narrow = std::make_shared<SizeField>(made.narrow.samples, model::mesh_growth);
     sizing.at = [asked, narrow](const Vec2& x) { return std::min(asked(x), narrow->at(x)); };
   }
-  if (made.narrow.cells > options.most) return made;
   made.lines_of_edge.resize(body.outline.edges.size());
   made.lines_of_crack.resize(cracks.paths().size());
   for (const NetLine& of : net)

@@ -61,6 +61,14 @@ class Finder {
     for (int k = 0; k < count; ++k) add(line.edge.at((k + 0.5) / count), radius, radius * turn / count);
   }
 
+  /// Whether a straight line lies wholly on that side of a straight line through `middle` where there is no material,
+  /// so that its distance matters to no part of this one: the other face of a slit, which may be as thin as one likes.
+  bool across_a_gap(const NetLine& line, const NetLine& other, const Vec2& middle, const Vec2& normal) const {
+    if (options_.gaps || line.edge.arc || other.edge.arc) return false;
+    const double start = normal.dot(other.edge.start - middle), end = normal.dot(other.edge.end - middle);
+    return (line.right < 0 && start >= 0.0 && end >= 0.0) || (line.left < 0 && start <= 0.0 && end <= 0.0);
+  }
+
   /// The part of a line from position `from` to position `to`, of the given length.
   void look_along(const NetLine& line, double from, double to, double length) {
     if (found_.cells > options_.most) return;
@@ -74,6 +82,7 @@ class Finder {
       const NetLine& other = lines_[i];
       if (other.start == line.start || other.start == line.end || other.end == line.start || other.end == line.end)
         return;
+      if (across_a_gap(line, other, middle, foot->normal)) return;
       const Vec2 way = geometry::closest_point(other.edge, middle) - middle;
       const double distance = way.norm(), right = foot->normal.dot(way);
       nearest = std::min(nearest, distance);

@@ -17,9 +17,8 @@ namespace {
 /// So many cells of a body may have more points than one ring: the file of its fields is small all the same.
 constexpr std::size_t few_cells = 500;
 
-/// Position of a point of a ring.
-Vec2 on_ring(const mesh::BodyMesh& body, const mesh::Cell& cell, int node, double xi) {
-  const Vec2& x = body.nodes[static_cast<std::size_t>(node)];
+/// Position of a point of a ring whose ray meets the boundary at x.
+Vec2 on_ring(const mesh::Cell& cell, const Vec2& x, double xi) {
   return xi == 1.0 ? x : Vec2(cell.centre + xi * (x - cell.centre));
 }
 
@@ -42,9 +41,11 @@ CellType type_of(element::FiniteElementKind kind) {
 void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSampling& sampling, std::int32_t number) {
   const mesh::Cell& whole = body.cells.front();
   const auto first = static_cast<std::int32_t>(grid.point_count());
-  const auto n = static_cast<std::int32_t>(sampling.nodes.size());
+  const auto n = static_cast<std::int32_t>(sampling.size());
+  const auto node_at = [&](int node) { return body.nodes[static_cast<std::size_t>(node)]; };
   for (const double xi : sampling.levels)
-    for (const int node : sampling.nodes) grid.add_point(on_ring(body, whole, node, xi), number);
+    for (std::size_t point = 0; point < sampling.size(); ++point)
+      grid.add_point(on_ring(whole, sampling.at(point, node_at), xi), number);
   const bool unbounded = sampling.levels.back() > 1.0;
   if (!unbounded)
     for (int c = 0; c <= sampling.centre.back(); ++c) grid.add_point(whole.centre, number);
@@ -121,9 +122,9 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
     const auto rings = static_cast<std::int32_t>(sampling.levels.size());
     for (std::int32_t ring = 1; ring < rings; ++ring)
       for (const int node : sampling.nodes)
-        grid.add_point(
-            on_ring(body, cell, nodes[static_cast<std::size_t>(node)], sampling.levels[static_cast<std::size_t>(ring)]),
-            number);
+        grid.add_point(on_ring(cell, body.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(node)])],
+                               sampling.levels[static_cast<std::size_t>(ring)]),
+                       number);
     const std::int32_t centre = first + of_cell.inner + (rings - 1) * n;
     for (int k = 0; k <= sampling.centre.back(); ++k) grid.add_point(cell.centre, number);
     const auto point = [&](std::int32_t ring, std::int32_t k) {

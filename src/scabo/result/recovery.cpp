@@ -48,8 +48,9 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::St
                                    interior.without_particular(super_element.ring, centre, boundary), interior.loads);
   const std::size_t first = point;
   recover_inside(fields, first, solution, super_element, centre, sampling, field, interior, state.initial_of(body), 0);
-  for (std::size_t i = 0; i < sampling.nodes.size(); ++i)  // exactly, without the field
-    fields.set_displacement(first + i, boundary.segment<2>(place_of(sampling.nodes[i])));
+  for (std::size_t i = 0; i < sampling.size(); ++i)  // exactly, without the field
+    fields.set_displacement(first + i,
+                            sampling.at(i, [&](int node) { return Vec2(boundary.segment<2>(place_of(node))); }));
 }
 
 /// By the map of its super-element, which many cells share. Displacements are relative to the first node: the map then
@@ -150,10 +151,25 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::StaticSolu
   }
 }
 
+/// A body that is one super-element, all of which is here.
+bool is_super_element(const element::SolvedCells& cells, const std::vector<char>& divided, std::size_t body) {
+  return cells.size() == 1 && cells.front() && (divided.empty() || divided[body] == 0);
+}
+
+/// Whether the single super-elements of a model have so few nodes that fine fields of them make small files: at most
+/// 16,000 to 32,000 points.
+bool few_points(const analysis::StaticSolution& solution, const std::vector<char>& divided) {
+  constexpr std::size_t few_nodes = 800;
+  std::size_t nodes = 0;
+  for (std::size_t b = 0; b < solution.cells.size(); ++b)
+    if (is_super_element(solution.cells[b], divided, b)) nodes += solution.mesh.bodies[b].nodes.size();
+  return nodes <= few_nodes;
+}
+
 }  // namespace
 
 Recovery::Recovery(const analysis::StaticSolution& solution, const std::vector<char>& divided) {
-  SamplingLibrary library;
+  SamplingLibrary library(few_points(solution, divided));
   UsesOfCells uses;
   for (const element::SolvedCells& cells : solution.cells)
     for (const auto& cell : cells)
@@ -165,7 +181,7 @@ Recovery::Recovery(const analysis::StaticSolution& solution, const std::vector<c
     grid_.first_point.push_back(grid_.point_count());
     if (solution.model.bodies[b].rigid) {
       bodies_.push_back(add_rigid(grid_, solution.model.bodies[b].outline, number));
-    } else if (cells.size() == 1 && cells.front() && (divided.empty() || divided[b] == 0)) {
+    } else if (is_super_element(cells, divided, b)) {
       SuperElementBody made{library.of_body(*cells.front())};
       add_super_element(grid_, body, *made.sampling, number);
       bodies_.push_back(std::move(made));

@@ -16,16 +16,12 @@
 #include "scabo/analysis/written_results.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/history.hpp"
+#include "scabo/result/old_results.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/recovery.hpp"
 #include "scabo/result/vtu.hpp"
 
 namespace scabo::result {
-
-/// Creates the directory, or removes the results of an earlier run from it. Only files written by Scabo are removed; a
-/// file of another origin in the place of a result is an error, and so is another run that writes there. The directory
-/// is locked for the caller as long as the lock exists. Throws WriteError.
-[[nodiscard]] DirectoryLock prepare_directory(const std::filesystem::path& path);
 
 /// The `status` in summary.json; nothing if it cannot be read.
 std::optional<std::string> status_in(const std::filesystem::path& directory);

@@ -13,6 +13,8 @@ namespace scabo::result {
 namespace {
 
 constexpr int ring_count = 10, inner_rings = 6;
+/// Boundary nodes that are further apart than this part of their distance from the centre get a point between them.
+constexpr double coarse = 0.1;
 
 /// Mean distance of boundary nodes over their mean distance from the centre.
 double relative_spacing(const element::Ring& ring) {
@@ -26,19 +28,20 @@ double relative_spacing(const element::Ring& ring) {
 
 }  // namespace
 
-std::vector<double> ring_levels(const element::Ring& ring) {
-  // Widths w, w g, w g^2 ... of `ring_count` rings add up to 1; g grows with the sum.
-  const double width = std::clamp(relative_spacing(ring), 0.02, 1.0 / ring_count);
+std::vector<double> ring_levels(const element::Ring& ring, bool fine) {
+  // Widths w, w g, w g^2 ... of `count` rings add up to 1; g grows with the sum.
+  const int count = fine ? 2 * ring_count : ring_count;
+  const double width = std::clamp(relative_spacing(ring), 0.02, 1.0 / ring_count) * ring_count / count;
   double low = 1.0, high = 2.0;
   for (int halving = 0; halving < 50; ++halving) {
     const double growth = 0.5 * (low + high);
     double sum = 0.0, next = width;
-    for (int i = 0; i < ring_count; ++i, next *= growth) sum += next;
+    for (int i = 0; i < count; ++i, next *= growth) sum += next;
     (sum < 1.0 ? low : high) = growth;
   }
   std::vector<double> levels;
   double xi = 1.0, next = width;
-  for (int i = 0; i < ring_count; ++i, xi -= next, next *= low) levels.push_back(xi);
+  for (int i = 0; i < count; ++i, xi -= next, next *= low) levels.push_back(xi);
   // Stresses may be unbounded towards the centre of an open super-element: each ring is at half the distance of the
   // previous one.
   if (ring.is_open())
@@ -102,8 +105,14 @@ Vec2 tangent_at(const element::Ring& ring, const mesh::LineElement& element, dou
   return tangent;
 }
 
-/// Where the stress of an end of an element of order 2 is taken from, and its weight there.
+bool aligned(const Vec2& one, const Vec2& other) {
+  constexpr double straight = 1e-6;  // rounding of coordinates; on arcs of three nodes tangents are further apart
+  return (one / one.norm() - other / other.norm()).norm() <= straight;
+}
+
+/// Where the stress of an end of an element is taken from, and its weight there.
 struct EndSample {
+  std::size_t element = 0;
   double eta = 0.0, weight = 1.0;
 };
 
@@ -120,14 +129,82 @@ std::optional<EndSample> end_sample(const element::Ring& ring, std::size_t e, bo
   const double side = at_end ? 1.0 : -1.0;
   const Vec2 mine = tangent_at(ring, element, side), next = tangent_at(ring, other, -side);
   const double lengths = mine.norm() + next.norm();
-  constexpr double straight = 1e-6;  // rounding of coordinates; on arcs of three nodes tangents are further apart
-  if ((mine / mine.norm() - next / next.norm()).norm() > straight) return {};
-  return EndSample{side / std::sqrt(3.0), next.norm() / lengths};
+  if (!aligned(mine, next)) return {};
+  return EndSample{e, side / std::sqrt(3.0), next.norm() / lengths};
+}
+
+/// The element that continues element `e` in a straight line beyond its other end, of the same order and material.
+std::optional<std::size_t> straight_neighbour(const element::Ring& ring, const element::Sectors& sectors, std::size_t e,
+                                              bool before) {
+  const std::size_t count = ring.elements.size(), n = before ? (e + count - 1) % count : (e + 1) % count;
+  const mesh::LineElement &mine = ring.elements[e], &other = ring.elements[n];
+  const bool touch = before ? other.nodes.back() == mine.nodes.front() : other.nodes.front() == mine.nodes.back();
+  if (n == e || !touch || other.nodes.size() != mine.nodes.size() || sectors.material_of(n) != sectors.material_of(e))
+    return {};
+  const double side = before ? -1.0 : 1.0;
+  return aligned(tangent_at(ring, mine, side), tangent_at(ring, other, -side)) ? std::optional(n) : std::nullopt;
+}
+
+/// The same of an element of order 1, whose stress is right in its middle: between elements that continue each other it
+/// is interpolated, and at a corner, whose end has the share 1 / `shared`, extrapolated from the two nearest middles.
+std::vector<EndSample> middle_samples(const element::Ring& ring, const element::Sectors& sectors, std::size_t e,
+                                      bool at_end, int shared) {
+  const double own = tangent_at(ring, ring.elements[e], 0.0).norm();
+  if (const auto next = straight_neighbour(ring, sectors, e, !at_end)) {
+    const double other = tangent_at(ring, ring.elements[*next], 0.0).norm();
+    return {{e, 0.0, other / (own + other)}};
+  }
+  const auto behind = straight_neighbour(ring, sectors, e, at_end);
+  if (!behind) return {};
+  const double beyond = own / (own + tangent_at(ring, ring.elements[*behind], 0.0).norm());
+  return {{e, 0.0, (1.0 + beyond) / shared}, {*behind, 0.0, -beyond / shared}};
+}
+
+RingSampling::Sample sample_of(const element::Ring& ring, std::size_t e, int point, double eta, double weight) {
+  const mesh::LineElement& element = ring.elements[e];
+  const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+  element::StrainMatrices strain = element::strain_matrices(ring, element, basis.values(eta), basis.derivatives(eta));
+  return {point, weight, e, std::move(strain.B1), std::move(strain.B2)};
+}
+
+/// A point in the middle between each two nodes. Its stress is that of the element; on elements of order 2 the parabola
+/// through the values at the three nodes, which are better (`end_sample`). Those of order 1 have none: between values
+/// at their ends there is nothing to add.
+void add_points_between(const element::Ring& ring, RingSampling& sampling) {
+  std::vector<std::vector<RingSampling::Sample>> at_node(sampling.nodes.size());
+  for (const RingSampling::Sample& sample : sampling.samples)
+    at_node[static_cast<std::size_t>(sample.point)].push_back(sample);
+  for (std::size_t e = 0; e < ring.elements.size(); ++e) {
+    const std::vector<int>& nodes = ring.elements[e].nodes;
+    const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(nodes.size()) - 1);
+    if (basis.order() == 1) continue;
+    const std::vector<int> old = sampling.points[e];
+    std::vector<int> points;
+    for (std::size_t i = 0; i + 1 < old.size(); ++i) {
+      const double eta = 0.5 * (basis.points()[i] + basis.points()[i + 1]);
+      const auto point = static_cast<int>(sampling.size());
+      points.insert(points.end(), {old[i], point});
+      sampling.between.push_back({nodes, basis.values(eta)});
+      sampling.sectors.push_back(e);
+      if (basis.order() > 2) {
+        sampling.samples.push_back(sample_of(ring, e, point, eta, 1.0));
+        continue;
+      }
+      for (std::size_t k = 0; k < old.size(); ++k)
+        for (RingSampling::Sample sample : at_node[static_cast<std::size_t>(old[k])]) {
+          sample.point = point;
+          sample.weight *= sampling.between.back().values[static_cast<Eigen::Index>(k)];
+          sampling.samples.push_back(std::move(sample));
+        }
+    }
+    points.push_back(old.back());
+    sampling.points[e] = std::move(points);
+  }
 }
 
 }  // namespace
 
-RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded) {
+RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& sectors, bool unbounded, bool fine) {
   RingSampling sampling;
   share_points(ring, sectors, sampling);
   std::vector<int> elements_at(sampling.nodes.size(), 0);
@@ -136,19 +213,21 @@ RingSampling ring_sampling(const element::Ring& ring, const element::Sectors& se
   for (std::size_t e = 0; e < ring.elements.size(); ++e) {
     const mesh::LineElement& element = ring.elements[e];
     const int order = static_cast<int>(element.nodes.size()) - 1;
-    const geometry::LineBasis& basis = geometry::LineBasis::of_order(order);
     const std::vector<double> lobatto = geometry::lobatto_points(order);
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       const int point = sampling.points[e][i], shared = elements_at[static_cast<std::size_t>(point)];
       const bool between = shared == 2 && (i == 0 || i + 1 == element.nodes.size());
-      const EndSample at = (between ? end_sample(ring, e, i > 0) : std::nullopt)
-                               .value_or(EndSample{lobatto[i], 1.0 / static_cast<double>(shared)});
-      element::StrainMatrices strain =
-          element::strain_matrices(ring, element, basis.values(at.eta), basis.derivatives(at.eta));
-      sampling.samples.push_back({point, at.weight, e, std::move(strain.B1), std::move(strain.B2)});
+      std::vector<EndSample> from;
+      if (fine && order == 1) from = middle_samples(ring, sectors, e, i > 0, shared);
+      if (from.empty())
+        from.push_back((between ? end_sample(ring, e, i > 0) : std::nullopt)
+                           .value_or(EndSample{e, lobatto[i], 1.0 / static_cast<double>(shared)}));
+      for (const EndSample& at : from)
+        sampling.samples.push_back(sample_of(ring, at.element, point, at.eta, at.weight));
     }
   }
-  sampling.levels = unbounded ? outer_ring_levels() : ring_levels(ring);
+  if (fine && relative_spacing(ring) > coarse) add_points_between(ring, sampling);
+  sampling.levels = unbounded ? outer_ring_levels() : ring_levels(ring, fine);
   return sampling;
 }
 
@@ -156,7 +235,7 @@ std::shared_ptr<const RingSampling> SamplingLibrary::of_body(const element::Solv
   std::shared_ptr<const RingSampling>& sampling = known_[&super_element];
   if (!sampling)
     sampling = std::make_shared<const RingSampling>(
-        ring_sampling(super_element.ring, super_element.sectors, super_element.domain.unbounded));
+        ring_sampling(super_element.ring, super_element.sectors, super_element.domain.unbounded, fine_));
   return sampling;
 }
 

@@ -7,11 +7,11 @@ namespace scabo::result {
 Eigen::Matrix3Xd ring_stresses(const element::SolvedSuperElement& super_element, const RingSampling& sampling,
                                const element::RadialField::Values& values, const Vec2& centre, double xi,
                                const element::InteriorLoads& interior) {
-  Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(sampling.nodes.size()));
+  Eigen::Matrix3Xd stresses = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(sampling.size()));
   for (const RingSampling::Sample& sample : sampling.samples) {
     const auto point = static_cast<std::size_t>(sample.point);
     const std::vector<int>& nodes = super_element.ring.elements[sample.element].nodes;
-    const Vec2 x = centre + xi * super_element.ring.node(sampling.nodes[point]);
+    const Vec2 x = centre + xi * sampling.at(point, [&](int node) { return super_element.ring.node(node); });
     element::Vec3 strain = interior.particular_strain(x) -
                            super_element.sectors.unit_strain_of(sample.element) * interior.temperature_at(x);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -31,9 +31,10 @@ void values_inside(const element::SolvedSuperElement& super_element, const Vec2&
     const double xi = sampling.levels[level];
     const element::RadialField::Values values = field.at(xi);
     const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, xi, interior);
-    for (std::size_t i = 0; i < sampling.nodes.size(); ++i) {
-      const Vec2 x = xi * super_element.ring.node(sampling.nodes[i]);
-      set(Vec2(values.u.segment<2>(place_of(sampling.nodes[i])) + interior.particular_displacement(centre + x)),
+    for (std::size_t i = 0; i < sampling.size(); ++i) {
+      const Vec2 x = xi * sampling.at(i, [&](int node) { return super_element.ring.node(node); });
+      const Vec2 u = sampling.at(i, [&](int node) { return Vec2(values.u.segment<2>(place_of(node))); });
+      set(Vec2(u + interior.particular_displacement(centre + x)),
           element::Vec3(stresses.col(static_cast<Eigen::Index>(i))),
           super_element.sectors.material_of(sampling.sectors[i]), x);
     }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "scabo/input/text_file.hpp"
 #include "unit/input/models.hpp"
 
 namespace scabo::input {

@@ -1,10 +1,15 @@
 // Cells in narrow places, at crack tips that are close to each other, and beside small holes.
+#include "scabo/mesh/narrow_places.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "models.hpp"
+#include "scabo/mesh/crack_net.hpp"
+#include "scabo/mesh/line_net.hpp"
 #include "scabo/mesh/many_cells.hpp"
 
 namespace scabo::mesh {
@@ -118,6 +123,28 @@ TEST(NarrowPlaces, ATooNarrowBodyIsRefusedWithItsWidth) {
   const Diagnostic* wrong = std::get_if<Diagnostic>(&made);
   ASSERT_NE(wrong, nullptr);
   EXPECT_NE(wrong->message.find("body 'b' is only 1e-06 wide near (3"), std::string::npos) << wrong->message;
+}
+
+// The faces of a slit have no material between them: however thin it is, they are not looked at piece by piece, and ask
+// for no small cells. A strip of material that is as thin does.
+TEST(NarrowPlaces, FacesOfASlitAreNotDividedFromEachOther) {
+  const auto seen = [](double width, bool gaps) {
+    const model::Body body = body_of(
+        test::polygon({{0, 0}, {1, 0}, {1, 1}, {0.5 + width, 1}, {0.5 + width, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}},
+                      {"bottom", "right", "top", "face", "end", "other_face", "other_top", "left"}),
+        Kind::polygons, 0.1);
+    int looks = 0;
+    const CrackNet none(body);
+    const NarrowPlaces places = narrow_places(line_net(body, none), {}, [&looks](const Vec2&) { return ++looks, 0.1; },
+                                              0.1, {.gaps = gaps, .most = 1e4});
+    return std::pair(looks, places.width);
+  };
+  for (const double width : {1e-2, 1e-4, 1e-7}) {
+    EXPECT_LT(seen(width, false).first, 200) << width;
+    EXPECT_EQ(seen(width, false).second, 0.0) << width;
+    EXPECT_NEAR(seen(width, true).second, width, 1e-3 * width);
+  }
+  EXPECT_GT(seen(1e-7, true).first, 2000);
 }
 
 TEST(NarrowPlaces, AWideBodyIsDividedAsAsked) {

@@ -204,6 +204,78 @@ TEST(Recovery, StressAlongQuadraticElementsDoesNotZigzag) {
   }
 }
 
+// Few points of a model are sampled twice as finely: where drawing between the points of the usual rings leaves kinks
+// of a quarter of a ring's curvature, a sixteenth is left.
+TEST(Recovery, FineRingsHalveTheUsualOnes) {
+  const mesh::Mesh mesh = mesh::make_mesh(model_of({elastic("body", pentagon(), 2.0, 1)}, model::Plane::stress));
+  const element::Ring ring = element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes);
+  const std::vector<double> usual = ring_levels(ring), fine = ring_levels(ring, true);
+  ASSERT_EQ(fine.size(), 2 * usual.size());
+  for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_NEAR(fine[2 * i], usual[i], 1e-9) << i;
+}
+
+// Between two nodes of a coarse boundary there is one more point, whose stress follows the displacements exactly where
+// these are polynomials of the elements' order. Elements of order 1 have none.
+TEST(Recovery, CoarseBoundariesHavePointsBetweenNodes) {
+  for (const int order : {1, 2, 3, 5}) {
+    const model::Model model = model_of({elastic("body", pentagon(), 2.0, order)}, model::Plane::stress);
+    const mesh::Mesh mesh = mesh::make_mesh(model);
+    const element::Ring ring = element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes);
+    const RingSampling sampling = ring_sampling(ring, element::sectors_of(model, mesh.bodies[0].cells[0]), false, true);
+    ASSERT_EQ(sampling.between.size(), order == 1 ? 0 : ring.nodes.size());
+    for (std::size_t e = 0; e < sampling.points.size(); ++e)
+      for (std::size_t i = 0; i < sampling.points[e].size(); ++i) {
+        const auto point = static_cast<std::size_t>(sampling.points[e][i]);
+        EXPECT_EQ(point >= sampling.nodes.size(), order > 1 && i % 2 == 1);
+        if (i == 0) continue;
+        const auto place = [&](int p) {
+          return sampling.at(static_cast<std::size_t>(p), [&](int node) { return ring.node(node); });
+        };
+        const Vec2 first = place(sampling.points[e].front()), last = place(sampling.points[e].back());
+        EXPECT_GT((place(sampling.points[e][i]) - place(sampling.points[e][i - 1])).dot(last - first), 0.0);
+        EXPECT_NEAR(cross(place(sampling.points[e][i]) - first, last - first), 0.0, 1e-12);
+      }
+    std::vector<double> weight(sampling.size(), 0.0);
+    for (const RingSampling::Sample& sample : sampling.samples)
+      weight[static_cast<std::size_t>(sample.point)] += sample.weight;
+    for (const double sum : weight) EXPECT_NEAR(sum, 1.0, 1e-14);
+  }
+}
+
+// Strain along a side of elements of order 1 whose displacement is x^2: 2 x, constant in each element and right in its
+// middle. Interpolated to nodes and extrapolated to corners it is right there too; the mean of the two sides of a
+// corner would be wrong by the length of an element.
+TEST(Recovery, StressOfLinearElementsIsRightAtCornersToo) {
+  const model::Outline block =
+      polygon({{0.0, 0.0}, {0.6, 0.0}, {2.0, 0.0}, {2.0, 1.4}, {0.0, 1.4}}, {"a", "b", "c", "d", "e"});
+  const model::Model model = model_of({elastic("body", block, 0.3, 1)}, model::Plane::stress);
+  const mesh::Mesh mesh = mesh::make_mesh(model);
+  const element::Ring ring = element::ring_of(mesh.bodies[0].cells[0], mesh.bodies[0].nodes);
+  const Vec2 centre = mesh.bodies[0].cells[0].centre;
+  const RingSampling sampling = ring_sampling(ring, element::sectors_of(model, mesh.bodies[0].cells[0]), false, true);
+  std::vector<double> strain(sampling.size(), 0.0), weight(sampling.size(), 0.0);
+  for (const RingSampling::Sample& sample : sampling.samples) {
+    const auto point = static_cast<std::size_t>(sample.point);
+    const std::vector<int>& nodes = ring.elements[sample.element].nodes;
+    const double along = ring.node(nodes.back()).x() - ring.node(nodes.front()).x();
+    if (std::abs(along) < 1e-12) continue;  // of the upright side at a corner
+    weight[point] += sample.weight;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      strain[point] += sample.weight * sample.B2(0, 2 * static_cast<Eigen::Index>(i)) *
+                       std::pow(centre.x() + ring.node(nodes[i]).x(), 2.0);
+  }
+  int corners = 0;
+  for (std::size_t point = 0; point < strain.size(); ++point) {
+    const Vec2 x = centre + ring.node(sampling.nodes[point]);
+    if (std::abs(x.y()) > 1e-12) continue;
+    const bool corner = x.x() < 1e-9 || x.x() > 2.0 - 1e-9;
+    corners += corner;
+    EXPECT_NEAR(weight[point], corner ? 0.5 : 1.0, 1e-14);
+    EXPECT_NEAR(strain[point] / weight[point], 2.0 * x.x(), 1e-12) << x.x();
+  }
+  EXPECT_EQ(corners, 2);
+}
+
 // Rings of a cell are as wide as its boundary nodes are apart, at the boundary; of one with few nodes, and in a body of
 // many cells, there is one ring half way.
 TEST(Recovery, LargeCellsHaveMoreRings) {

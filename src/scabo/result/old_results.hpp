@@ -1,0 +1,25 @@
+// Results of an earlier run in the directory of a new one: which files are results, and their removal.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "scabo/result/files.hpp"
+
+namespace scabo::result {
+
+inline constexpr const char* problems_name = "problems";
+inline constexpr const char* cells_name = "cells.vtu";
+inline constexpr const char* mechanism_name = "mechanism.vtu";
+
+/// `fields_0001.vtu`, `contact_0001.vtu` and the like; also `fields_0001.pvtu` and its parts, `fields_0001_0.vtu` ...;
+/// and what a kill left of one that was not yet complete, `fields_0001.vtu.part`.
+bool is_vtu_name(const std::string& name, std::string_view begin);
+
+/// Creates the directory, or removes the results of an earlier run from it. Only files written by Scabo are removed; a
+/// file of another origin in the place of a result is an error, and so is another run that writes there. The directory
+/// is locked for the caller as long as the lock exists. Throws WriteError.
+[[nodiscard]] DirectoryLock prepare_directory(const std::filesystem::path& path);
+
+}  // namespace scabo::result
