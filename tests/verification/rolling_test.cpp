@@ -53,7 +53,7 @@ struct Hertz {
   const char* mesh;
   double size = 0.03;
   double radius = 8.0;  // of the lower disc; the upper one has 8
-  Drawing drawing;
+  Drawing drawing = {};
   bool swapped = false;
   double young = 200.0;
   double friction = 0.0;
@@ -355,9 +355,6 @@ TEST(Rolling, PinThatALoadTurnsIsAMechanism) {
 
 /// A body on two feet, in bowls of radius R about centres 2 apart, pressed by 1 and pushed aside by `push`.
 std::string on_two_feet(const char* mesh, double R, double push) {
-  const auto bowl = [&](double x, double half) {
-    return fmt::format("[{}, {}]", x, R - std::sqrt(R * R - half * half));
-  };
   const auto foot = [&](const char* name, double x) {
     return fmt::format(R"(
   {0}:

@@ -48,8 +48,8 @@ struct PathOptions {
   int most = 0;       ///< changes of state in all; 0: 100, and four for each pair
   int patience = 0;   ///< changes without a smaller t after which the path has turned back; 0: an eighth of `most`
   int leap = 0;       ///< Newton iterations of a leap; 0: no leaps
-  Deadline deadline;
-  std::function<void(const Vector& p, const Vector& a)> on_factorisation;  ///< may be empty
+  Deadline deadline = {};
+  std::function<void(const Vector& p, const Vector& a)> on_factorisation = {};  ///< may be empty
 };
 
 struct PathEnd {

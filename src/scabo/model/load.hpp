@@ -66,8 +66,8 @@ bool is_linear_over(const TemperatureTable& table, const geometry::Outline& outl
 
 /// Change of temperature of a body, absolute coordinates.
 struct Temperature {
-  Linear change;                          ///< without a table
-  std::optional<TemperatureTable> table;  ///< instead
+  Linear change;                               ///< without a table
+  std::optional<TemperatureTable> table = {};  ///< instead
 };
 
 /// A traction or pressure on an edge: linear between the points of a table, zero before the first and after the last.

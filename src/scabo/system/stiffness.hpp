@@ -32,10 +32,10 @@ class DividedStiffness;  // ranks.hpp
 struct Stiffness {
   std::shared_ptr<const Matrix> dense;
   linalg::SparseMatrix sparse;
-  std::shared_ptr<const DividedStiffness> divided;
+  std::shared_ptr<const DividedStiffness> divided = {};
   double rounding = std::numeric_limits<double>::epsilon();  ///< relative error of its entries
   bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
-  Springs springs;
+  Springs springs = {};
 
   Eigen::Index size() const;
   Vector times(const Vector& u) const;
