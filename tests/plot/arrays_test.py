@@ -387,9 +387,27 @@ class Curves(WithResults):
 
 
 class NoOverlap(WithResults):
+    def map_of_a_tower(self, upright):
+        """Pairs of five contacts above or beside each other, with a peak of pressure, which the text names."""
+        line, along, lines = contacts.lines_of(self.results, 2, ["bend"])[0], np.linspace(0, 1, 9), []
+        self.results.last_fields = lambda: None
+        for k in range(5):
+            values = {key: np.where(line.distance == 0, 5e7, 1.234e6) for key in line.values}
+            x, y = (0.25 * along, np.full(9, 0.5 * k)) if upright else (along + k, np.full(9, 0.5 * k))
+            lines.append(dataclasses.replace(line, x=x, y=y, distance=along, values=values))
+        with style.plt.rc_context(style.SETTINGS):
+            return contacts.contact_map(self.results, 2, lines, plot.Units("m", "N"), "pressure")
+
+    def slender_map(self):
+        grid = self.results.fields(2)
+        slender = plot.Results(self.directory)
+        slender.fields = lambda number: dataclasses.replace(grid, points=grid.points * [0.02, 1.0])
+        return plot.stress(slender, units=plot.Units("m", "N"))
+
     def test_texts_of_a_picture_do_not_overlap(self):
         self.results.title = "A WIDE Title OF MANY Words, " * 12
-        for figure in (plot.stress(self.results), plot.contact(self.results), plot.history(self.results), plot.convergence(self.results)):
+        for figure in (plot.stress(self.results), plot.contact(self.results), plot.history(self.results), plot.convergence(self.results),
+                       self.slender_map(), self.map_of_a_tower(True), self.map_of_a_tower(False)):
             with warnings.catch_warnings():
                 warnings.simplefilter("error")  # a layout that does not fit
                 figure.canvas.draw()

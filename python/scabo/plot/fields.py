@@ -187,4 +187,4 @@ def finish_map(axis, place, window, height):
     axis.autoscale_view()
     if window is not None:
         axis.set(xlim=place.factor * np.array(window[:2]), ylim=place.factor * np.array(window[2:]))
-    style.few_ticks(axis, 7, max(3, min(7, int(2 * height))))
+    style.map_ticks(axis, height)
