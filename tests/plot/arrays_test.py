@@ -338,6 +338,17 @@ class Curves(WithResults):
         np.testing.assert_allclose(bend.y, [-30, -60])
         np.testing.assert_allclose(seat.x, [-0.001, -0.002])
 
+    def test_rounding_is_neither_slip_nor_a_reaction(self):
+        entries = self.results.summary["increments"]
+        for entry in entries[:2]:
+            entry["reactions"] = {"ground": [1e-9, -5e-8]}  # beside contact forces of 200
+        self.assertEqual(curves.reactions(self.results).curves, [])
+        self.assertIsNotNone(curves.hysteresis(self.results))
+        table = self.results.table("contact.csv")
+        table["slip"][:] = 1e-17
+        self.assertIsNone(curves.hysteresis(self.results))
+        self.assertEqual(len([axis for axis in plot.history(self.results).axes if axis.get_visible()]), 4)
+
     def test_load_against_the_largest_displacement(self):
         panel = curves.load_displacement(self.results)
         self.assertEqual([curve.name for curve in panel.curves], ["push"], "the factor that changes")
