@@ -213,6 +213,15 @@ class Fields(WithResults):
         for part in bands:
             np.testing.assert_array_equal(part.get_edgecolor(), part.get_facecolor())
 
+    def test_no_arrow_for_what_rounding_leaves_beyond_the_colours(self):
+        levels = np.array([0.0, 0.5, 1.0])
+        values = fields.within_rounding(np.array([-1e-9, 0.3, 1.0 + 1e-7]), levels)
+        np.testing.assert_array_equal(values, [0.0, 0.3, 1.0])
+        self.assertEqual(fields.ends_of(values, levels), "neither")
+        beyond = np.array([-0.1, 0.3, 1.1, np.nan])
+        np.testing.assert_array_equal(fields.within_rounding(beyond, levels), beyond)
+        self.assertEqual(fields.ends_of(beyond, levels), "both")
+
     def test_picture(self):
         figure = plot.stress(self.results, component="xx")
         axis, bar = figure.axes
