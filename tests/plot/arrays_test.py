@@ -395,6 +395,11 @@ class Curves(WithResults):
         curves.draw_attempt(axis, attempt, 1)
         drawn = [list(line.get_xdata()) for line in axis.lines if line.get_linestyle() == "-"]
         self.assertEqual(drawn, [[0, 1, 2], [2, 3, 3]], "no line from the solution of one problem to the start of the next")
+        weaker = dataclasses.replace(attempt, coarse=np.zeros(6, dtype=bool))  # friction that falls with slip: another round
+        axis = style.plt.figure().subplots()
+        curves.draw_attempt(axis, weaker, 1)
+        drawn = [list(line.get_xdata()) for line in axis.lines if line.get_linestyle() == "-"]
+        self.assertEqual(drawn, [[0, 1, 2], [2, 3, 3]])
 
     def test_a_name_that_begins_with_an_underscore_is_in_the_legend(self):
         figure = plot.history(self.results, "hysteresis")

@@ -347,8 +347,10 @@ def draw_attempt(axis, attempt, count):
     residuals = np.where(np.isfinite(attempt.residuals), np.maximum(attempt.residuals, LEAST), np.nan)
     colour = colour_of(attempt.number, count) if attempt.accepted else style.RED
     dashes = "-" if attempt.accepted else "--"
-    # A number again after a problem with fewer pairs: the start of the next one, whose residual is another one.
-    starts = np.flatnonzero((np.diff(attempt.iterations) <= 0) & attempt.coarse[:-1]) + 1
+    # A number again is the start of another problem, whose residual is another one: after one with fewer pairs, or, with a larger
+    # residual, of the next round of laws that depend on history.
+    anew = attempt.coarse[:-1] | (residuals[1:] > residuals[:-1])
+    starts = np.flatnonzero((np.diff(attempt.iterations) <= 0) & anew) + 1
     for rows in np.split(np.arange(len(residuals)), starts):
         axis.plot(attempt.iterations[rows], residuals[rows], color=colour, linestyle=dashes, linewidth=0.9)
     mark = mark_of(attempt.number, count) if attempt.accepted else "x"
