@@ -28,6 +28,16 @@ py::object scalar(const Node& node) {
   return py::float_(std::get<double>(number));
 }
 
+/// Text of Python as UTF-8; a lone surrogate, as in a file name that is not UTF-8, has none.
+std::string utf8_of(py::handle text, const std::string& path) {
+  Py_ssize_t size = 0;
+  const char* const data = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (data) return {data, static_cast<std::size_t>(size)};
+  PyErr_Clear();
+  throw py::value_error(fmt::format("{}: the text {} cannot be written in UTF-8", path.empty() ? "the model" : path,
+                                    py::reinterpret_steal<py::str>(PyObject_ASCII(text.ptr())).cast<std::string>()));
+}
+
 class TreeMaker {
  public:
   explicit TreeMaker(const std::string& file) : file_(file) {}
@@ -66,7 +76,7 @@ class TreeMaker {
   }
 
   static std::string key_of(py::handle key, const std::string& path) {
-    if (py::isinstance<py::str>(key)) return key.cast<std::string>();
+    if (py::isinstance<py::str>(key)) return utf8_of(key, path);
     if (key.is(py::bool_(true))) return "true";  // `on` as read by a reader of YAML 1.1
     if (py::isinstance<py::int_>(key) || py::isinstance<py::float_>(key)) return py::repr(key).cast<std::string>();
     throw py::type_error(fmt::format("{}: a key must be text or a number, not {}", path.empty() ? "the model" : path,
@@ -120,10 +130,10 @@ class TreeMaker {
     } else if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) {
       made->text = py::repr(value).cast<std::string>();  // the shortest text that reads back exactly
     } else if (py::isinstance<py::str>(value)) {
-      made->text = value.cast<std::string>();
+      made->text = utf8_of(value, path);
       made->quoted = true;
     } else if (py::hasattr(value, "__fspath__")) {
-      made->text = py::str(value.attr("__fspath__")()).cast<std::string>();
+      made->text = utf8_of(py::str(value.attr("__fspath__")()), path);
       made->quoted = true;
     } else {
       throw py::type_error(fmt::format("{}: must be a number, text, true or false, a list or a dictionary, not {}",

@@ -21,6 +21,8 @@ def boundary_nodes(vertices: ArrayLike, size: float, order: int = 2) -> np.ndarr
     corners = np.asarray(vertices, dtype=float)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
         raise ValueError("vertices must be three or more points, as in [[x, y], ...]")
+    if not np.isfinite(corners).all():
+        raise ValueError("the coordinates of all vertices must be finite")
     if not size > 0.0:
         raise ValueError(f"size must be more than 0, not {size!r}")
     local = 0.5 * (1.0 + np.array(_core.lobatto_points(_order(order))))[:-1]

@@ -229,6 +229,15 @@ class Fields(WithResults):
         for part in bands:
             np.testing.assert_array_equal(part.get_edgecolor(), part.get_facecolor())
 
+    def test_no_arrow_for_what_rounding_leaves_beyond_the_colours(self):
+        levels = np.array([0.0, 0.5, 1.0])
+        values = fields.within_rounding(np.array([-1e-9, 0.3, 1.0 + 1e-7]), levels)
+        np.testing.assert_array_equal(values, [0.0, 0.3, 1.0])
+        self.assertEqual(fields.ends_of(values, levels), "neither")
+        beyond = np.array([-0.1, 0.3, 1.1, np.nan])
+        np.testing.assert_array_equal(fields.within_rounding(beyond, levels), beyond)
+        self.assertEqual(fields.ends_of(beyond, levels), "both")
+
     def test_picture(self):
         figure = plot.stress(self.results, component="xx")
         axis, bar = figure.axes
@@ -354,6 +363,17 @@ class Curves(WithResults):
         np.testing.assert_allclose(bend.y, [-30, -60])
         np.testing.assert_allclose(seat.x, [-0.001, -0.002])
 
+    def test_rounding_is_neither_slip_nor_a_reaction(self):
+        entries = self.results.summary["increments"]
+        for entry in entries[:2]:
+            entry["reactions"] = {"ground": [1e-9, -5e-8]}  # beside contact forces of 200
+        self.assertEqual(curves.reactions(self.results).curves, [])
+        self.assertIsNotNone(curves.hysteresis(self.results))
+        table = self.results.table("contact.csv")
+        table["slip"][:] = 1e-17
+        self.assertIsNone(curves.hysteresis(self.results))
+        self.assertEqual(len([axis for axis in plot.history(self.results).axes if axis.get_visible()]), 4)
+
     def test_load_against_the_largest_displacement(self):
         panel = curves.load_displacement(self.results)
         self.assertEqual([curve.name for curve in panel.curves], ["push"], "the factor that changes")
@@ -391,6 +411,11 @@ class Curves(WithResults):
         curves.draw_attempt(axis, attempt, 1)
         drawn = [list(line.get_xdata()) for line in axis.lines if line.get_linestyle() == "-"]
         self.assertEqual(drawn, [[0, 1, 2], [2, 3, 3]], "no line from the solution of one problem to the start of the next")
+        weaker = dataclasses.replace(attempt, coarse=np.zeros(6, dtype=bool))  # friction that falls with slip: another round
+        axis = style.plt.figure().subplots()
+        curves.draw_attempt(axis, weaker, 1)
+        drawn = [list(line.get_xdata()) for line in axis.lines if line.get_linestyle() == "-"]
+        self.assertEqual(drawn, [[0, 1, 2], [2, 3, 3]])
 
     def test_a_name_that_begins_with_an_underscore_is_in_the_legend(self):
         figure = plot.history(self.results, "hysteresis")
@@ -403,9 +428,27 @@ class Curves(WithResults):
 
 
 class NoOverlap(WithResults):
+    def map_of_a_tower(self, upright):
+        """Pairs of five contacts above or beside each other, with a peak of pressure, which the text names."""
+        line, along, lines = contacts.lines_of(self.results, 2, ["bend"])[0], np.linspace(0, 1, 9), []
+        self.results.last_fields = lambda: None
+        for k in range(5):
+            values = {key: np.where(line.distance == 0, 5e7, 1.234e6) for key in line.values}
+            x, y = (0.25 * along, np.full(9, 0.5 * k)) if upright else (along + k, np.full(9, 0.5 * k))
+            lines.append(dataclasses.replace(line, x=x, y=y, distance=along, values=values))
+        with style.plt.rc_context(style.SETTINGS):
+            return contacts.contact_map(self.results, 2, lines, plot.Units("m", "N"), "pressure")
+
+    def slender_map(self):
+        grid = self.results.fields(2)
+        slender = plot.Results(self.directory)
+        slender.fields = lambda number: dataclasses.replace(grid, points=grid.points * [0.02, 1.0])
+        return plot.stress(slender, units=plot.Units("m", "N"))
+
     def test_texts_of_a_picture_do_not_overlap(self):
         self.results.title = "A WIDE Title OF MANY Words, " * 12
-        for figure in (plot.stress(self.results), plot.contact(self.results), plot.history(self.results), plot.convergence(self.results)):
+        for figure in (plot.stress(self.results), plot.contact(self.results), plot.history(self.results), plot.convergence(self.results),
+                       self.slender_map(), self.map_of_a_tower(True), self.map_of_a_tower(False)):
             with warnings.catch_warnings():
                 warnings.simplefilter("error")  # a layout that does not fit
                 figure.canvas.draw()

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -114,6 +115,14 @@ class Messages(unittest.TestCase):
     def test_a_place_that_cannot_be_written(self):
         self.refused("cannot write .*: No such file or directory", self.directory, "--what", "mesh", "-o", self.folder / "nowhere" / "a.png",
                      status=3)
+
+    def test_a_name_that_utf_8_cannot_express(self):
+        os.rename(os.fsencode(self.directory), os.path.join(os.fsencode(self.folder), b"b\xf6se.results"))
+        run = subprocess.run([sys.executable, made_up.ROOT / "python" / "scabo" / "plot", os.path.join(os.fsencode(self.folder), b"b\xf6se.results")],
+                             capture_output=True, env={**os.environ, "PYTHONIOENCODING": "utf-8:strict"})
+        self.assertEqual((run.returncode, run.stderr), (0, b""))
+        self.assertEqual([os.path.basename(line) for line in run.stdout.splitlines()],
+                         [b"b\xf6se.%s.png" % kind for kind in (b"stress", b"contact", b"convergence", b"mesh", b"history")])
 
     def test_what_is_missing_is_left_out_of_all(self):
         for name in ("contact.csv", "convergence.csv"):

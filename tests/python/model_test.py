@@ -5,6 +5,7 @@
 import ast
 import copy
 import json
+import os
 import pathlib
 import pickle
 import re
@@ -193,6 +194,15 @@ class Dictionaries(InTemporaryDirectory):
             model["contacts"]["base"]["friction"] = value
             with self.assertRaisesRegex(TypeError, re.escape(path)):
                 model.check()
+        for text in ("wrong \udcff", pathlib.Path(os.fsdecode(b"wrong \xff"))):  # a name of a file that is not UTF-8
+            model = scabo.Model(block())
+            model["title"] = text
+            with self.assertRaisesRegex(ValueError, r"^title: the text 'wrong \\udcff' cannot be written in UTF-8$"):
+                model.check()
+        model = scabo.Model(block())
+        model["materials"]["\udcff"] = {}
+        with self.assertRaisesRegex(ValueError, r"^materials: the text '\\udcff' cannot"):
+            model.check()
         for value in (float("nan"), float("inf"), 1e200, None):
             model = scabo.Model(block())
             model["loads"]["push"]["traction"] = [value, 0.0]

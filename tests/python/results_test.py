@@ -179,6 +179,8 @@ class Points(InTemporaryDirectory):
             result.displacement([[3.0, 1.0]], body="upper")
         with self.assertRaisesRegex(ValueError, "not finite"):
             result.displacement([[np.nan, 1.0]], outside="nan")
+        with self.assertRaisesRegex(ValueError, r"\(1e\+300, 0\) lies outside every body: move the point"):
+            result.displacement([[1e300, 0.0]])  # the square of its distance is infinite
         with self.assertRaisesRegex(ValueError, "outside must be"):
             result.displacement([[3.0, 1.0]], outside="zero")
         for wrong in ([1.0, 2.0], [[1.0, 2.0, 3.0]], 5.0):

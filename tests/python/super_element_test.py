@@ -100,6 +100,8 @@ class Closed(unittest.TestCase):
                       dict(vertices=SQUARE, size=1.0, order=0)):
             with self.assertRaises(ValueError):
                 scabo.boundary_nodes(**wrong)
+        with self.assertRaisesRegex(ValueError, "coordinates of all vertices must be finite"):
+            scabo.boundary_nodes([[0, 0], [1, 0], [1, np.nan]], 0.5)
 
 
 class NumPy(unittest.TestCase):

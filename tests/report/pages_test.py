@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import threading
@@ -109,6 +110,16 @@ class Pages(unittest.TestCase):
         self.assertEqual(text.count("</script>"), len(self.arrays(text)) + 1)
         self.assertEqual(self.content(text)["title"], title.replace("\ud800", "?"))
         self.assertEqual(self.content(text)["warnings"][0], "</script><!--")
+
+    def test_a_name_that_utf_8_cannot_express(self):
+        self.change_summary(title="")  # the title is then the name of the directory
+        results = self.results.rename(self.directory / os.fsdecode(b"b\xf6se.results"))
+        run = subprocess.run([sys.executable, os.path.join(FOLDER.name, "scabo_report"), results], capture_output=True,
+                             env={**os.environ, "PYTHONIOENCODING": "utf-8:strict"})
+        self.assertEqual((run.returncode, run.stderr), (0, b""))
+        self.assertTrue(run.stdout.endswith(b"b\xf6se.report.html\n"), run.stdout)
+        text = (self.directory / os.fsdecode(b"b\xf6se.report.html")).read_text(encoding="utf-8")
+        self.assertTrue(text.startswith("<title>b?se.results</title>"), text[:40])
 
     def test_choice_of_increments(self):
         self.assertEqual(choice.in_order_of_importance(1, []), [1])

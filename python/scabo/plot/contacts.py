@@ -165,7 +165,11 @@ def contact_map(results, number, lines, units, component):
         low, high = np.minimum(low, fields.points.min(axis=0)), np.maximum(high, fields.points.max(axis=0))
     upright = high[1] - low[1] > high[0] - low[0]
     width, height = style.map_size(low, high, style.WIDTH / 2 if upright else style.WIDTH)
-    subtitle = f"{results.name_of(number)}\u00a0· {len(lines)} contacts; `--contact NAME` draws the curves of one"
+    widths, widest = widths_of(values)
+    largest = np.abs(values).max()
+    subtitle = (f"{results.name_of(number)}\u00a0· {component} as the width of the line, at most {scale.text(largest)}"
+                + (f", widest from {scale.text(widest)} on" if widest < 0.999 * largest else "")
+                + f"\u00a0· {len(lines)} contacts; `--contact NAME` draws the curves of one")
     figure = style.new_figure(2 * width if upright else width, height if upright else 2 * height, results.title, subtitle,
                               style.state_marks(counts_of(lines)))
     axes = figure.subplots(1 if upright else 2, 2 if upright else 1, sharex=True, sharey=True)
@@ -182,16 +186,13 @@ def contact_map(results, number, lines, units, component):
         axes[0].plot(*points[chosen].T, linestyle="", marker=mark, markersize=size, color=colour, markerfacecolor=colour if filled else
                      "white", markeredgewidth=0.5)
     axes[0].set_title("state of the pairs")
-    widths, widest = widths_of(values)
+    axes[1].set_title(component)
     for state, (colour, _, _) in style.STATES.items():
         chosen = (states == state) & (widths > 0)
         axes[1].add_collection(LineCollection(place.factor * pieces[chosen], colors=colour, linewidths=widths[chosen], capstyle="butt"))
-    largest = np.abs(values).max()
-    axes[1].set_title(f"{component} as the width of the line, at most {scale.text(largest)}"
-                      + (f"; widest from {scale.text(widest)} on" if widest < 0.999 * largest else ""))
     for axis in axes:
         axis.autoscale_view()
-        style.few_ticks(axis, 7 if not upright else 4, max(3, min(6, int(2 * height))))
+        style.map_ticks(axis, height, 7 if not upright else 4, 6)
     if not upright:
         axes[0].set_xlabel("")
     else:

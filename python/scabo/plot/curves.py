@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from . import style
-from .results import NothingToDraw, ResultsError
+from .results import NothingToDraw, ResultsError, without_rounding
 from .units import Units
 
 LEAST = 1e-17      # drawn for a residual of zero
@@ -135,10 +135,12 @@ def states(results):
 
 
 def mean_slip(results, name):
-    """Mean slip of the pairs of a contact after every increment."""
+    """Mean slip of the pairs of a contact after every increment, without that which is only rounding."""
     table = results.table("contact.csv")
-    rows = table["contact"] == name
-    step, increment, slip = (table[key][rows] for key in ("step", "increment", "slip"))
+    chosen = table["contact"] == name
+    keys = ("x", "y", "slip", "tangential_displacement_a", "tangential_displacement_b")
+    slip = without_rounding({key: table[key][chosen] for key in keys}, "slip", "tangential")
+    step, increment = table["step"][chosen], table["increment"][chosen]
     starts = np.flatnonzero((np.diff(step, prepend=-1) != 0) | (np.diff(increment, prepend=-1) != 0))  # rows of an increment stand together
     means = np.add.reduceat(slip, starts) / np.diff(np.append(starts, len(slip)))
     of = dict(zip(zip(step[starts], increment[starts]), means))
@@ -154,6 +156,8 @@ def hysteresis(results):
               for name in names]
     largest = max(np.nanmax(np.abs(of_contacts(results, name, "normal_force")), initial=0.0) for name in names)
     if all(np.nanmax(np.abs(curve.y), initial=0.0) <= 1e-8 * largest for curve in curves):  # without friction, or a closed line
+        return None
+    if not any(np.nan_to_num(curve.x).any() for curve in curves):  # nothing slips
         return None
     return Panel("tangential force against slip", ("mean slip", "length"), ("tangential force", "force"), curves)
 
@@ -215,8 +219,9 @@ def reactions(results):
         for name, force in entry["reactions"].items():
             for k in range(2):
                 sizes[name, k] = max(sizes.get((name, k), 0.0), abs(force[k] or 0.0))
-    largest = max(sizes.values(), default=0.0)
-    kept = [key for key in sizes if sizes[key] > 1e-9 * largest]
+    pressed = [abs(contact["normal_force"] or 0.0) for entry in results.increments for contact in entry["contacts"].values()]
+    largest = max([*sizes.values(), *pressed], default=0.0)
+    kept = [key for key in sizes if sizes[key] > 1e-9 * largest]  # others are rounding beside the forces of the model
     kept = [key for key in kept if key in sorted(kept, key=sizes.get, reverse=True)[:4]]
     curves = [Curve(f"{short_name(name)}, {'xy'[k]}", results.times(),
                     np.array([entry["reactions"][name][k] for entry in results.increments], dtype=float)) for name, k in kept]
@@ -342,8 +347,10 @@ def draw_attempt(axis, attempt, count):
     residuals = np.where(np.isfinite(attempt.residuals), np.maximum(attempt.residuals, LEAST), np.nan)
     colour = colour_of(attempt.number, count) if attempt.accepted else style.RED
     dashes = "-" if attempt.accepted else "--"
-    # A number again after a problem with fewer pairs: the start of the next one, whose residual is another one.
-    starts = np.flatnonzero((np.diff(attempt.iterations) <= 0) & attempt.coarse[:-1]) + 1
+    # A number again is the start of another problem, whose residual is another one: after one with fewer pairs, or, with a larger
+    # residual, of the next round of laws that depend on history.
+    anew = attempt.coarse[:-1] | (residuals[1:] > residuals[:-1])
+    starts = np.flatnonzero((np.diff(attempt.iterations) <= 0) & anew) + 1
     for rows in np.split(np.arange(len(residuals)), starts):
         axis.plot(attempt.iterations[rows], residuals[rows], color=colour, linestyle=dashes, linewidth=0.9)
     mark = mark_of(attempt.number, count) if attempt.accepted else "x"

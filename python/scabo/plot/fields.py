@@ -129,7 +129,8 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
     figure = style.new_figure(width, height + (0.75 if wide else 0.0), results.title, described(field, scale, place))
     axis = figure.add_subplot()
     points = place.factor * field.points
-    drawn = style.contours(axis, points, field.triangles, scale.factor * field.values, levels, ends_of(scale.factor * field.values[field.seen], levels))
+    values = within_rounding(scale.factor * field.values, levels)
+    drawn = style.contours(axis, points, field.triangles, values, levels, ends_of(values[field.seen], levels))
     sides = geometry.outline(field.triangles)
     if field.magnification and len(sides) <= MANY:
         style.draw_outline(axis, place.factor * field.grid.points, sides, colors="0.6", linewidths=0.4, linestyles=(0, (4, 3)), zorder=0.5)
@@ -155,6 +156,13 @@ def described(field, scale, place):
         else:
             parts.append(f"largest{' in size' * signed} {scale.text(field.values[field.largest])} at ({at})")
     return "\u00a0· ".join(parts)
+
+
+def within_rounding(values, levels):
+    """The values, without the rounding by which some lie beyond the first or the last level, as that of single numbers in a file."""
+    rounding = 1e-6 * (levels[-1] - levels[0])
+    values = np.where((values > levels[-1]) & (values <= levels[-1] + rounding), levels[-1], values)
+    return np.where((values < levels[0]) & (values >= levels[0] - rounding), levels[0], values)
 
 
 def ends_of(values, levels):
@@ -188,4 +196,4 @@ def finish_map(axis, place, window, height):
     axis.autoscale_view()
     if window is not None:
         axis.set(xlim=place.factor * np.array(window[:2]), ylim=place.factor * np.array(window[2:]))
-    style.few_ticks(axis, 7, max(3, min(7, int(2 * height))))
+    style.map_ticks(axis, height)

@@ -94,7 +94,7 @@ def mechanism(results, magnification=None, units=None, window=None):
     axis.autoscale_view()
     if window is not None:
         axis.set(xlim=place.factor * np.array(window[:2]), ylim=place.factor * np.array(window[2:]))
-    style.few_ticks(axis, 7, max(3, min(7, int(2 * height))))
+    style.map_ticks(axis, height)
     figure.colorbar(colours, ax=axis, label="largest displacement of each body", location="bottom" if wide else "right",
                     shrink=0.8 if wide else 0.9, aspect=35 if wide else 25, pad=0.02)
     return figure

@@ -189,6 +189,13 @@ def map_frame(axis, label_x, label_y):
     plain_frame(axis)
 
 
+def map_ticks(axis, height, across=7, up=7):
+    """Round numbers along a map of `height` inches with its labels, whose limits are set: as many as have room beside each other."""
+    (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
+    width = (height - 0.55) * (right - left) / (top - bottom)
+    few_ticks(axis, int(np.clip(2 * width, 1, across)), max(3, min(up, int(2 * height))))
+
+
 def map_size(low, high, width=WIDTH, beside=0.0, least=1.2, most=6.8):
     """Width and height in inches of a map of the box from `low` to `high`, with its labels, and `beside` inches to its right."""
     across, up = np.maximum(np.asarray(high) - np.asarray(low), 1e-300)

@@ -11,4 +11,6 @@ else:
     main = importlib.import_module(folder.name + ".command").main
 
 if __name__ == "__main__":
+    if sys.stdout is not None:
+        sys.stdout.reconfigure(errors="surrogateescape")  # the name of a file is printed as it is, whatever its bytes
     sys.exit(main())

@@ -63,7 +63,7 @@ def filled(text, content, arrays):
     """Texts of the user stand in JSON without the character <, so that none of them ends the script that holds it."""
     data = json.dumps(finite(content), ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c").replace(
         "\u2028", "\\u2028").replace("\u2029", "\\u2029")
-    parts = {TITLE: html.escape(content["title"] or content["directory"]), ARRAYS: "".join(arrays.elements()),
+    parts = {TITLE: html.escape(finite(content["title"] or content["directory"])), ARRAYS: "".join(arrays.elements()),
              CONTENT: f'<script type="application/json" id="content">{data}</script>'}
     pieces = [text]
     for mark, replacement in parts.items():  # not one after the other in the text: a title may contain a mark

@@ -332,7 +332,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
 namespace {
 
 /// A body that an image shows. Region k is that of label number k with a material.
-BodyMesh divide_image(const model::Body& body) {
+std::variant<BodyMesh, Diagnostic> divide_image(const model::Body& body, double most_nodes) {
   const model::ImageShape& shape = *body.image;
   ImageOptions options;
   options.pixel = shape.pixel;
@@ -340,6 +340,14 @@ BodyMesh divide_image(const model::Body& body) {
   for (const auto& [label, material] : shape.materials)
     options.regions.emplace(label, static_cast<int>(options.regions.size()));
   PolygonMesh polygons = image_mesh(*shape.image, options);
+  const auto corners = static_cast<double>(polygons.nodes.size()), cells = static_cast<double>(polygons.cells.size());
+  const double nodes = corners + (body.mesh.order - 1) * (corners + cells - 1.0);  // sides by Euler's formula
+  if (nodes > most_nodes)
+    return Diagnostic{body.mesh.source,
+                      fmt::format("the image has {:.7g} cells with about {} nodes, more than the {:.7g} allowed: use an "
+                                  "image of fewer pixels{}",
+                                  cells, text_of_count(nodes, most_nodes, 2), std::max(most_nodes, 0.0),
+                                  body.mesh.order > 1 ? " or a lower 'order'" : "")};
   const Vec2 corner = body.outline.edges.front().start;
   for (Vec2& node : polygons.nodes) node += corner;
   for (PolygonCell& cell : polygons.cells) cell.centre += corner;
@@ -367,7 +375,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                                      double most_nodes) {
   if (body.image) {
     try {
-      return divide_image(body);
+      return divide_image(body, most_nodes);
     } catch (const InputError& error) {
       return Diagnostic{body.source, error.diagnostics().front().message};
     }

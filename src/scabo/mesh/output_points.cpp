@@ -93,10 +93,12 @@ std::string lies_outside(const model::Model& model, const Vec2& point, int only)
   double least = std::numeric_limits<double>::max();
   for (const model::Body& body : model.bodies) {
     const double distance = distance_to(body.outline, point);
-    if (distance >= least) continue;
+    if (!(distance < least)) continue;
     least = distance;
     nearest = &body;
   }
+  if (!nearest)  // so far away that squares of the distance overflow
+    return fmt::format("{} lies outside every body: move the point", coordinates_of(point));
   return fmt::format("{} lies outside every body; the nearest is '{}', {:.3g} away: move the point",
                      coordinates_of(point), nearest->name, least);
 }

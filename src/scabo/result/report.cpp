@@ -261,8 +261,9 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
     text += fmt::format("quantity: {} = {:.{}g} +- {:.2g}", quantity.of, quantity.value,
                         static_cast<int>(std::clamp(digits, 3.0, 15.0)), quantity.bar);
     text += quantity.wanted
-                ? fmt::format(" ({:g} wanted, {})\n", *quantity.wanted, quantity.reached() ? "reached" : "not reached")
-                : fmt::format(" ({:.1e})\n", quantity.relative());
+            ? fmt::format(" ({:g} wanted, {})\n", *quantity.wanted, quantity.reached() ? "reached" : "not reached")
+            : quantity.value == 0.0 ? "\n"
+                                    : fmt::format(" ({:.1e})\n", quantity.relative());
   }
   return text;
 }

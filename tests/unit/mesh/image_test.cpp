@@ -11,10 +11,14 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
+#include <variant>
 #include <vector>
 
+#include "models.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/files/png.hpp"
+#include "scabo/mesh/many_cells.hpp"
 #include "support/random.hpp"
 
 namespace scabo::mesh {
@@ -50,6 +54,22 @@ void check_sides(const PolygonMesh& mesh, const Vec2& size) {
     const Vec2 middle = 0.5 * (mesh.nodes[side.first] + mesh.nodes[side.second]);
     ASSERT_TRUE(middle.x() == 0.0 || middle.y() == 0.0 || middle.x() == size.x() || middle.y() == size.y());
   }
+}
+
+TEST(ImageMesh, HasNoMoreNodesThanAreAllowed) {
+  model::Body body = test::elastic("core", test::rectangle({0.0, 0.0}, {3.0, 2.0}), 1.0);
+  body.mesh.kind = model::MeshKind::quadtree;
+  body.image = model::ImageShape{std::make_shared<files::Image>(files::Image{3, 2, {1, 2, 1, 2, 1, 2}}), 1.0, {{1, 0}, {2, 0}}};
+  body.mesh.order = 3;
+  const int nodes = 12 + 2 * 17;  // corners and two on each side of six pixels
+  const auto made = divide_into_cells(body, {}, nodes);
+  ASSERT_TRUE(std::holds_alternative<BodyMesh>(made)) << std::get<Diagnostic>(made).message;
+  EXPECT_EQ(std::get<BodyMesh>(made).nodes.size(), nodes);
+  const auto refused = divide_into_cells(body, {}, nodes - 1);
+  ASSERT_TRUE(std::holds_alternative<Diagnostic>(refused));
+  EXPECT_THAT(std::get<Diagnostic>(refused).message,
+              testing::HasSubstr("6 cells with about 46 nodes, more than the 45 allowed: use an image of fewer pixels or a "
+                                 "lower 'order'"));
 }
 
 TEST(ImageMesh, RefusesPartsWithoutASideInCommon) {

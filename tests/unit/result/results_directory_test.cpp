@@ -491,5 +491,14 @@ TEST_F(Results, TotalsAreContactsAndReactions) {
   EXPECT_THAT(totals, HasSubstr("\n\n  support"));
 }
 
+TEST_F(Results, ABarOfZeroIsNotRelative) {
+  const analysis::StaticSolution solution = two_bodies();
+  analysis::IncrementResult increment = increment_number(solution, 1);
+  increment.quantities = {{"joint.max_gap", 0.0, 2.5e-15, 0.0, {}}, {"tip.uy", 2.0, 0.02, 2.0, {}}};
+  const std::string totals = report_totals(solution.model, increment);
+  EXPECT_THAT(totals, HasSubstr("quantity: joint.max_gap = 0 +- 2.5e-15\n"));
+  EXPECT_THAT(totals, HasSubstr("quantity: tip.uy = 2 +- 0.02 (1.0e-02)\n"));
+}
+
 }  // namespace
 }  // namespace scabo::result
