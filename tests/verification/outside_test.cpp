@@ -216,7 +216,7 @@ loads: {{water: {{on: ground.rim, pressure: 1e6}}}}
 // Kelvin's force and a dipole, F = 2 pi mu (kappa + 1) u / (kappa ln(rho / a)).
 TEST(Outside, HoldsARigidDiscByKelvinsForce) {
   const double E = 1e5, nu = 0.3, mu = 0.5 * E / (1.0 + nu), a = 2.0, thickness = 0.7;
-  for (const char* plane : {"stress", "strain"})
+  for (const std::string plane : {"stress", "strain"})
     for (const Vec2& reference : {Vec2(0.0, -50.0), Vec2(300.0, 400.0)}) {
       const auto solution = run(fmt::format(R"(
 scabo: 1

@@ -99,6 +99,11 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
   if (held_together && better(bonded(*held_together))) return best;
   if (hopeless && hopeless()) return best;
+  // Newton's method may end beside the solution, of whose states some are wrong: |H| of 1e-6 of the largest force.
+  constexpr double beside = 1e-3, start_beside = 1e-6;
+  if (cold && inner && !paths_first && best.residual <= beside * best.p.lpNorm<Eigen::Infinity>() &&
+      better(inside_near(best.p, best.a, start_beside)))
+    return best;
   if (inner && !paths_first && held_together)
     for (const double start : {1.0, 0.05})
       if (better(inside_near(held_together->p, held_together->a, start))) return best;

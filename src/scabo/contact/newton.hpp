@@ -26,10 +26,10 @@ struct NewtonOptions {
   double first_fall = 1.0;  ///< ends where the first iteration leaves more than this part of the merit
   double first_step = 0.0;  ///< of soft_newton: ends where the first step is shorter
   std::string stage = "newton";
-  Deadline deadline;                                   ///< no iteration begins after it
-  std::function<void(const Iteration&)> on_iteration;  ///< may be empty; what it throws ends the solve
+  Deadline deadline = {};                                   ///< no iteration begins after it
+  std::function<void(const Iteration&)> on_iteration = {};  ///< may be empty; what it throws ends the solve
   /// Converged as well when this says so of forces and motions; may be empty.
-  IsSolution content;
+  IsSolution content = {};
   bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small and no longer falls
 };
 
