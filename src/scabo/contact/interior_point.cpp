@@ -41,15 +41,15 @@ InteriorPointEnd follow_to_the_end(const Problem& problem, double start_factor, 
 
 }  // namespace
 
-bool may_factorise_with_pairs(const Problem& problem) {
-  constexpr Eigen::Index most_dense = 1000;  // rows
+bool may_factorise_with_pairs(const Problem& problem, Eigen::Index most_dense) {
   return problem.pairs() > 0 && (problem.W.is_sparse() || (problem.W.is_dense() && problem.W.size() <= most_dense)) &&
          problem.W.diagonal().minCoeff() >= 0.0 && problem.W.diagonal().mean() > 0.0 &&
          !(problem.q.isZero(0.0) && problem.f.isZero(0.0));
 }
 
 bool may_take_interior_points(const Problem& problem) {
-  return may_factorise_with_pairs(problem) && problem.cohesion.size() == 0 && problem.tension.size() == 0 &&
+  constexpr Eigen::Index most_dense = 1000;
+  return may_factorise_with_pairs(problem, most_dense) && problem.cohesion.size() == 0 && problem.tension.size() == 0 &&
          problem.mu_backward.size() == 0 &&  // the cone must be its own dual, scaled by one mu
          problem.mu.minCoeff() > 0.0;
 }

@@ -49,10 +49,10 @@ struct InteriorPointEnd {
   std::vector<Iteration> trace;  ///< its residual, its step length; merit is m / 2
 };
 
-/// W sparse, or dense with at most 1,000 rows, and loads: what interior points of either kind need.
-bool may_factorise_with_pairs(const Problem& problem);
+/// W sparse, or dense with at most so many rows, and loads: what interior points of either kind need.
+bool may_factorise_with_pairs(const Problem& problem, Eigen::Index most_dense);
 
-/// The same, with Coulomb's law alone and mu > 0.
+/// The same with 1,000 rows, and Coulomb's law alone with mu > 0.
 bool may_take_interior_points(const Problem& problem);
 
 /// `content`, which may be empty, judges forces and motions after each step. All pairs start with the same normal

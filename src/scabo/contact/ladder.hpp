@@ -86,7 +86,7 @@ class Ladder {
   PathEnd along_path(const PathStart& start);
   NewtonEnd confirmed(NewtonEnd found, int few, const std::string& name);
   NewtonEnd without_history(const Vector& p, const Vector& a);
-  NewtonEnd after_start(ColdStart start, const std::string& stage);
+  NewtonEnd after_start(ColdStart start, const Run& how);
   NewtonEnd climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless);
   NewtonEnd swept(const Vector& p, int sweeps, double regularisation, int iterations = 0);
   NewtonEnd swept_on(LongSweeps& sweeps, int most);

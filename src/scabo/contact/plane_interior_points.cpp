@@ -471,7 +471,8 @@ class PlaneInteriorPoints::Implementation {
 };
 
 bool may_take_plane_interior_points(const Problem& problem) {
-  return problem.dimension == 2 && may_factorise_with_pairs(problem);
+  constexpr Eigen::Index most_dense = 2500;  // a step then takes two seconds
+  return problem.dimension == 2 && may_factorise_with_pairs(problem, most_dense);
 }
 
 PlaneInteriorPoints::PlaneInteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start)

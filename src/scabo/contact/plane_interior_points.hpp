@@ -25,7 +25,7 @@
 
 namespace scabo::contact {
 
-/// A plane problem with W sparse, or dense with at most 1,000 rows; any law of the pairs.
+/// A plane problem with W sparse, or dense with at most 2,500 rows; any law of the pairs.
 bool may_take_plane_interior_points(const Problem& problem);
 
 class PlaneInteriorPoints {
