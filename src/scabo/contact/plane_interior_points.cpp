@@ -23,7 +23,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double usual = 12.0;  // products of the start over the square of the mean friction bound
 /// Of the largest coefficient. Pairs with less friction, or none, get so much; Newton's method follows with what they
-/// have.
+/// have. Where no pair has friction, all get the square of it.
 constexpr double least_friction = 1e-6;
 /// Of the largest force of the start: strengths above, also those without limit, count as so much.
 constexpr double largest_strength = 1e3;
@@ -121,9 +121,8 @@ class PlaneInteriorPoints::Implementation {
   /// Coefficients, and strengths that the forces `p` suggest where they are none or all too large. Returns the mean
   /// friction bound.
   double take_strengths(const Vector& p) {
-    const auto normal = [&](Index i) { return std::abs(p[2 * i]); };
     double mean = 0.0, bound = 0.0;
-    for (Index i = 0; i < N_; ++i) mean += normal(i) / static_cast<double>(N_);
+    for (Index i = 0; i < N_; ++i) mean += std::abs(p[2 * i]) / static_cast<double>(N_);
     const double most = largest_strength * p.lpNorm<Eigen::Infinity>();
     const double least = least_friction * std::max(problem_.mu.maxCoeff(), least_friction);
     mu_.resize(N_), mu_backward_.resize(N_), cohesion_.resize(N_), tension_.resize(N_);

@@ -1,4 +1,4 @@
-// Interior points for Coulomb's law in the plane, as a linear complementarity problem: for stacks of bodies that
+// Interior points for the laws of the plane, above all Coulomb's, as a linear complementarity problem: for bodies that
 // contact alone holds, from forces that are known roughly.
 //
 // Slip is divided into forward and backward, u_t = v+ - v-, and friction has what it may grow by in either direction:
@@ -10,6 +10,9 @@
 // [W + D, G; G' 0], D of 2 x 2 blocks of the pairs:
 //
 //     D_nn = u_n / p_n,   D_tt = v+ / s+ + v- / s-,   D_tn = mu (v+ / s+ - v- / s-),   s+- = mu p_n +- p_t
+//
+// With cohesion c, tensile strength c_t and coefficients mu_f, mu_b by direction the first product is (p_n + c_t) u_n,
+// and s+ = c + mu_f (p_n)+ + p_t, s- = c + mu_b (p_n)+ - p_t, with (p_n)+ rounded off at zero where c_t > 0.
 //
 // The six factors of a pair are kept apart from p_n, s+- and the motions they stand for. A step would end where the
 // first of some ten thousand comes to its boundary; if a few stay behind, the others go further, and what then lacks in
