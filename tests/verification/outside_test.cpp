@@ -243,6 +243,30 @@ supports: [{{on: disc, rotation: 0, displacement: [1e-3, 2e-3], name: drive}}]
     }
 }
 
+// The same from a scaling centre beside that of the disc: the circle is then another one, by 0.6 of 500.
+TEST(Outside, HoldsARigidDiscByTheSameForceFromAnyScalingCentre) {
+  const auto force = [](const char* centre) {
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+materials: {{rock: {{young: 1e5, poisson: 0.3}}}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {{circle: {{centre: [0, 0], radius: 2}}}}
+    mesh: {{size: 0.8, order: 4, centre: {}}}
+    reference: [300, 400]
+  disc: {{rigid: true, shape: {{circle: {{centre: [0, 0], radius: 2}}}}}}
+contacts: {{rim: {{between: [ground.rim, disc.rim], bond: true}}}}
+supports: [{{on: disc, rotation: 0, displacement: [1e-3, 2e-3], name: drive}}]
+)",
+                                          centre));
+    return last(solution).reactions.front();
+  };
+  const Vec2 expected = force("[0, 0]");
+  EXPECT_LE((force("[0.6, -0.3]") - expected).norm(), 1e-3 * expected.norm());
+}
+
 // What springs and unbounded ground share: a hole without a line of symmetry, turned, mirrored and in other units.
 TEST(Outside, SharesALoadWithSpringsInEveryUnitAndDirection) {
   const auto springs_of = [](double angle, bool mirrored, double length, double force) {
