@@ -40,17 +40,14 @@ double beyond_cones(const Problem& problem, const Vector& p) {
 }  // namespace
 
 NewtonEnd Ladder::bonded(const BondedStart& start) {
-  // Walls of 64 to 1,600 blocks: 0.01 under their weight, 0.04 at half of their limit load and friction 0.3, which
+  // Walls of 256 to 1,600 blocks: 0.01 under their weight, 0.04 at half of their limit load and friction 0.3, which
   // Newton's method solves in 4 iterations; from 0.05 on, half of the limit load and friction 0.6, interior points need
-  // fewer. Of a small wall with 0.31 they turned back, and a path arrived.
-  constexpr double most_beyond = 0.045, far_beyond = 0.28;
+  // fewer.
+  constexpr double most_beyond = 0.045;
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
   const bool small = problem_.pairs() <= most_of_paths_first;
-  if (may_soften(problem_) && may_take_plane_interior_points(problem_)) {
-    const double beyond = beyond_cones(problem_, start.p);
-    if (!small && beyond > most_beyond) return nothing();  // they are next
-    if (small && beyond > most_beyond && beyond < far_beyond) return inside_near(start.p, start.a, 1.0);
-  }
+  const bool inner = !small && may_soften(problem_) && may_take_plane_interior_points(problem_);
+  if (inner && beyond_cones(problem_, start.p) > most_beyond) return nothing();  // interior points are next
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};
   if (may_follow_path(problem_)) how.first_fall = 0.15;

@@ -92,8 +92,7 @@ class PlaneInteriorPoints::Implementation {
       const double mean = std::sqrt(at.merit() / static_cast<double>(N_));  // the merit is half of the sum
       const double residual = mean / std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
       if (!std::isfinite(residual)) break;
-      evaluate(at.motion);
-      rounding_ = middle_;
+      rounding_ = mean_of(present());
       evaluate(at.motion);
       ++since;
       if (middle_ <= gain * least_middle_ || residual <= gain * least_residual_) since = 0;
@@ -238,6 +237,10 @@ class PlaneInteriorPoints::Implementation {
     return products.normal.sum() + products.forward.sum() + products.backward.sum();
   }
 
+  double mean_of(const Products& products) const { return sum_of(products) / static_cast<double>(3 * N_); }
+
+  Products present() const { return {normal_ * u_n_, plus_ * forward_, minus_ * backward_}; }
+
   Products products(const Direction& d, double step) const {
     return {(normal_ + step * d.normal) * (u_n_ + step * d.u_n),
             (plus_ + step * d.plus) * (forward_ + step * d.forward),
@@ -258,8 +261,8 @@ class PlaneInteriorPoints::Implementation {
       distance_[2 * i + 1] = motion[2 * i + 1] - forward_[i] + backward_[i];
     }
     balance_ = m_ > 0 ? Vector(G_.transpose() * forces() + f_) : Vector();
-    now_ = {normal_ * u_n_, plus_ * forward_, minus_ * backward_};
-    middle_ = sum_of(now_) / static_cast<double>(3 * N_);
+    now_ = present();
+    middle_ = mean_of(now_);
   }
 
   bool factorise() {
