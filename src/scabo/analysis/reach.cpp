@@ -25,16 +25,8 @@ bool breaks(const Prepared& prepared) {
                      [](const model::Contact& contact) { return contact.cohesion > 0.0; });
 }
 
-/// What to do about a tolerance that is missed by a figure of the certificate well below the default tolerance; empty
-/// for larger figures.
-std::string tolerance_to_set(const Prepared& prepared, double figure) {
-  constexpr double margin = 3.0;  // figures of other increments and machines differ
-  if (!(figure > prepared.model.solver.tolerance && margin * figure < model::SolverOptions().tolerance)) return {};
-  return fmt::format(
-      "; rounding leaves {:.2g} in {} degrees of freedom: set solver.tolerance to 1e{} or leave it out, as its default "
-      "of {:g} is far below the error of any mesh",
-      figure, 2 * prepared.mesh.nodes(), static_cast<int>(std::ceil(std::log10(margin * figure))),
-      model::SolverOptions().tolerance);
+std::string remedy_for(const Prepared& prepared, double figure) {
+  return tolerance_to_set(figure, prepared.model.solver.tolerance, 2 * prepared.mesh.nodes());
 }
 
 /// Reason why an increment with a contact solution is not accepted.
@@ -42,7 +34,7 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
   const double worst = tried.certificate.worst();
   std::string reason =
       fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
-  if (const std::string remedy = tolerance_to_set(prepared, worst); !remedy.empty())
+  if (const std::string remedy = remedy_for(prepared, worst); !remedy.empty())
     reason += remedy;
   else if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason +=
@@ -172,11 +164,21 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   solver.force_scale = tried.force_scale;
   if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
     reached.reason += "; " + why;
-  const std::string remedy = tolerance_to_set(prepared, tried.certificate.worst());
+  const std::string remedy = remedy_for(prepared, tried.certificate.worst());
   reached.reason += remedy.empty() ? lost_in_rounding(prepared, tried, tolerance) : remedy;
 }
 
 }  // namespace
+
+std::string tolerance_to_set(double figure, double tolerance, int degrees_of_freedom) {
+  constexpr double margin = 3.0;  // figures of other increments and machines differ
+  if (!(figure > tolerance && margin * figure < model::SolverOptions().tolerance)) return {};
+  return fmt::format(
+      "; rounding leaves {:.2g} in {} degrees of freedom: set solver.tolerance to 1e{} or leave it out, as its default "
+      "of {:g} is far below the error of any mesh",
+      figure, degrees_of_freedom, static_cast<int>(std::ceil(std::log10(margin * figure))),
+      model::SolverOptions().tolerance);
+}
 
 Reached reach(const Prepared& prepared, Reached reached, const std::function<Factors(double)>& factors_at,
               std::optional<double> least, const LargeSlip* large, const Options& options) {

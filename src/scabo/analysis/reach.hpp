@@ -27,8 +27,8 @@ struct Reached {
   std::optional<UniquenessResult> uniqueness;
   bool mechanism = false, collapse = false, stopped = false;
   std::optional<Mechanism> motion;  ///< of a mechanism or collapse
-  std::string reason;          ///< empty if the end was reached
-  bool pairs_are_due = false;  ///< the end was not reached: before going on, pairs are to be found anew
+  std::string reason;               ///< empty if the end was reached
+  bool pairs_are_due = false;       ///< the end was not reached: before going on, pairs are to be found anew
   std::vector<AttemptResult> attempts;
   std::vector<DiscreteProblem> problems;  ///< of the attempts, if requested
 };
@@ -40,5 +40,9 @@ struct Reached {
 /// whose sides pass each other too far is made again in equal smaller parts.
 Reached reach(const Prepared& prepared, Reached reached, const std::function<Factors(double)>& factors_at,
               std::optional<double> least, const LargeSlip* large, const Options& options);
+
+/// What to do about a tolerance that is missed by a figure of the certificate well below the default tolerance, as the
+/// end of a sentence; empty for larger figures.
+std::string tolerance_to_set(double figure, double tolerance, int degrees_of_freedom);
 
 }  // namespace scabo::analysis

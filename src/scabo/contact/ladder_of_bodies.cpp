@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "scabo/contact/interior_point.hpp"
 #include "scabo/contact/ladder.hpp"
@@ -37,6 +39,22 @@ double beyond_cones(const Problem& problem, const Vector& p) {
   return all > 0.0 ? beyond / all : 0.0;
 }
 
+/// Joints that touch bodies only contact holds, over the number of these bodies: 1 in a tower, 3 in a wall.
+double joints_per_body(const Problem& problem) {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> G = problem.G.sparse();
+  std::set<std::vector<int>> joints;  // motions that a pair measures
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    std::vector<int> motions;
+    for (Eigen::Index row = 2 * i; row < 2 * i + 2; ++row)
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator at(G, row); at; ++at)
+        motions.push_back(static_cast<int>(at.col()));
+    std::sort(motions.begin(), motions.end());
+    motions.erase(std::unique(motions.begin(), motions.end()), motions.end());
+    if (!motions.empty()) joints.insert(std::move(motions));
+  }
+  return G.cols() > 0 ? 3.0 * static_cast<double>(joints.size()) / static_cast<double>(G.cols()) : 0.0;
+}
+
 }  // namespace
 
 NewtonEnd Ladder::bonded(const BondedStart& start) {
@@ -44,10 +62,18 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   // Newton's method solves in 4 iterations; from 0.05 on, half of the limit load and friction 0.6, interior points need
   // fewer.
   constexpr double most_beyond = 0.045;
+  // Walls of 64 to 100 blocks: below 0.1 Newton's method and paths take 3 to 4 iterations, above 0.28 interior points
+  // turn back. Paths of towers take 2 to 5, those of smaller walls 3 to 7.
+  constexpr double least_of_small = 0.1, most_of_small = 0.28, joints_of_walls = 1.5;
+  constexpr int least_pairs = 500;
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
   const bool small = problem_.pairs() <= most_of_paths_first;
-  const bool inner = !small && may_soften(problem_) && may_take_plane_interior_points(problem_);
-  if (inner && beyond_cones(problem_, start.p) > most_beyond) return nothing();  // interior points are next
+  if (problem_.pairs() > least_pairs && may_soften(problem_) && may_take_plane_interior_points(problem_)) {
+    const double beyond = beyond_cones(problem_, start.p);
+    if (!small && beyond > most_beyond) return nothing();  // interior points are next
+    if (small && beyond > least_of_small && beyond < most_of_small && joints_per_body(problem_) > joints_of_walls)
+      return inside_near(start.p, start.a, 1.0);
+  }
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};
   if (may_follow_path(problem_)) how.first_fall = 0.15;

@@ -176,7 +176,6 @@ void NewtonDirection::gather(const Vector& motion, Vector& rows) const {
 }
 
 const Residual& NewtonDirection::with_slides_held(const Vector& p, const Residual& at) {
-  staying_.clear();
   if (!sliding_) return at;
   std::vector<PairState> states;
   states.reserve(at.branches.size());
@@ -187,7 +186,7 @@ const Residual& NewtonDirection::with_slides_held(const Vector& p, const Residua
   }
   const std::vector<PairState> before = states;
   held_ = at;
-  staying_ = sliding_->hold(p, at, states, held_.H);
+  staying_ = sliding_->hold(p, at, states, held_.H, staying_);
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i] == before[i]) continue;
     Branch& branch = held_.branches[i];

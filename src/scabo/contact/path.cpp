@@ -87,6 +87,7 @@ class Path {
       const double to_end = dt_ < 0.0 && !endless ? t_ / -dt_ : HUGE_VAL;
       if (to_end <= next.step && to_end < HUGE_VAL) {
         advance(to_end);
+        arrived_ = z_;
         const double error = take_softness_back();
         if (error <= settled || ++round > options_.rounds) return finish(end, PathEnd::How::arrived);
         passed.reset();
@@ -122,7 +123,12 @@ class Path {
                           exact_states = 1e-11;
   static constexpr int changes_between_leaps = 60, leap_patience = 3;
 
+  /// With the softness taken back the way is as short as rounding; where that ends early, the point before counts.
   PathEnd finish(PathEnd& end, PathEnd::How how) {
+    if (arrived_.size() > 0 && how != PathEnd::How::arrived) {
+      z_ = arrived_;
+      how = PathEnd::How::arrived;
+    }
     end.how = how;
     end.p = z_.head(2 * N_);
     end.a = z_.tail(m_);
@@ -494,6 +500,7 @@ class Path {
   SparseRows W_, G_;
   Sparse W_columns_, G_columns_, A_;
   Vector soft_, q_, centre_, dq_, df_, z_, motion_, slope_, dz_, d_motion_;
+  Vector arrived_;  // z where t was 0, the softness not yet or only in part taken back; empty before
   double t_ = 1.0, dt_ = -1.0;
   double leap_ = 0.5;
   std::vector<Pair> pairs_, base_;

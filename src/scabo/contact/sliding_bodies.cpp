@@ -11,8 +11,9 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double no_entry = 1e-9;  // entries of a column of G, of its length
-/// F below this part of the largest |H| is what the other equations still lack.
-constexpr double indifferent = 1e-4;
+/// F below this part of the largest |H| is what the other equations still lack; of a group that stayed in the step
+/// before, below the second part; of one whose next pair would turn by less than the third, below the fourth.
+constexpr double indifferent = 1e-2, still_indifferent = 0.3, hardly_turns = 1e-2, indifferent_where_hardly = 0.5;
 
 bool asks_for_motion(const std::vector<PairState>& states, Index row) {
   const PairState& state = states[static_cast<std::size_t>(row / 2)];
@@ -132,9 +133,37 @@ std::vector<SlidingBodies::Entry> SlidingBodies::together(const std::vector<int>
   return sums;
 }
 
-std::vector<int> SlidingBodies::hold(const Vector& p, const Residual& at, std::vector<PairState>& states,
-                                     Vector& H) const {
+/// What pulls at a group that slides, F(0), and the pairs whose slip turns when it moves on, in their order.
+SlidingBodies::Slide SlidingBodies::slide_of(const std::vector<int>& motions, const Vector& p, const Residual& at,
+                                             const std::vector<PairState>& states) const {
   const Vector &r = equations_.r(), &f = equations_.problem().f;
+  Slide slide;
+  for (const int motion : motions) slide.force += f[motion];
+  for (const Entry& entry : together(motions)) {
+    // Pairs with cohesion would jump by more than friction.
+    if (asks_for_motion(states, entry.row) || equations_.problem().cohesion_of(entry.row / 2) > 0.0) slide.held = true;
+    if (!slips(states, entry.row)) continue;
+    const auto pair = static_cast<std::size_t>(entry.row / 2);
+    const double slope = states[pair].slope, turned = other_way(equations_.problem(), pair, slope),
+                 p_n = std::max(p[entry.row - 1], 0.0), bound = std::abs(slope) * p_n;
+    const double trial = p[entry.row] - r[entry.row] * at.motion[entry.row];
+    const double slip = std::copysign(std::max(std::abs(trial) - bound, 0.0) / r[entry.row], -slope);
+    slide.force += entry.value * slope * p_n;
+    const double fall = (std::abs(slope) + std::abs(turned)) * p_n;
+    slide.turns.push_back({-slip / entry.value, std::abs(entry.value) * fall, pair});
+  }
+  slide.held = slide.held || slide.turns.empty();
+  const double side = slide.force > 0.0 ? 1.0 : -1.0;
+  std::erase_if(slide.turns, [&](const Slip& turn) { return side * turn.at < 0.0; });
+  std::sort(slide.turns.begin(), slide.turns.end(),
+            [&](const Slip& a, const Slip& b) { return side * a.at < side * b.at; });
+  return slide;
+}
+
+std::vector<int> SlidingBodies::hold(const Vector& p, const Residual& at, std::vector<PairState>& states, Vector& H,
+                                     const std::vector<int>& stayed) const {
+  const Vector& r = equations_.r();
+  const double largest = at.largest();
   std::vector<int> group_of, staying;
   std::vector<std::vector<int>> groups = loose_groups(states, group_of);
   for (std::size_t first = 0; first < groups.size(); ++first) {
@@ -142,33 +171,19 @@ std::vector<int> SlidingBodies::hold(const Vector& p, const Residual& at, std::v
     for (const int motion : motions) group_of[static_cast<std::size_t>(motion)] = -1;
     for (bool held = false; !held;) {
       held = true;
-      std::vector<Slip> turns;
-      double force = 0.0;
-      for (const int motion : motions) force += f[motion];
-      bool asked = false;
-      for (const Entry& entry : together(motions)) {
-        // Pairs with cohesion would jump by more than friction.
-        asked = asked || asks_for_motion(states, entry.row) || equations_.problem().cohesion_of(entry.row / 2) > 0.0;
-        if (!slips(states, entry.row)) continue;
-        const auto pair = static_cast<std::size_t>(entry.row / 2);
-        const double slope = states[pair].slope, turned = other_way(equations_.problem(), pair, slope),
-                     p_n = std::max(p[entry.row - 1], 0.0), bound = std::abs(slope) * p_n;
-        const double trial = p[entry.row] - r[entry.row] * at.motion[entry.row];
-        const double slip = std::copysign(std::max(std::abs(trial) - bound, 0.0) / r[entry.row], -slope);
-        force += entry.value * slope * p_n;
-        const double fall = (std::abs(slope) + std::abs(turned)) * p_n;
-        turns.push_back({-slip / entry.value, std::abs(entry.value) * fall, pair});
-      }
-      if (asked || turns.empty()) break;
-      if (std::abs(force) <= indifferent * at.largest()) {
-        staying.insert(staying.end(), motions.begin(), motions.end());
+      const Slide slide = slide_of(motions, p, at, states);
+      if (slide.held) break;
+      double left = std::abs(slide.force);
+      const bool stays_on =
+          std::find_first_of(motions.begin(), motions.end(), stayed.begin(), stayed.end()) != motions.end();
+      const double next_fall = slide.turns.empty() ? 0.0 : slide.turns.front().fall;
+      if (left <= (stays_on ? still_indifferent : indifferent) * largest ||
+          left <= std::min(indifferent_where_hardly * largest, hardly_turns * next_fall)) {
+        // One of them for all: the others may move towards it, as the pairs between them ask.
+        if (!motions.empty()) staying.push_back(motions.front());
         break;
       }
-      const double side = force > 0.0 ? 1.0 : -1.0;
-      std::sort(turns.begin(), turns.end(), [&](const Slip& a, const Slip& b) { return side * a.at < side * b.at; });
-      double left = std::abs(force);
-      for (const Slip& turn : turns) {
-        if (side * turn.at < 0.0) continue;
+      for (const Slip& turn : slide.turns) {
         left -= turn.fall;
         const Index row = 2 * static_cast<Index>(turn.pair) + 1;
         PairState& state = states[turn.pair];

@@ -12,8 +12,13 @@
 //
 // and F falls by 2 |G_t| mu p_n, where mu differs by direction by |G_t| (mu_f + mu_b) p_n, wherever a pair's slip
 // turns: the pair at which F changes its sign sticks, those passed before slip the other way. If that pair leads to a
-// body that slides as well, both are one body, and another pair holds the two. Where F(0) = 0 already (a block in the
-// line of symmetry of a wall) any s is a solution, and the motion stays as it is.
+// body that slides as well, both are one body, and another pair holds the two.
+//
+// Where F(0) = 0 already (a block in the line of symmetry of a wall, a course of which a whole number of equal pairs
+// slips backward) any s is a solution, and the motion stays as it is. On the way there F is only small: a pair made to
+// stick for it would move the body by all of its slip, a million times what the other equations lack. A group of bodies
+// that has stayed therefore stays until F is most of what is left, and so does one whose next pair would turn by a
+// hundredth of its friction bound.
 //
 // The same holds of one roller with little friction (slides.hpp).
 #pragma once
@@ -40,8 +45,10 @@ class SlidingBodies {
   explicit SlidingBodies(const BDifferentiableEquations& equations);
 
   /// Changes the states of pairs so that each body is held that can be, and the rows of `H` with them (p: forces of the
-  /// point `at`). Returns the motions that are to stay as they are.
-  std::vector<int> hold(const Vector& p, const Residual& at, std::vector<PairState>& states, Vector& H) const;
+  /// point `at`). Returns the motions that are to stay as they are, one of each group of bodies that slide together;
+  /// `stayed`: those of the step before.
+  std::vector<int> hold(const Vector& p, const Residual& at, std::vector<PairState>& states, Vector& H,
+                        const std::vector<int>& stayed) const;
 
  private:
   struct Entry {
@@ -53,6 +60,13 @@ class SlidingBodies {
     double fall = 0.0;  ///< of F
     std::size_t pair = 0;
   };
+  struct Slide {
+    double force = 0.0;       ///< F(0)
+    std::vector<Slip> turns;  ///< those that F(0) leads to
+    bool held = false;        ///< by a pair that is not slipping, or nothing slips
+  };
+  Slide slide_of(const std::vector<int>& motions, const Vector& p, const Residual& at,
+                 const std::vector<PairState>& states) const;
   bool alike(Eigen::Index a, Eigen::Index b) const;
   std::vector<std::vector<int>> loose_groups(const std::vector<PairState>& states, std::vector<int>& group_of) const;
   std::vector<Entry> together(const std::vector<int>& motions) const;

@@ -175,8 +175,9 @@ bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
   Vector right = at.H;
   const double largest = std::max(p.lpNorm<Eigen::Infinity>(), 1e-300);
   const double left = of_residual * at.largest() / largest;
-  Vector staying = Vector::Zero(size_.size());
-  for (const int motion : sliding_.hold(p, at, states, right)) staying[motion] = firm * size_[motion];
+  Vector firmly = Vector::Zero(size_.size());
+  staying_ = sliding_.hold(p, at, states, right, staying_);
+  for (const int motion : staying_) firmly[motion] = firm * size_[motion];
   right = -right;
   reused_ = false;
   int changed = 0;
@@ -184,11 +185,11 @@ bool SoftDirection::find(const Residual& at, const Vector& p, Vector& d) {
   const bool may_reuse = !held_.empty() && changed <= most_changed;
   if (may_reuse && left <= settled) {
     raise_ = 0.0;
-    hold_ = staying;
+    hold_ = firmly;
     if (reuse_factor(states, right, d)) return true;
   }
   raise_ = std::clamp(left, least_raise, most_raise);
-  hold_ = (std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_).cwiseMax(staying);
+  hold_ = (std::clamp(of_raise * left, least_hold, of_raise * most_raise) * size_).cwiseMax(firmly);
   if (may_reuse && reuse_factor(states, right, d)) return true;
   held_ = std::move(states);
   if (!factorise()) {

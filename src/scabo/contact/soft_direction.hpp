@@ -59,9 +59,10 @@ class SoftDirection {
 
   const BDifferentiableEquations& equations_;
   SlidingBodies sliding_;
-  double raise_ = 0.0;       ///< on the rows of motions
-  Vector size_, hold_;       ///< of the columns of G, squared; on the rows of balance
-  std::vector<State> held_;  ///< of the factor; empty: none
+  double raise_ = 0.0;        ///< on the rows of motions
+  Vector size_, hold_;        ///< of the columns of G, squared; on the rows of balance
+  std::vector<int> staying_;  ///< motions, in the last step
+  std::vector<State> held_;   ///< of the factor; empty: none
   std::vector<Unknown> unknowns_;
   Eigen::SparseMatrix<double> A_;
   linalg::SparseGeneralSolver factor_;
