@@ -13,6 +13,7 @@
 #include "scabo/mesh/contact_side.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/node_matching.hpp"
+#include "scabo/mesh/shared_points.hpp"
 
 namespace scabo::mesh {
 
@@ -35,14 +36,6 @@ std::string text_of(const Vec2& point) { return fmt::format("({:.6g}, {:.6g})", 
 
 /// The midpoint of the pair, which does not change if A and B are swapped.
 Vec2 middle_of(const ContactPair& pair) { return 0.5 * (pair.point_a + pair.point_b); }
-
-/// Whether a bonded contact or a tie holds the body to another one.
-bool is_joined(const model::Model& model, int body) {
-  const auto is_of_body = [&](const auto& joint) { return joint.a.body == body || joint.b.body == body; };
-  return std::any_of(model.ties.begin(), model.ties.end(), is_of_body) ||
-         std::any_of(model.contacts.begin(), model.contacts.end(),
-                     [&](const model::Contact& contact) { return contact.bond && is_of_body(contact); });
-}
 
 /// Matches one contact, with the data common to all steps.
 class Matching {
@@ -369,6 +362,7 @@ std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
     else
       mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
   }
+  share_normals(model, mesh);
   for (const model::Tie& tie : model.ties) {
     if (!has_mesh(tie.a) || !has_mesh(tie.b)) continue;
     auto matched = match_interface(model, joint_of(tie), mesh.bodies);
