@@ -10,6 +10,7 @@
 #include "contact_report.hpp"
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/contact/files/text_problem.hpp"
+#include "scabo/contact/unit_motions.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/result/convergence.hpp"
 #include "scabo/result/files.hpp"
@@ -33,6 +34,12 @@ compare::Method method_of(const std::string& name) {
                                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), all)}});
 }
 
+/// The rigid motions of problems saved by a run have suitable units; those of other programs may have any.
+contact::UnitMotions problem_to_solve(const contact::SavedProblem& saved) {
+  if (saved.force_scale > 0.0) return {saved.problem, saved.start, Vector::Ones(saved.problem.G.cols())};
+  return contact::in_unit_motions(saved.problem, saved.start);
+}
+
 Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) {
   Judged judged;
   judged.solver = options.solver;
@@ -48,7 +55,9 @@ Judged judge(const contact::SavedProblem& saved, const ContactOptions& options) 
   if (options.time_limit > 0.0) solver.deadline = contact::Deadline::in(options.time_limit);
 
   const Clock::time_point start = Clock::now();
-  judged.solution = compare::solve_with(method_of(options.solver), saved.problem, saved.start, solver);
+  const contact::UnitMotions problem = problem_to_solve(saved);
+  judged.solution =
+      problem.given(compare::solve_with(method_of(options.solver), problem.problem, problem.start, solver));
   judged.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return judged;
 }
@@ -58,7 +67,10 @@ contact::UniquenessReport uniqueness_of(const contact::SavedProblem& saved, cons
   contact::SolverOptions solver;
   solver.tolerance = judged.tolerance;
   solver.force_scale = saved.force_scale;
-  return contact::examine_uniqueness(saved.problem, saved.start, judged.solution, solver);
+  const contact::UnitMotions problem = problem_to_solve(saved);
+  contact::Solution solution = judged.solution;
+  solution.a = solution.a.cwiseQuotient(problem.unit);
+  return contact::examine_uniqueness(problem.problem, problem.start, solution, solver);
 }
 
 /// Throws InputError if `file` exists and does not begin with `mark`: it was not written by Scabo and must not be

@@ -84,8 +84,11 @@ Bytes pack_state(const analysis::StaticSolution& solution, const analysis::Incre
   packer.add(stem);
   packer.add(solution.threads);
   packer.add_list(increment.absent);
-  packer.add(state.reference_displacement.x());
-  packer.add(state.reference_displacement.y());
+  packer.add(state.reference_displacements.size());
+  for (const Vec2& moved : state.reference_displacements) {
+    packer.add(moved.x());
+    packer.add(moved.y());
+  }
   packer.add(state.initial.size());
   for (const element::InitialStress& stress : state.initial) pack(packer, stress);
   for (std::size_t k = 0; k < wanted.bodies.size(); ++k) {
@@ -204,8 +207,9 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
   of.threads = unpacker.get<int>();
   const std::vector<int> absent = unpacker.get_list<int>();
   analysis::FieldState state;
-  state.reference_displacement.x() = unpacker.get<double>();
-  state.reference_displacement.y() = unpacker.get<double>();
+  state.reference_displacements.resize(unpacker.get<std::size_t>());
+  for (Vec2& moved : state.reference_displacements)
+    for (double& value : moved) value = unpacker.get<double>();
   const auto initial = unpacker.get<std::size_t>();
   for (std::size_t i = 0; i < initial; ++i) state.initial.push_back(initial_stress(unpacker));
   state.displacements.resize(of.model.bodies.size());

@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/contact/status_name.hpp"
+#include "scabo/contact/unit_motions.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "solved.hpp"
 #include "until_ctrl_c.hpp"
@@ -73,7 +74,8 @@ std::shared_ptr<Solution> solve(const std::optional<Numbers>& dense, const std::
     if (seconds > 0.0) options.deadline = contact::Deadline::in(seconds);
     const linalg::KeptBlasThreads kept;
     linalg::set_blas_threads(threads);
-    return std::make_shared<Solution>(contact::solve(problem, start, options));
+    const contact::UnitMotions scaled = contact::in_unit_motions(problem, start);
+    return std::make_shared<Solution>(scaled.given(contact::solve(scaled.problem, scaled.start, options)));
   });
 }
 

@@ -73,9 +73,10 @@ py::array displacement(const py::object& self, std::size_t increment, std::size_
   const analysis::FieldState& state = increment_of(solved, increment).fields;
   const Vector& u = state.displacements.at(body);
   const bool rigid = solved.solution.model.bodies[body].rigid;
-  if (state.reference_displacement.isZero(0.0)) return rigid ? view(u, self) : view(u, 2, self);
+  const Vec2 reference = state.reference_displacement(body);
+  if (reference.isZero(0.0)) return rigid ? view(u, self) : view(u, 2, self);
   Vector moved = u;
-  for (Eigen::Index i = 0; i < (rigid ? 2 : moved.size()); ++i) moved[i] -= state.reference_displacement[i % 2];
+  for (Eigen::Index i = 0; i < (rigid ? 2 : moved.size()); ++i) moved[i] -= reference[i % 2];
   const auto [held, owner] = kept(std::move(moved));
   return rigid ? view(*held, owner) : view(*held, 2, owner);
 }

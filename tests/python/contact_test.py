@@ -54,6 +54,15 @@ class ClosedForms(unittest.TestCase):
         self.assertEqual(failed.exception.result.status, "mechanism")
         self.assertEqual(failed.exception.result.unrestrained_motion.shape, (2,))
 
+    def test_units_of_rigid_motions(self):
+        """Forces do not depend on the unit of a column of G."""
+        W = np.diag([1.0, 1.0, 1.0, 1.0])
+        G = np.array([[1.0, -1.0], [0.0, 0.0], [1.0, 1.0], [0.0, 0.0]])
+        for unit in ([2.0**-40, 2.0**-40], [2.0**40, 2.0**-30]):
+            solution = scabo.solve_contact(W, np.zeros(4), 0.0, G=G * unit, f=np.array([-2.0, 0.0]) * unit)
+            np.testing.assert_allclose(solution.forces[:, 0], [1.0, 1.0], atol=1e-12)
+            np.testing.assert_allclose(solution.rigid_motions * unit, [-1.0, 0.0], atol=1e-12)
+
     def test_sparse(self):
         class Columns:  # what is needed of scipy.sparse
             def __init__(self, dense):

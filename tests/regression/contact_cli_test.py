@@ -186,6 +186,26 @@ class Trust(Contact):
                 for key in ("status", "iterations", "natural_map_residual"):
                     self.assertEqual(other[key], first[key], solver)
 
+    def test_units_of_rigid_motions_change_no_bit(self):
+        # Columns of G in other units: the same forces, and l in the new ones. In units of 1e12 the balance V'r + s was
+        # far below the tolerance whatever r was, in units of 1e-12 the gaps were.
+        for dimension in (2, 3):
+            W, q, mu = random_problem(8, dimension, seed=40 + dimension)
+            random, m = np.random.default_rng(50 + dimension), 3 * dimension - 3
+            V, balanced = 0.3 * random.normal(size=(len(q), m)), np.zeros(len(q))
+            balanced[::dimension] = random.uniform(0.5, 1, 8)
+            s = -V.T @ balanced
+            first = self.solve(self.write(W, q, mu, V=V, s=s))
+            r = np.array(first["r"])
+            self.assertLess(natural_map_residual(W @ r + V @ first["l"] + q, r, mu, q, W), 1e-9)
+            np.testing.assert_allclose(V.T @ r, -s, atol=1e-10)
+            for unit in (2.0**40 * np.ones(m), 2.0**-40 * np.ones(m), 2.0 ** random.integers(-60, 60, m)):
+                other = self.solve(self.write(W, q, mu, V=V * unit, s=s * unit))
+                np.testing.assert_array_equal(other["r"], first["r"])
+                np.testing.assert_array_equal(np.array(other["l"]) * unit, first["l"])
+                for key in ("iterations", "certificate"):
+                    self.assertEqual(other[key], first[key], key)
+
     def test_other_units_do_not_make_it_solved(self):
         # An elastic problem whose W is 1e12 times its forces' unit: the natural map in file units is 1e-13 for anything.
         W, q, mu = random_problem(30, 2, seed=31, mu=1.5)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -21,6 +22,31 @@ namespace fs = std::filesystem;
 using test::mesh_of_disc_in_ring;
 using test::mesh_of_rectangle;
 using test::MeshText;
+
+/// A ring of quadrilaterals between radii `inner` and `outer` over these angles, closed if they span 2 pi. Sides:
+/// boundary_1 inside, boundary_2 outside, boundary_3 and boundary_4 at the first and last angle.
+MeshText mesh_of_ring(double inner, double outer, std::vector<double> angles, int layers) {
+  const bool closed = angles.back() - angles.front() > 2.0 * M_PI - 1e-12;
+  if (closed) angles.pop_back();
+  const int count = static_cast<int>(angles.size()), sectors = closed ? count : count - 1;
+  MeshText mesh;
+  for (int i = 0; i <= layers; ++i)
+    for (const double angle : angles)
+      mesh.nodes.push_back((inner + (outer - inner) * i / layers) * Vec2(std::cos(angle), std::sin(angle)));
+  const auto node = [&](int i, int j) { return count * i + j % count; };
+  for (int i = 0; i < layers; ++i) {
+    for (int j = 0; j < sectors; ++j)
+      mesh.cells.push_back({9, {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)}, 1});
+    if (closed) continue;
+    mesh.cells.push_back({3, {node(i, 0), node(i + 1, 0)}, 3});
+    mesh.cells.push_back({3, {node(i, count - 1), node(i + 1, count - 1)}, 4});
+  }
+  for (int j = 0; j < sectors; ++j) {
+    mesh.cells.push_back({3, {node(0, j), node(0, j + 1)}, 1});
+    mesh.cells.push_back({3, {node(layers, j), node(layers, j + 1)}, 2});
+  }
+  return mesh;
+}
 
 // ---- patch tests -----------------------------------------------------------------------------------------
 
@@ -99,6 +125,45 @@ contacts: {{joint: {{between: [lower.edge_3, upper.bottom], friction: 0.5}}}}
         EXPECT_NEAR(increment.fields.displacements[b][k], 0.2 * x.x() / 30.0, 1e-12);
         EXPECT_NEAR(increment.fields.displacements[b][k + 1], -x.y() / 30.0, 1e-12);
       }
+  }
+}
+
+// A press fit of two rings of chords, the outer one in four pieces that are bonded to each other: the pressure in the
+// points in which two pieces meet the inner ring is that of all other points, and nothing slips. With a normal for each
+// contact it was up to 1.5 times as large or zero, with friction at its bound.
+TEST(Imported, PressFitOfBondedPiecesHasOneNormalWhereTheyMeet) {
+  for (const bool uneven : {false, true}) {
+    std::vector<double> angles;
+    for (int j = 0; j <= 60; ++j) angles.push_back(j * M_PI / 30.0);
+    if (uneven) angles[1] = 0.25 * angles[2];  // chords of different lengths beside the point at 0
+    std::string bodies = fmt::format("  shaft: {{material: m, mesh: {{file: {}, elements: fem}}}}\n",
+                                     mesh_of_ring(0.5, 1.0, angles, 6).file());
+    std::string contacts;
+    for (int k = 0; k < 4; ++k) {
+      const std::vector<double> part(angles.begin() + 15 * k, angles.begin() + 15 * k + 16);
+      bodies += fmt::format("  piece_{}: {{material: m, mesh: {{file: {}, elements: fem}}}}\n", k,
+                            mesh_of_ring(1.0, 2.0, part, 8).file());
+      contacts += fmt::format(
+          "  fit_{0}: {{between: [shaft.boundary_2, piece_{0}.boundary_1], friction: 0.3, gap: -1e-3}}\n"
+          "  joint_{0}: {{between: [piece_{0}.boundary_4, piece_{1}.boundary_3], bond: true}}\n",
+          k, (k + 1) % 4);
+    }
+    const auto solution = run("scabo: 1\nmaterials: {m: {young: 2e11, poisson: 0.3}}\nbodies:\n" + bodies +
+                              "supports:\n  - {on: {body: shaft, near: [0.5, 0]}, fix: [x, y]}\n"
+                              "  - {on: {body: shaft, near: [-0.5, 0]}, fix: y}\ncontacts:\n" +
+                              contacts);
+    std::vector<double> pressures, shears;
+    for (const auto& contact : last(solution).contacts)
+      if (contact.name.starts_with("fit"))
+        for (const auto& pair : contact.pairs) {
+          pressures.push_back(pair.pressure);
+          shears.push_back(std::abs(pair.shear));
+        }
+    std::sort(pressures.begin(), pressures.end());
+    const double usual = pressures[pressures.size() / 2];
+    EXPECT_GE(pressures.front(), (uneven ? 0.9 : 0.995) * usual);
+    EXPECT_LE(pressures.back(), (uneven ? 1.15 : 1.005) * usual);
+    if (!uneven) EXPECT_LE(*std::max_element(shears.begin(), shears.end()), 1e-6 * usual);
   }
 }
 

@@ -74,6 +74,39 @@ TEST(Outside, TheReferencePointStandsStillAndStressesDoNotDependOnIt) {
   }
 }
 
+// Each unbounded body has its own point, and neither another one nor supports of a body that does not touch it change
+// its displacements.
+TEST(Outside, BodiesThatDoNotTouchHaveReferencePointsOfTheirOwn) {
+  const auto alone = run(loaded_hole);
+  const auto beside =
+      run(loaded_hole, {"bodies.other={material: rock, outside: true, shape: {circle: {centre: [100, 0], "
+                        "radius: 1}}, mesh: {size: 0.4}, reference: [90, 30]}",
+                        "loads.other={on: other.rim, traction: [1e6, 3e6]}"});
+  const auto supported =
+      run(loaded_hole, {"bodies.block={material: rock, shape: {rectangle: {corner: [50, 0], size: [1, "
+                        "1]}}, mesh: {size: 0.5}}",
+                        "supports=[{on: block.bottom, fix: [x, y]}]", "loads.block={on: block.top, pressure: 1e6}"});
+  const result::Probe of_alone(alone, last(alone).fields, 0);
+  const double largest = of_alone.at({1.0, 0.0})->displacement.norm();
+  for (const auto* solution : {&beside, &supported}) {
+    const result::Probe probe(*solution, last(*solution).fields, 0);
+    for (const Vec2& x : {Vec2(1.0, 0.0), Vec2(5.0, -20.0), Vec2(-30.0, 70.0)})
+      EXPECT_LE((probe.at(x)->displacement - of_alone.at(x)->displacement).norm(), 1e-9 * largest);
+  }
+  const result::Probe other(beside, last(beside).fields, 1);
+  EXPECT_GT(other.at({101.0, 0.0})->displacement.norm(), 1e-4);
+  EXPECT_LE(other.at({90.0, 30.0})->displacement.norm(), 1e-12 * largest);
+  // Energies are those of the two bodies alone.
+  const auto second =
+      run(loaded_hole, {"bodies.ground=null",
+                        "bodies.other={material: rock, outside: true, shape: {circle: {centre: [100, 0], "
+                        "radius: 1}}, mesh: {size: 0.4}, reference: [90, 30]}",
+                        "loads={other: {on: other.rim, traction: [1e6, 3e6]}}"});
+  const double elastic = last(alone).energy.elastic + last(second).energy.elastic;
+  EXPECT_NEAR(last(beside).energy.elastic, elastic, 1e-9 * elastic);
+  EXPECT_NEAR(last(beside).energy.external, elastic, 1e-9 * elastic);
+}
+
 // A block in a trench and the ground around it, bonded, are a half-plane under a strip load q from x = -1 to 1.
 const char* const strip = R"(
 scabo: 1

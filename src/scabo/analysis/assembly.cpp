@@ -29,7 +29,7 @@ Assembly::Assembly(system::Structure made, const StaticSolution& solution,
                structure,
                contact,
                force_scale(structure),
-               reference_of(solution.model, solution.mesh, solution.cells),
+               references_of(solution.model, solution.mesh, solution.cells, structure.dofs),
                std::move(on_iteration),
                {}} {}
 

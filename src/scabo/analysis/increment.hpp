@@ -16,12 +16,14 @@ struct Prepared {
   const system::ContactSystem& contact;
   /// Largest nodal force of any load at factor 1: the scale for judging forces, also while all loads are zero.
   double force_scale = 0.0;
-  /// Where an unbounded body has a reference point and no support determines the position of the bodies.
+  /// Of bodies that contacts and ties join, one of them unbounded with a reference point, if no support determines
+  /// where they are.
   struct Reference {
-    int body = 0;
-    Matrix N;  ///< 2 x n: displacement of the point by those of the nodes of the body
+    int body = 0;            ///< the unbounded one
+    Matrix N;                ///< 2 x n: displacement of the point by those of the nodes of the body
+    std::vector<int> parts;  ///< of all these bodies
   };
-  std::optional<Reference> reference;
+  std::vector<Reference> references;
   std::function<void(const contact::Iteration&)> on_iteration = {};  ///< Options::on_iteration
   std::vector<char> absent;  ///< per part: not there at this stage of construction (stages.hpp); empty: all are there
 
@@ -32,9 +34,9 @@ const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::Conta
 /// The part that a body belongs to.
 const system::BodySystem& part_of(const Prepared& prepared, int body);
 
-/// Displacement of the reference point, which belongs to all bodies: results are relative to it, and so are the work of
-/// loads and the elastic energy. `u`: per part. Zero where there is none.
-Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>& u);
+/// Displacement of a reference point: the results of its bodies are relative to it, and so are the work of their loads
+/// and the elastic energy. `u`: per part.
+Vec2 displacement_of(const Prepared::Reference& reference, const Prepared& prepared, const std::vector<Vector>& u);
 
 /// Factors of loads and supports at one time, and coefficients of friction.
 struct Factors {

@@ -80,11 +80,9 @@ std::vector<Vector> displacements_without_motions(const Prepared& prepared, cons
   return u;
 }
 
-Vec2 reference_displacement(const Prepared& prepared, const std::vector<Vector>& u) {
-  if (!prepared.reference) return Vec2::Zero();
+Vec2 displacement_of(const Prepared::Reference& reference, const Prepared& prepared, const std::vector<Vector>& u) {
   const system::Dofs& dofs = prepared.structure.dofs;
-  const auto& [body, N] = *prepared.reference;
-  return N * dofs.of_body(body, u[dofs.part_of(body)]);
+  return reference.N * dofs.of_body(reference.body, u[dofs.part_of(reference.body)]);
 }
 
 Vector thermal_forces(const Prepared& prepared, const Factors& factors, std::size_t p) {
@@ -125,16 +123,17 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.elastic += thermal;
     energy.external += thermal - thermal_energy(prepared, from.factors, p, from.u[p]);
   }
-  if (prepared.reference) {
-    const Vec2 reached = reference_displacement(prepared, to.u),
-               moved = reached - reference_displacement(prepared, from.u);
-    for (std::size_t p = 0; p < to.u.size(); ++p) {
+  for (const Prepared::Reference& reference : prepared.references) {
+    const Vec2 reached = displacement_of(reference, prepared, to.u),
+               moved = reached - displacement_of(reference, prepared, from.u);
+    for (const int number : reference.parts) {
+      const auto p = static_cast<std::size_t>(number);
       const auto loads = [&](const State& state) {  // of a rigid part: force and moment about its centroid
         return prepared.structure.dofs.is_rigid(p) ? Vec2(state.forces[p].head<2>()) : resultant_of(state.forces[p]);
       };
       energy.external -= 0.5 * (loads(from) + loads(to)).dot(moved);
     }
-    const std::size_t part = prepared.structure.dofs.part_of(prepared.reference->body);
+    const std::size_t part = prepared.structure.dofs.part_of(reference.body);
     energy.elastic -=
         0.5 * resultant_of(to.forces[part] + prepared.contact.motion[part].transpose() * to.p).dot(reached);
   }

@@ -97,7 +97,7 @@ void add(element::CellLoads& to, const element::CellLoads& loads, double factor)
 /// stress.
 double lost_to_rounding(const Prepared& prepared, const State& state) {
   // Of displacements: of a body that a temperature expands freely, more than what is stored.
-  const bool known = !prepared.reference && prepared.structure.thermal.empty();
+  const bool known = prepared.references.empty() && prepared.structure.thermal.empty();
   double energy = known ? state.energy.elastic : 0.0, lost = 0.0, resisting = 0.0;
   for (std::size_t p = 0; p < state.u.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "scabo/element/interior_field.hpp"
 
@@ -62,11 +65,50 @@ std::string without_reference(const Prepared& prepared, const State& state) {
 
 namespace {
 
-/// Subtracts a translation from the displacements of the pairs, which are in [n, t].
-void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vector<ContactResult>& contacts) {
+/// Per body: the number of the bodies that contacts and ties join, from 0.
+std::vector<int> joined_groups(const model::Model& model) {
+  std::vector<int> group(model.bodies.size());
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](int body) {
+    while (group[static_cast<std::size_t>(body)] != body) body = group[static_cast<std::size_t>(body)];
+    return body;
+  };
+  const auto join = [&](const auto& joints) {
+    for (const auto& joint : joints) {
+      const int first = root(joint.a.body), second = root(joint.b.body);
+      group[static_cast<std::size_t>(std::max(first, second))] = std::min(first, second);
+    }
+  };
+  join(model.contacts);
+  join(model.ties);
+  for (std::size_t b = 0; b < group.size(); ++b) group[b] = root(static_cast<int>(b));
+  return group;
+}
+
+/// The point of one unbounded body.
+Prepared::Reference reference_at(const model::Body& body, int number, const mesh::Mesh& mesh,
+                                 const element::SolvedSuperElement& cell) {
+  const Vec2& centre = unbounded_cell(mesh.bodies[static_cast<std::size_t>(number)]).centre;
+  const auto at = element::locate(cell.ring, *body.reference - centre, true);
+  ensure(at.has_value(), "the reference point of an outside body lies in it");
+  const Eigen::Index n = cell.K().rows();
+  Prepared::Reference reference{number, Matrix(2, n), {}};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Vector unit = Vector::Unit(n, k);
+    const element::RadialField field(cell.solution(), cell.modes(), unit);
+    reference.N.col(k) =
+        element::point_values(cell.ring, field.at(at->xi), cell.sectors.D, at->element, at->eta).displacement;
+  }
+  return reference;
+}
+
+/// Subtracts the displacements of reference points from those of the pairs, which are in [n, t].
+void take_off_pairs(const Prepared& prepared, const FieldState& fields, std::vector<ContactResult>& contacts) {
   std::vector<std::size_t> next(contacts.size(), 0);
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
     const auto c = static_cast<std::size_t>(at.contact);
+    // Its two bodies are joined.
+    const Vec2 translation = fields.reference_displacement(static_cast<std::size_t>(prepared.model.contacts[c].a.body));
     const Vec2& normal = prepared.mesh.interfaces[c].pairs[static_cast<std::size_t>(at.index)].normal;
     const Vec2 along(translation.dot(normal), translation.dot(tangent_of(normal)));
     PairResult& pair = contacts[c].pairs[next[c]++];
@@ -77,32 +119,40 @@ void take_off_pairs(const Prepared& prepared, const Vec2& translation, std::vect
 
 }  // namespace
 
-std::optional<Prepared::Reference> reference_of(const model::Model& model, const mesh::Mesh& mesh,
-                                                const std::vector<element::SolvedCells>& cells) {
-  if (!model.supports.empty() || !model.springs.empty()) return std::nullopt;
+std::vector<Prepared::Reference> references_of(const model::Model& model, const mesh::Mesh& mesh,
+                                               const std::vector<element::SolvedCells>& cells,
+                                               const system::Dofs& dofs) {
+  std::vector<Prepared::Reference> references;
+  const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
+                               [](const model::Body& body) { return body.outside && body.reference; });
+  if (!any) return references;
+  const std::vector<int> group = joined_groups(model);
+  std::set<int> held;
+  for (const model::Support& support : model.supports) held.insert(group[static_cast<std::size_t>(support.on.body)]);
+  for (const model::Spring& spring : model.springs) held.insert(group[static_cast<std::size_t>(spring.on.body)]);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (!body.outside || !body.reference) continue;
-    const element::SolvedSuperElement& cell = *cells[b].front();
-    const auto at = element::locate(cell.ring, *body.reference - unbounded_cell(mesh.bodies[b]).centre, true);
-    ensure(at.has_value(), "the reference point of an outside body lies in it");
-    const Eigen::Index n = cell.K().rows();
-    Prepared::Reference reference{static_cast<int>(b), Matrix(2, n)};
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const Vector unit = Vector::Unit(n, k);
-      const element::RadialField field(cell.solution(), cell.modes(), unit);
-      reference.N.col(k) =
-          element::point_values(cell.ring, field.at(at->xi), cell.sectors.D, at->element, at->eta).displacement;
-    }
-    return reference;
+    if (!body.outside || !body.reference || !held.insert(group[b]).second) continue;
+    Prepared::Reference& made =
+        references.emplace_back(reference_at(body, static_cast<int>(b), mesh, *cells[b].front()));
+    std::set<int> parts;
+    for (std::size_t other = 0; other < group.size(); ++other)
+      if (group[other] == group[b]) parts.insert(static_cast<int>(dofs.part_of(static_cast<int>(other))));
+    made.parts.assign(parts.begin(), parts.end());
   }
-  return std::nullopt;
+  return references;
 }
 
 void refer_displacements(const Prepared& prepared, const State& state, IncrementResult& result) {
-  if (!prepared.reference) return;
-  result.fields.reference_displacement = reference_displacement(prepared, state.u);
-  take_off_pairs(prepared, result.fields.reference_displacement, result.contacts);
+  if (prepared.references.empty()) return;
+  result.fields.reference_displacements.assign(prepared.model.bodies.size(), Vec2::Zero());
+  for (const Prepared::Reference& reference : prepared.references) {
+    const Vec2 moved = displacement_of(reference, prepared, state.u);
+    for (const int part : reference.parts)
+      for (const int body : prepared.structure.dofs.bodies_of(static_cast<std::size_t>(part)))
+        result.fields.reference_displacements[static_cast<std::size_t>(body)] = moved;
+  }
+  take_off_pairs(prepared, result.fields, result.contacts);
 }
 
 }  // namespace scabo::analysis

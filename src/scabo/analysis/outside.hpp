@@ -13,12 +13,13 @@ void check_references(const model::Model& model, const mesh::Mesh& mesh);
 /// empty if there is none.
 std::string without_reference(const Prepared& prepared, const State& state);
 
-/// The reference point of an unbounded body if no support determines the position of the bodies. One point determines
-/// all bodies.
-std::optional<Prepared::Reference> reference_of(const model::Model& model, const mesh::Mesh& mesh,
-                                                const std::vector<element::SolvedCells>& cells);
+/// The reference points of unbounded bodies that no support and no spring holds, nor any body that contacts and ties
+/// join to them. Of several that are joined, the first in the model counts.
+std::vector<Prepared::Reference> references_of(const model::Model& model, const mesh::Mesh& mesh,
+                                               const std::vector<element::SolvedCells>& cells,
+                                               const system::Dofs& dofs);
 
-/// Sets FieldState::reference_displacement and subtracts it from the displacements of the pairs. The nodal
+/// Sets FieldState::reference_displacements and subtracts them from the displacements of the pairs. The nodal
 /// displacements, from which fields are recovered, are not changed.
 void refer_displacements(const Prepared& prepared, const State& state, IncrementResult& result);
 

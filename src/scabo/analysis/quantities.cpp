@@ -74,7 +74,7 @@ std::optional<double> displacement_of_point(const StaticSolution& solution, cons
     at = displacement_at(solution, b, place, u(dofs_at(solution, b, place.cell)),
                          element::loads_in(increment.fields.interior[b], place.cell));
   }
-  return (at - increment.fields.reference_displacement)[quantity.component];
+  return (at - increment.fields.reference_displacement(b))[quantity.component];
 }
 
 /// The results at the tip or corner that a quantity names; null where its body is absent.

@@ -112,7 +112,7 @@ void Stages::set(std::vector<char> absent) {
   contact_.reset();
   if (absent.empty()) return;
   contact_ = system::without_parts(whole_.contact, whole_.structure, whole_.model, absent);
-  now_.emplace(Prepared{whole_.model, whole_.mesh, whole_.structure, *contact_, whole_.force_scale, whole_.reference,
+  now_.emplace(Prepared{whole_.model, whole_.mesh, whole_.structure, *contact_, whole_.force_scale, whole_.references,
                         whole_.on_iteration, std::move(absent)});
 }
 

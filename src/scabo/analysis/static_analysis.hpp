@@ -109,14 +109,17 @@ struct FieldState {
   /// Per body: 2 per node; for a rigid body [u_x, u_y, rotation] about its centroid. For an unbounded body they are
   /// those of its stiffness (element/stiffness.hpp, eq. 6), because a translation would change its forces.
   std::vector<Vector> displacements;
-  /// Displacement of the reference point (analysis/outside.hpp). Displacements shown in results are relative to it;
-  /// those of contact pairs (PairResult) are already relative.
-  Vec2 reference_displacement = Vec2::Zero();
+  /// Per body: displacement of the reference point to which it belongs (analysis/outside.hpp), or zero; empty: there is
+  /// none. Displacements shown in results are relative to it; those of contact pairs (PairResult) are already relative.
+  std::vector<Vec2> reference_displacements;
   std::vector<element::CellLoads> interior;  ///< [body][cell]: loads inside; empty for a body without any
   /// Per body: stress that it has without any displacement; empty: none has any.
   std::vector<element::InitialStress> initial;
 
   const element::InitialStress& initial_of(std::size_t body) const;
+  Vec2 reference_displacement(std::size_t body) const {
+    return reference_displacements.empty() ? Vec2(Vec2::Zero()) : reference_displacements[body];
+  }
 };
 
 /// A number with its error bar (goal.hpp).

@@ -10,7 +10,7 @@ namespace scabo::geometry {
 
 namespace {
 
-constexpr double rounding = 1e-6;         // of the length of an edge
+constexpr double rounding = 1e-6;        // of the length of an edge
 constexpr double facing_cosine = -0.95;  // of the two outward normals
 /// Points at which an edge is looked at; a shared part shorter than their distance is seen from the shorter edge.
 constexpr int samples = 16;
@@ -28,37 +28,59 @@ bool lies_on(const Edge& a, const Edge& b, double reach) {
 
 }  // namespace
 
+namespace {
+
+struct Entry {
+  Box box;
+  int body = 0, edge = 0;
+  double slack = 0.0;
+  const Edge* of = nullptr;
+};
+
+/// The axis, 0 or 1, along which fewer boxes lie beside each other: y for a tower.
+int axis_of_sweep(const std::vector<Entry>& entries) {
+  if (entries.empty()) return 0;
+  Box all = entries.front().box;
+  Vec2 sizes = Vec2::Zero();
+  for (const Entry& entry : entries) {
+    all.low = all.low.cwiseMin(entry.box.low);
+    all.high = all.high.cwiseMax(entry.box.high);
+    sizes += entry.box.high - entry.box.low;
+  }
+  const Vec2 extent = all.high - all.low;
+  return sizes.x() * extent.y() <= sizes.y() * extent.x() ? 0 : 1;
+}
+
+}  // namespace
+
 std::vector<TouchingEdges> touching_edges(const std::vector<const Outline*>& outlines, double reach) {
-  struct Entry {
-    Box box;
-    int body = 0, edge = 0;
-    double slack = 0.0;
-    const Edge* of = nullptr;
-  };
   std::vector<Entry> entries;
   for (std::size_t b = 0; b < outlines.size(); ++b) {
     if (outlines[b] == nullptr) continue;
     for (std::size_t e = 0; e < outlines[b]->edges.size(); ++e) {
       const Edge& edge = outlines[b]->edges[e];
-      entries.push_back({box_of(edge), static_cast<int>(b), static_cast<int>(e),
-                         std::max(reach, rounding * edge.length()), &edge});
+      entries.push_back(
+          {box_of(edge), static_cast<int>(b), static_cast<int>(e), std::max(reach, rounding * edge.length()), &edge});
     }
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.box.low.x() != b.box.low.x() ? a.box.low.x() < b.box.low.x()
-                                          : std::pair(a.body, a.edge) < std::pair(b.body, b.edge);
+  const int along = axis_of_sweep(entries), across = 1 - along;
+  std::sort(entries.begin(), entries.end(), [along](const Entry& a, const Entry& b) {
+    return a.box.low[along] != b.box.low[along] ? a.box.low[along] < b.box.low[along]
+                                                : std::pair(a.body, a.edge) < std::pair(b.body, b.edge);
   });
   std::vector<TouchingEdges> found;
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& a = entries[i];
     std::erase_if(open, [&](std::size_t j) {
-      return entries[j].box.high.x() + std::max(entries[j].slack, a.slack) < a.box.low.x();
+      return entries[j].box.high[along] + std::max(entries[j].slack, a.slack) < a.box.low[along];
     });
     for (const std::size_t j : open) {
       const Entry& b = entries[j];
       const double slack = std::max(a.slack, b.slack);
-      if (a.body == b.body || b.box.high.y() + slack < a.box.low.y() || a.box.high.y() + slack < b.box.low.y()) continue;
+      if (a.body == b.body || b.box.high[across] + slack < a.box.low[across] ||
+          a.box.high[across] + slack < b.box.low[across])
+        continue;
       if (!lies_on(*a.of, *b.of, slack) && !lies_on(*b.of, *a.of, slack)) continue;
       const Entry &first = a.body < b.body ? a : b, &second = a.body < b.body ? b : a;
       found.push_back({first.body, first.edge, second.body, second.edge});

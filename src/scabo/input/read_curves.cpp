@@ -65,8 +65,8 @@ std::optional<CurveOver> read_over(Reading& reading, const Value& value) {
   double reached = 0.0;
   const std::size_t before = reading.report.count();
   const auto add = [&](const std::string& step, double length, const Source& source) {
-    for (const CurveOver::Part& part : over.parts)
-      if (part.step == step) reading.report.error(source, fmt::format("step '{}' is named twice", step));
+    if (!over.number.emplace(step, static_cast<int>(over.parts.size())).second)
+      reading.report.error(source, fmt::format("step '{}' is named twice", step));
     over.parts.push_back({step, reached += length, -1, source});
   };
   if (value.node->kind == Node::Kind::map) {

@@ -9,18 +9,31 @@ namespace scabo::input {
 
 namespace {
 
-/// The step that a value names; nothing if there is none.
-std::optional<int> step_named(Reading& reading, const Value& value) {
-  const auto name = read_text(reading.report, value);
-  if (!name || !reading.steps_known) return {};
-  std::vector<std::string> known;
-  for (std::size_t i = 0; i < reading.model.steps.size(); ++i) {
-    if (reading.model.steps[i].name == *name) return static_cast<int>(i);
-    if (known.size() < 1000) known.push_back(reading.model.steps[i].name);
+/// Steps by their names, the first of each name.
+class NamedSteps {
+ public:
+  explicit NamedSteps(Reading& reading) : reading_(reading) {
+    for (std::size_t i = 0; i < reading.model.steps.size(); ++i)
+      numbers_.emplace(reading.model.steps[i].name, static_cast<int>(i));
   }
-  reading.report.error(value, fmt::format("there is no step named {}{}", quoted_name(*name), suggestion(*name, known)));
-  return {};
-}
+
+  /// The step that a value names; nothing if there is none.
+  std::optional<int> operator()(const Value& value) const {
+    const auto name = read_text(reading_.report, value);
+    if (!name || !reading_.steps_known) return {};
+    if (const auto found = numbers_.find(*name); found != numbers_.end()) return found->second;
+    std::vector<std::string> known;
+    for (const Step& step : reading_.model.steps)
+      if (known.size() < 1000) known.push_back(step.name);
+    reading_.report.error(value,
+                          fmt::format("there is no step named {}{}", quoted_name(*name), suggestion(*name, known)));
+    return {};
+  }
+
+ private:
+  Reading& reading_;
+  Index numbers_;
+};
 
 }  // namespace
 
@@ -55,13 +68,14 @@ std::optional<std::vector<BodyState>> read_stages(Reading& reading, const MapRea
 }
 
 void find_named_steps(Reading& reading) {
+  const NamedSteps step_named(reading);
   for (std::size_t b = 0; b < reading.model.bodies.size(); ++b) {
     Body& body = reading.model.bodies[b];
-    if (const auto& added = reading.bodies[b].added) body.added = step_named(reading, *added).value_or(0);
-    if (const auto& removed = reading.bodies[b].removed) body.removed = step_named(reading, *removed).value_or(-1);
+    if (const auto& added = reading.bodies[b].added) body.added = step_named(*added).value_or(0);
+    if (const auto& removed = reading.bodies[b].removed) body.removed = step_named(*removed).value_or(-1);
   }
   for (const auto& [entry, name] : reading.fits_of_contacts) {
-    const int step = step_named(reading, name).value_or(-1);
+    const int step = step_named(name).value_or(-1);
     for (const int contact : reading.contacts_of_entry[entry])
       reading.model.contacts[static_cast<std::size_t>(contact)].fit_in = step;
   }

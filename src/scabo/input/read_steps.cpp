@@ -56,24 +56,22 @@ std::optional<int> piece_for(Reading& reading, int curve, CurveOver& over, const
   // A sine that is wrong is reported once, as a whole.
   const auto* sine = std::get_if<CurveSine>(&whole.kind);
   const bool wrong = sine && !(sine->periods > 0.0 && sine->periods <= 10'000.0);
-  double begin = 0.0;
-  for (CurveOver::Part& part : over.parts) {
-    if (part.step != step.name) {
-      begin = part.end;
-      continue;
-    }
-    if (wrong) part.piece = curve;
-    if (part.piece >= 0) return part.piece;
-    Curve piece = piece_of(whole, begin, part.end);
-    piece.name = fmt::format("{}_{}", whole.name, step.name);
-    while (reading.index_of_curve.contains(piece.name)) piece.name += "_";
-    part.piece = static_cast<int>(reading.model.curves.size());
-    reading.model.curves.push_back(std::move(piece));
-    return part.piece;
+  const auto found = over.number.find(step.name);
+  if (found == over.number.end()) {
+    reading.report.error(value, fmt::format("curve '{}' does not run over step '{}': name the step in its 'over'",
+                                            whole.name, step.name));
+    return {};
   }
-  reading.report.error(
-      value, fmt::format("curve '{}' does not run over step '{}': name the step in its 'over'", whole.name, step.name));
-  return {};
+  const auto number = static_cast<std::size_t>(found->second);
+  CurveOver::Part& part = over.parts[number];
+  if (wrong) part.piece = curve;
+  if (part.piece >= 0) return part.piece;
+  Curve piece = piece_of(whole, number > 0 ? over.parts[number - 1].end : 0.0, part.end);
+  piece.name = fmt::format("{}_{}", whole.name, step.name);
+  while (reading.index_of_curve.contains(piece.name)) piece.name += "_";
+  part.piece = static_cast<int>(reading.model.curves.size());
+  reading.model.curves.push_back(std::move(piece));
+  return part.piece;
 }
 
 std::optional<Factor> read_factor(Reading& reading, const Step& step, const Value& value) {
@@ -286,15 +284,19 @@ void tell_of_unused_curves(Reading& reading) {
 /// written, with how often they run.
 void check_curves_over(Reading& reading, const std::vector<std::pair<std::string, long>>& names) {
   std::vector<std::string> known;
-  for (const auto& [name, cycles] : names) known.push_back(name);
+  std::unordered_map<std::string, std::size_t> numbers;
+  for (const auto& [name, cycles] : names) {
+    numbers.emplace(name, known.size());
+    known.push_back(name);
+  }
   for (const auto& [curve, over] : reading.curves_over) {
     const std::string& of = reading.model.curves[static_cast<std::size_t>(curve)].name;
     std::optional<std::size_t> before;
     for (const CurveOver::Part& part : over.parts) {
-      const auto found = std::find(known.begin(), known.end(), part.step);
-      const auto index = static_cast<std::size_t>(found - known.begin());
+      const auto found = numbers.find(part.step);
+      const std::size_t index = found == numbers.end() ? known.size() : found->second;
       std::string wrong;
-      if (found == known.end())
+      if (found == numbers.end())
         wrong = fmt::format("there is no step named {}{}", quoted_name(part.step), suggestion(part.step, known));
       else if (names[index].second > 1)
         wrong = fmt::format("step '{}' is run in cycles, and a curve over several steps runs once: leave out 'cycles'",

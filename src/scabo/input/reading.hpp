@@ -50,6 +50,7 @@ struct CurveOver {
     Source source;
   };
   std::vector<Part> parts;
+  Index number;  ///< of the part of a step, by its name
 };
 
 struct Reading {

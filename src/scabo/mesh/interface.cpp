@@ -13,6 +13,7 @@
 #include "scabo/mesh/contact_side.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/node_matching.hpp"
+#include "scabo/mesh/shared_points.hpp"
 
 namespace scabo::mesh {
 
@@ -40,7 +41,8 @@ Vec2 middle_of(const ContactPair& pair) { return 0.5 * (pair.point_a + pair.poin
 class Matching {
  public:
   Matching(const model::Model& model, const Joint& joint, const std::vector<BodyMesh>& bodies)
-      : contact_(joint),
+      : model_(model),
+        contact_(joint),
         body_a_(model.bodies[contact_.a.body]),
         body_b_(model.bodies[contact_.b.body]),
         edge_a_(geometry::translated(body_a_.outline.edges[contact_.a.index], contact_.moved[0])),
@@ -102,12 +104,13 @@ class Matching {
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
     partners_ = std::move(matching.partners);
-    const bool alike = touch_everywhere(), chords = alike && has_chords(), only_inside = chords && touches();
+    const bool alike = touch_everywhere(), arcs = alike && edge_a_.arc && edge_b_.arc;
+    const bool chords = arcs && has_chords(), close = !arcs || touches();
     const auto is_end = [](const ContactSide& side, int node) {
       return !side.closed && (node == 0 || node + 1 == side.size());
     };
     for (const auto& [i, j] : partners_) {
-      const bool weighted = alike && (!chords || (only_inside && (is_end(a, i) || is_end(b, j))));
+      const bool weighted = alike && close && (!chords || is_end(a, i) || is_end(b, j));
       interface_.pairs.push_back({.node_a = a.nodes[i],
                                   .node_b = b.nodes[j],
                                   .point_a = a.points[i],
@@ -126,13 +129,11 @@ class Matching {
     return (edge_a_.arc->centre - edge_b_.arc->centre).norm() <= 1e-6 * radius;
   }
 
-  /// Whether the sides are arcs, and one of them consists of chords. Normals weighted like the forces of a pressure
-  /// turn to and fro between chords of different lengths l by up to l / (4 R). A gap or a slip d along them moves the
-  /// nodes to and fro by d l / (4 R), and the stress of that, about E d / (4 R), may be as large as the pressure,
-  /// however short the chords are. A uniform pressure along the normals of the arcs differs from that on the chords by
-  /// less, the shorter they are.
+  /// Whether one of two arcs consists of chords. Normals weighted like the forces of a pressure turn to and fro between
+  /// chords of different lengths l by up to l / (4 R). A gap or a slip d along them moves the nodes to and fro by d l /
+  /// (4 R), and the stress of that, about E d / (4 R), may be as large as the pressure, however short the chords are. A
+  /// uniform pressure along the normals of the arcs differs from that on the chords by less, the shorter they are.
   bool has_chords() const {
-    if (!edge_a_.arc || !edge_b_.arc) return false;
     const auto of_chords = [](const ContactSide& side) {
       return std::any_of(side.elements.begin(), side.elements.end(),
                          [](const LineElement& element) { return element.nodes.size() == 2; });
@@ -140,10 +141,15 @@ class Matching {
     return of_chords(*side_a_) || of_chords(*side_b_);
   }
 
-  /// Whether the sides are not apart, so that a third body may meet them in a point. Normals there that are weighted
-  /// share its forces between the two contacts; with one normal in both, a force could pass around the point.
+  /// Whether two arcs are not apart and not joined to other bodies. A third body may meet them in a point, with a
+  /// contact of its own. Normals there that are weighted share its forces between the two contacts exactly. Where the
+  /// sides are apart or overlap by d, however, two normals at an angle a in one point make slips of d a, in opposite
+  /// directions, with their friction; and where the third body is joined to one of the two, only this angle decides
+  /// which contact carries how much, and what resists a ring that turns about its shaft. Such arcs have the normals of
+  /// the arc.
   bool touches() const {
-    return contact_.gap == 0.0 && std::abs(edge_a_.arc->radius - edge_b_.arc->radius) <= 1e-9 * edge_a_.arc->radius;
+    return contact_.gap == 0.0 && std::abs(edge_a_.arc->radius - edge_b_.arc->radius) <= 1e-9 * edge_a_.arc->radius &&
+           !is_joined(model_, contact_.a.body) && !is_joined(model_, contact_.b.body);
   }
 
   Diagnostic not_matching(const LoneNode& lone) const {
@@ -262,6 +268,7 @@ class Matching {
     std::reverse(partners_.begin(), partners_.end());
   }
 
+  const model::Model& model_;
   Joint contact_;
   const model::Body& body_a_;
   const model::Body& body_b_;
@@ -355,6 +362,7 @@ std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
     else
       mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
   }
+  share_normals(model, mesh);
   for (const model::Tie& tie : model.ties) {
     if (!has_mesh(tie.a) || !has_mesh(tie.b)) continue;
     auto matched = match_interface(model, joint_of(tie), mesh.bodies);

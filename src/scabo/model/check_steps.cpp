@@ -115,11 +115,9 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
   check(step.support_curves, &Step::support_factors, true);
 }
 
+/// Where some step changes coefficients of friction.
 void check_friction_of_step(Checking& checking, const std::string& path, const Step& step) {
   const Model& model = checking.model;
-  const bool any =
-      std::any_of(model.steps.begin(), model.steps.end(), [](const Step& of) { return !of.friction.empty(); });
-  if (!any) return;
   if (step.friction.size() != model.contacts.size() || step.backward_friction.size() != step.friction.size()) {
     checking.error(path, "friction", "must give a coefficient for every contact");
     return;
@@ -194,6 +192,8 @@ void check_steps(Checking& checking) {
     checking.error("steps", "", "contains no step: give at least one");
     checking.gaps.steps = true;
   }
+  const bool has_friction =
+      std::any_of(model.steps.begin(), model.steps.end(), [](const Step& of) { return !of.friction.empty(); });
   std::unordered_set<std::string> names;
   for (std::size_t i = 0; i < model.steps.size(); ++i) {
     const Step& step = model.steps[i];
@@ -224,7 +224,7 @@ void check_steps(Checking& checking) {
       return;
     }
     check_beginnings(checking, path, step, i > 0 ? &model.steps[i - 1] : nullptr);
-    if (!checking.gaps.conditions) check_friction_of_step(checking, path, step);
+    if (has_friction && !checking.gaps.conditions) check_friction_of_step(checking, path, step);
   }
 }
 

@@ -11,7 +11,7 @@ CellPolygons cell_polygons(const analysis::StaticSolution& solution, const analy
   for (std::size_t b = 0; b < solution.mesh.bodies.size(); ++b) {
     const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-      const Vec2 u = state.displacements[b].segment<2>(place_of(i)) - state.reference_displacement;
+      const Vec2 u = state.displacements[b].segment<2>(place_of(i)) - state.reference_displacement(b);
       polygons.points.insert(polygons.points.end(), {mesh.nodes[i].x(), mesh.nodes[i].y(), 0.0});
       polygons.displacement.insert(polygons.displacement.end(), {u.x(), u.y(), 0.0});
     }

@@ -136,7 +136,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       PointResult& result = results[group.rows[i]];
       if (condensed) {
         const element::PointOperator& rows = group.operators[i];
-        result.values.displacement = rows.N * u - increment.fields.reference_displacement;
+        result.values.displacement = rows.N * u - increment.fields.reference_displacement(b);
         result.values.strain = rows.B * u;
         result.values.stress =
             super_element->sectors.D.of(static_cast<std::size_t>(place.scaled.element)) * result.values.strain +

@@ -54,7 +54,7 @@ Probe::Probe(const analysis::StaticSolution& solution, const analysis::FieldStat
       state_(state),
       body_(static_cast<std::size_t>(body)),
       u_(state.displacements[body_]),
-      reference_displacement_(state.reference_displacement),
+      reference_displacement_(state.reference_displacement(body_)),
       interior_(state.interior[body_]) {}
 
 Probe::~Probe() = default;

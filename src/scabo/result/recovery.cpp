@@ -208,9 +208,10 @@ Fields Recovery::fields(const analysis::StaticSolution& solution, const analysis
       recover_cells(fields, point, solution, state, b, std::get<CellsBody>(bodies_[b]), grid_, complete);
     }
   }
-  for (std::size_t point = 0; point < grid_.point_count(); ++point)
-    for (std::size_t k = 0; k < 2; ++k)
-      fields.displacement[3 * point + k] -= state.reference_displacement[static_cast<Eigen::Index>(k)];
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    for (std::size_t point = grid_.first_point[b]; point < grid_.first_point[b + 1]; ++point)
+      for (std::size_t k = 0; k < 2; ++k)
+        fields.displacement[3 * point + k] -= state.reference_displacement(b)[static_cast<Eigen::Index>(k)];
   return fields;
 }
 

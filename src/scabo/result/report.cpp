@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scabo/analysis/mechanism.hpp"
+#include "scabo/geometry/box.hpp"
 #include "scabo/result/summary.hpp"
 #include "scabo/result/version.hpp"
 
@@ -34,10 +35,23 @@ std::string pairs_in_contact(const analysis::ContactResult& contact) {
 
 constexpr double rounding = 1e-12;
 
+/// How far the rounding of coordinates changes shapes, relative to the size of a body: of a body at the origin 1e-15,
+/// of one of 2 m at 500 km from it, as coordinates of a country are, 1e-9.
+double rounding_of_shapes(const model::Model& model) {
+  double largest = 0.0;
+  for (const model::Body& body : model.bodies) {
+    const geometry::Box box = geometry::box_of(body.outline);
+    const double size = geometry::outline_size(body.outline);
+    if (size > 0.0) largest = std::max(largest, box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff() / size);
+  }
+  return 16.0 * std::numeric_limits<double>::epsilon() * largest;
+}
+
 /// Smaller forces are rounding.
-double force_level(const analysis::IncrementResult& increment) {
+double force_level(const model::Model& model, const analysis::IncrementResult& increment) {
   const contact::Certificate& certificate = increment.certificate;
-  return increment.largest_force * std::max({rounding, certificate.equilibrium, certificate.rigid_balance});
+  return increment.largest_force *
+         std::max({rounding, rounding_of_shapes(model), certificate.equilibrium, certificate.rigid_balance});
 }
 
 /// Smaller lengths are rounding.
@@ -169,7 +183,7 @@ std::string describe_law(const model::Contact& contact) {
   return contact.cohesion > 0.0 ? text + " until failure" : text;
 }
 
-std::string report_contacts(const analysis::IncrementResult& increment) {
+std::string report_contacts(const model::Model& model, const analysis::IncrementResult& increment) {
   if (increment.contacts.empty()) return {};
   const bool breaks = std::any_of(increment.contacts.begin(), increment.contacts.end(),
                                   [](const auto& contact) { return contact.broken.has_value(); });
@@ -179,7 +193,7 @@ std::string report_contacts(const analysis::IncrementResult& increment) {
                                  [](const auto& contact) { return contact.pore_force.has_value(); });
   if (breaks) rows.front().emplace_back("broken");
   if (pores) rows.front().emplace_back("pore force");
-  const double force = force_level(increment), length = length_level(increment);
+  const double force = force_level(model, increment), length = length_level(increment);
   for (const analysis::ContactResult& contact : increment.contacts) {
     const bool of_absent_body = !increment.absent.empty() && contact.open + contact.stick + contact.slip == 0;
     if (of_absent_body) continue;
@@ -194,7 +208,7 @@ std::string report_contacts(const analysis::IncrementResult& increment) {
 
 std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment) {
   if (increment.reactions.empty()) return {};
-  const double force = force_level(increment);
+  const double force = force_level(model, increment);
   std::vector<std::vector<std::string>> rows = {{"support", "reaction x", "reaction y"}};
   const bool moments = std::any_of(increment.moments.begin(), increment.moments.end(),
                                    [](const auto& moment) { return moment.has_value(); });
@@ -210,7 +224,7 @@ std::string report_reactions(const model::Model& model, const analysis::Incremen
 
 std::string report_springs(const model::Model& model, const analysis::IncrementResult& increment) {
   if (increment.springs.empty()) return {};
-  const double force = force_level(increment);
+  const double force = force_level(model, increment);
   std::vector<std::vector<std::string>> rows = {{"springs", "force x", "force y"}};
   for (std::size_t i = 0; i < increment.springs.size(); ++i)
     rows.push_back(
@@ -261,7 +275,7 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
     text += fmt::format("quantity: {} = {:.{}g} +- {:.2g}", quantity.of, quantity.value,
                         static_cast<int>(std::clamp(digits, 3.0, 15.0)), quantity.bar);
     text += quantity.wanted
-            ? fmt::format(" ({:g} wanted, {})\n", *quantity.wanted, quantity.reached() ? "reached" : "not reached")
+                ? fmt::format(" ({:g} wanted, {})\n", *quantity.wanted, quantity.reached() ? "reached" : "not reached")
             : quantity.value == 0.0 ? "\n"
                                     : fmt::format(" ({:.1e})\n", quantity.relative());
   }
@@ -271,7 +285,7 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
   std::string text;
   for (const std::string& part :
-       {report_contacts(increment), report_reactions(model, increment), report_springs(model, increment),
+       {report_contacts(model, increment), report_reactions(model, increment), report_springs(model, increment),
         report_cracks(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   return text;

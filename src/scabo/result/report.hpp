@@ -24,13 +24,13 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
 /// The law of a contact, as in `friction 0.5, cohesion 3e+05 until failure`.
 std::string describe_law(const model::Contact& contact);
 
-// Tables for people show 0 for a figure that is only rounding: a force below 1e-12 of the largest force, or below the
-// residual of equilibrium in the certificate; a gap below 1e-12 of the largest displacement, or below the rounding of
-// coordinates; one of the two factors of a crack below 1e-12 of the other; an effective mass below 1e-12 of the total.
-// Files for programs contain the computed values.
+// Tables for people show 0 for a figure that is only rounding: a force below 1e-12 of the largest force, below the
+// residual of equilibrium in the certificate, or below what the rounding of coordinates makes of it; a gap below 1e-12
+// of the largest displacement, or below the rounding of coordinates; one of the two factors of a crack below 1e-12 of
+// the other; an effective mass below 1e-12 of the total. Files for programs contain the computed values.
 
 /// Totals of every contact; empty if there is none.
-std::string report_contacts(const analysis::IncrementResult& increment);
+std::string report_contacts(const model::Model& model, const analysis::IncrementResult& increment);
 
 /// Force of every support on its body; empty if there is none.
 std::string report_reactions(const model::Model& model, const analysis::IncrementResult& increment);

@@ -459,9 +459,9 @@ TEST(Report, ContactTable) {
   increment.contacts = {contact_result()};
   increment.contacts[0].first_in_contact = 28;
   increment.contacts[0].last_in_contact = 32;
-  const std::string text = report_contacts(increment);
+  const std::string text = report_contacts({}, increment);
   EXPECT_THAT(text, HasSubstr("joint, left           100          0.333333     1      0     1  P28 to P32"));
-  EXPECT_EQ(report_contacts({}), "");
+  EXPECT_EQ(report_contacts({}, {}), "");
 }
 
 /// 1e5 along the normal, rounding along the tangent: people see 0, programs what was computed.
@@ -474,12 +474,20 @@ TEST_F(Results, FiguresAtTheLevelOfRoundingAreShownAsZero) {
   contact.tangential_force = -1.4e-11;
   contact.max_gap = 3e-18;
   increment.reactions = {{-2.3e-9, -1e5}, {1e-5, 0.0}};
-  EXPECT_THAT(report_contacts(increment), testing::ContainsRegex("joint, left +100000 +0 +1 +0 +1 +P2 +4e\\+05 +0\n"));
+  EXPECT_THAT(report_contacts(solution.model, increment),
+              testing::ContainsRegex("joint, left +100000 +0 +1 +0 +1 +P2 +4e\\+05 +0\n"));
   EXPECT_THAT(report_reactions(solution.model, increment), testing::ContainsRegex("lower.bottom +0 +-100000\n"));
   EXPECT_THAT(report_reactions(solution.model, increment), testing::ContainsRegex("upper.top +1e-05 +0\n"));
   // The certificate leaves 1e-9 of equilibrium: 1e-5 is nothing then.
   increment.certificate.equilibrium = 1e-9;
   EXPECT_THAT(report_reactions(solution.model, increment), testing::ContainsRegex("upper.top +0 +0\n"));
+  // Far from the origin the rounding of coordinates is as large.
+  increment.certificate.equilibrium = 0.0;
+  model::Model far = solution.model;
+  for (model::Body& body : far.bodies)
+    for (model::Edge& edge : body.outline.edges) edge = geometry::translated(edge, {5e5, 5e6});
+  EXPECT_THAT(report_reactions(far, increment), testing::ContainsRegex("upper.top +0 +0\n"));
+  increment.certificate.equilibrium = 1e-9;
   solution.increments.push_back(increment);
   EXPECT_THAT(summary_content(solution, {}, false), HasSubstr("-1.4e-11"));
 }
