@@ -62,9 +62,9 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   // Newton's method solves in 4 iterations; from 0.05 on, half of the limit load and friction 0.6, interior points need
   // fewer.
   constexpr double most_beyond = 0.045;
-  // Walls of 64 to 100 blocks: below 0.1 Newton's method and paths take 3 to 4 iterations, above 0.28 interior points
+  // Walls of 64 to 100 blocks: below 0.12 Newton's method and paths take 3 to 6 iterations, above 0.28 interior points
   // turn back. Paths of towers take 2 to 5, those of smaller walls 3 to 7.
-  constexpr double least_of_small = 0.1, most_of_small = 0.28, joints_of_walls = 1.5;
+  constexpr double least_of_small = 0.12, most_of_small = 0.28, joints_of_walls = 1.5;
   constexpr int least_pairs = 500;
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
   const bool small = problem_.pairs() <= most_of_paths_first;
