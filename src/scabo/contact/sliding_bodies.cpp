@@ -180,7 +180,7 @@ std::vector<int> SlidingBodies::hold(const Vector& p, const Residual& at, std::v
       if (left <= (stays_on ? still_indifferent : indifferent) * largest ||
           left <= std::min(indifferent_where_hardly * largest, hardly_turns * next_fall)) {
         // One of them for all: the others may move towards it, as the pairs between them ask.
-        if (!motions.empty()) staying.push_back(motions.front());
+        staying.push_back(motions.front());
         break;
       }
       for (const Slip& turn : slide.turns) {

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "scabo/contact/unit_motions.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace scabo::contact {
@@ -189,6 +192,28 @@ TEST(FloatingBlock, TwoOfThemAreSolvedLikeEach) {
   ASSERT_EQ(solution.status, Status::solved) << solution.reason;
   EXPECT_LT((solution.p.head(8) - solve(one).p).cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_LT((solution.p.tail(10) - solve(two).p).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+// Columns of G in other units: the same forces, and motions in those units, to the bit.
+TEST(UnitMotions, OfAnyUnitsGiveTheSameForces) {
+  const Eigen::Vector3d load(3.0, -10.0, 1.0);
+  const Problem plain = block(5, 0.5, load);
+  const UnitMotions first = in_unit_motions(plain, {});
+  const Solution expected = first.given(solve(first.problem, first.start));
+  ASSERT_EQ(expected.status, Status::solved) << expected.reason;
+  const Eigen::Vector3d units(std::ldexp(1.0, 40), std::ldexp(1.0, -40), std::ldexp(1.0, 13));
+  Problem other = plain;
+  other.G = RigidMap(Matrix(plain.G.dense() * units.asDiagonal()));
+  other.f = units.cwiseProduct(plain.f);
+  Start start;
+  start.a = expected.a.cwiseQuotient(units);
+  const UnitMotions scaled = in_unit_motions(other, start);
+  EXPECT_EQ(scaled.problem.f, first.problem.f);
+  EXPECT_EQ(scaled.start.a, Vector(expected.a.cwiseQuotient(first.unit)));
+  const Solution found = scaled.given(solve(scaled.problem));
+  ASSERT_EQ(found.status, Status::solved) << found.reason;
+  EXPECT_EQ(found.p, expected.p);
+  EXPECT_EQ(found.a, Vector(expected.a.cwiseQuotient(units)));
 }
 
 }  // namespace
