@@ -161,6 +161,34 @@ TEST_P(CrackContact, ClosedCrackSlides) {
     }
 }
 
+// While the whole crack slides, friction is a load: K_II falls in proportion to tau - mu sigma. Far from the origin
+// there are fewer rings, and more of the friction at the tip is missing on the innermost faces (methods, eq. 22.7).
+TEST_P(CrackContact, FrictionIsALoadOnACrackThatSlides) {
+  const auto factor = [&](const Vec2& at, double friction) {
+    const Vec2 arm(std::sqrt(0.5), std::sqrt(0.5)), from = at - arm, to = at + arm;
+    const auto point = [](const Vec2& x) { return fmt::format("[{}, {}]", x.x(), x.y()); };
+    const auto solution = run(fmt::format(
+        R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{rock: {{young: 1000, poisson: 0.25}}}}
+bodies:
+  plate:
+    material: rock
+    shape: {{rectangle: {{corner: {}, size: [40, 40]}}}}
+    cracks: [{{name: flaw, path: [{}, {}]}}]
+    mesh: {{kind: {}, size: 5, order: 3, refine: [{{near: {}, size: 0.2}}, {{near: {}, size: 0.2}}]}}
+supports: [{{on: plate.bottom_left, fix: [x, y]}}, {{on: plate.bottom_right, fix: y}}]
+loads: {{down: {{on: plate.top, pressure: 1}}, up: {{on: plate.bottom, pressure: 1}}}}
+contacts: {{faces: {{between: [plate.flaw.left, plate.flaw.right], friction: {}}}}}
+)",
+        point(at - Vec2(20, 20)), point(from), point(to), kind(), point(from), point(to), friction));
+    return factors_at(last(solution), "plate.flaw.end").K_II;
+  };
+  for (const auto& [at, bound] : {std::pair(Vec2(0, 0), 2e-6), std::pair(Vec2(2e4, -6e4), 1e-4)})
+    EXPECT_NEAR(factor(at, 0.3) / factor(at, 0.0), 0.7, 0.7 * bound) << at.transpose();
+}
+
 // The same with linear and quadratic elements of the body: the rings have a higher order than these.
 TEST_P(CrackContact, LowOrdersSlideToo) {
   for (const auto& [order, bound] : {std::pair(1, 1.3e-2), std::pair(2, 1e-3)}) {
