@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "scabo/element/exact_riccati.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
@@ -42,6 +43,13 @@ int symmetry_blocks(const mesh::BodyMesh& body) {
                     [&](const Vec2& x) { return places.contains(place((x - centre).cwiseProduct(mirror))); }))
       blocks *= 2;
   return blocks;
+}
+
+/// Seconds of a super-element's last digits, of n degrees of freedom in some symmetry blocks.
+double last_digits_of(const mesh::Cell& cell, const mesh::BodyMesh& body, double n, int blocks,
+                      const CostConstants& costs) {
+  const auto rows = element::rows_with_last_digits(element::ring_of(cell, body.nodes), 1.0);
+  return n / blocks <= static_cast<double>(rows) ? costs.last_digits_seconds * n * n * n / (blocks * blocks) : 0.0;
 }
 
 double log2_of(double n) { return std::log2(std::max(n, 2.0)); }
@@ -121,6 +129,8 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       const double work = n * n * n;
       plan.bytes += (is_new ? 8.0 + costs.block_bytes / blocks : 8.0) * n * n;
       if (is_new) plan.cells += costs.dense_seconds * work / (blocks * blocks);
+      if (is_new && !body.outside)
+        plan.cells += last_digits_of(mesh.bodies[b].cells.front(), mesh.bodies[b], n, blocks, costs);
       if (is_new && written > 0.0) plan.fields += costs.dense_field_seconds * work / (blocks * blocks);
       plan.factorise += costs.dense_factor_seconds * work;
       plan.condense += costs.dense_condense_seconds * n * n * k;
@@ -137,7 +147,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
         const double m = 2.0 * static_cast<double>(cell.nodes().size());
         if (m < costs.least_large_cell) continue;
         plan.bytes += (8.0 + costs.block_bytes) * m * m;
-        plan.cells += costs.dense_seconds * m * m * m;
+        plan.cells += costs.dense_seconds * m * m * m + last_digits_of(cell, mesh.bodies[b], m, 1, costs);
         if (written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m;
       }
       plan.mesh += (fem ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;
