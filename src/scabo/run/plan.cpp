@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <tuple>
 
+#include "scabo/element/cell_library.hpp"
 #include "scabo/element/exact_riccati.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/wording.hpp"
@@ -50,6 +52,14 @@ double last_digits_of(const mesh::Cell& cell, const mesh::BodyMesh& body, double
                       const CostConstants& costs) {
   const auto rows = element::rows_with_last_digits(element::ring_of(cell, body.nodes), 1.0);
   return n / blocks <= static_cast<double>(rows) ? costs.last_digits_seconds * n * n * n / (blocks * blocks) : 0.0;
+}
+
+/// Whether coordinates have digits enough for equal cells to be seen as such (element/cell_library).
+bool may_share_cells(const model::Body& body) {
+  const geometry::Box box = geometry::box_of(body.outline);
+  const double farthest = std::max(box.low.lpNorm<Eigen::Infinity>(), box.high.lpNorm<Eigen::Infinity>());
+  return body.mesh.kind == model::MeshKind::quadtree &&
+         std::numeric_limits<double>::epsilon() * farthest < element::most_apart * body.mesh.size;
 }
 
 double log2_of(double n) { return std::log2(std::max(n, 2.0)); }
@@ -136,7 +146,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       plan.condense += costs.dense_condense_seconds * n * n * k;
     } else {
       plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
-      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && !fem;
+      const bool cells_differ = !fem && !may_share_cells(body);
       if (cells_differ) {
         plan.bytes += costs.own_cell_bytes * n;
         plan.cells += costs.own_cell_seconds * n;
