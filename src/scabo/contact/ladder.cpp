@@ -150,12 +150,13 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
 /// pairs, but where all pairs of a closed crack seem to slip, they come back to sticking ring by ring around its tip
 /// (51 iterations).
 NewtonEnd Ladder::newton_or_kept_states(const Vector& p, const Vector& a, Run how) {
-  constexpr int soon = 6;
+  constexpr int soon = 8;
+  constexpr double nearer = 0.01;  // where some pairs do change, Newton has come as near in these iterations
   if (options_.iterations <= soon) return newton_alone(p, a, how);
   how.iterations = soon;
   NewtonEnd end = newton_alone(p, a, how);
   if (end.converged || late()) return end;
-  NewtonEnd kept = on_kept_states(p, a, end.residual);
+  NewtonEnd kept = on_kept_states(p, a, nearer * end.residual);
   if (kept.converged || late()) return kept;
   if (kept.residual < end.residual) end = std::move(kept);
   how.iterations = 0;
