@@ -2,8 +2,27 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
-__all__ = ["threads_of"]
+import numpy as np
+
+__all__ = ["real_array", "threads_of"]
+
+
+def real_array(name: str, values: Any) -> np.ndarray:
+    """The values as floating-point numbers; without a copy if they are. Complex numbers, which would lose their imaginary
+    parts, masked ones and text are refused."""
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked entries: fill them in, or leave them out")
+    array = np.asarray(values)
+    if array.dtype.kind == "c":
+        raise ValueError(f"{name} must be real, not of dtype {array.dtype}: pass its real part if the imaginary part is 0")
+    if array.dtype.kind not in "biufO":
+        raise ValueError(f"{name} must be numbers, not of dtype {array.dtype}")
+    try:
+        return array.astype(float, copy=False)
+    except (TypeError, ValueError) as error:  # objects
+        raise ValueError(f"{name} must be real numbers: {error}") from None
 
 
 def threads_of(wanted: int | None) -> int:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from .arguments import threads_of
+from .arguments import real_array, threads_of
 from .errors import Collapse, Infeasible, Mechanism, NotConverged
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def solve_contact(W: Any, q: ArrayLike, mu: ArrayLike, *, dimension: int = 2, G:
     N pairs with [normal, tangent] (d = 2) or [normal, tangent 1, tangent 2] (d = 3) each; u are relative motions of B
     with regard to A, p forces on B.
 
-    W            (dN, dN): an array, or a sparse matrix of SciPy; motion per force
+    W            (dN, dN), symmetric: an array, or a sparse matrix of SciPy; motion per force
     q            (dN): motion without contact forces (initial gaps included)
     mu           (N) or one number: coefficients of friction, 0 or more
     G, f         (dN, m), (m): motion of the pairs per rigid motion, and the loads on them
@@ -159,14 +159,14 @@ def solve_contact(W: Any, q: ArrayLike, mu: ArrayLike, *, dimension: int = 2, G:
 
 
 def _vector(name: str, values: ArrayLike, size: int | None = None) -> np.ndarray:
-    array = np.asarray(values, dtype=float).reshape(-1)
+    array = real_array(name, values).reshape(-1)
     if size is not None and array.size != size:
         raise ValueError(f"{name} must have {size} entries, not {array.size}")
     return _finite(name, array)
 
 
 def _matrix(name: str, values: Any, rows: int) -> np.ndarray:
-    array = np.asarray(values.toarray() if hasattr(values, "toarray") else values, dtype=float)
+    array = real_array(name, values.toarray() if hasattr(values, "toarray") else values)
     if array.ndim != 2 or array.shape[0] != rows:
         raise ValueError(f"{name} must be a matrix with {rows} rows, not of shape {array.shape}")
     return _finite(name, array)
@@ -179,7 +179,7 @@ def _finite(name: str, array: np.ndarray) -> np.ndarray:
 
 
 def _of_pairs(name: str, values: ArrayLike, pairs: int, finite: bool = True) -> np.ndarray:
-    array = np.asarray(values, dtype=float)
+    array = real_array(name, values)
     if array.ndim == 0:
         array = np.full(pairs, float(array))
     if array.shape != (pairs,):
@@ -194,7 +194,28 @@ def _operator(W: Any, size: int) -> tuple[np.ndarray | None, tuple[np.ndarray, n
     if tuple(getattr(W, "shape", np.shape(W))) != (size, size):
         raise ValueError(f"W must have the shape ({size}, {size}), as q has {size} entries, not {np.shape(W)}")
     if not hasattr(W, "tocsc"):
-        return _finite("W", np.asarray(W, dtype=float)), None
+        dense = _finite("W", real_array("W", W))
+        if size:
+            i, j = np.unravel_index(np.argmax(np.abs(dense - dense.T)), dense.shape)
+            _symmetric(i, j, dense[i, j], dense[j, i], np.abs(dense).max())
+        return dense, None
     columns = W.tocsc()
     columns.sort_indices()
-    return None, (columns.indptr, columns.indices, _finite("W", columns.data))
+    data = _finite("W", real_array("W", columns.data))
+    if data.size:
+        column = np.repeat(np.arange(size), np.diff(columns.indptr))
+        places, entry = np.unique(columns.indices.astype(np.int64) * size + column, return_inverse=True)
+        values = np.bincount(entry, data)
+        i, j = places // size, places % size
+        mirrored = np.minimum(np.searchsorted(places, j * size + i), places.size - 1)
+        across = np.where(places[mirrored] == j * size + i, values[mirrored], 0.0)
+        worst = np.argmax(np.abs(values - across))
+        _symmetric(i[worst], j[worst], values[worst], across[worst], np.abs(values).max())
+    return None, (columns.indptr, columns.indices, data)
+
+
+def _symmetric(i: int, j: int, entry: float, across: float, largest: float) -> None:
+    """Refuses W if its entry (i, j), which differs most from that across the diagonal, differs by more than what rounding
+    and single precision leave."""
+    if abs(entry - across) > 1e-6 * largest:
+        raise ValueError(f"W must be symmetric, but W[{i}, {j}] is {entry:g} and W[{j}, {i}] is {across:g}")

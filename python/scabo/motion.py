@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .arguments import real_array
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
@@ -48,7 +50,7 @@ class Motion:
         """Displacements at points of a body, (n, 2), which count as moving with it wherever they are."""
         if body not in self.bodies:
             raise KeyError(f"there is no body named {body!r}; there are: {', '.join(self.bodies)}")
-        at = np.asarray(points, dtype=float)
+        at = real_array("points", points)
         if at.ndim != 2 or at.shape[1] != 2:
             raise ValueError(f"points must have the shape (n, 2), as in [[x, y], ...], not {at.shape}")
         number = self.bodies.index(body)

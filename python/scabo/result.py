@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
+from .arguments import real_array
 from .motion import Motion
 
 if TYPE_CHECKING:
@@ -216,7 +217,7 @@ class Result:
         if outside not in ("error", "nan"):
             raise ValueError(f"outside must be 'error' or 'nan', not {outside!r}")
         only = -1 if body is None else self._body(body)
-        at = np.asarray(points, dtype=float)
+        at = real_array("points", points)
         if at.ndim != 2 or at.shape[1] != 2:
             raise ValueError(f"points must have the shape (n, 2), as in [[x, y], ...], not {at.shape}")
         return self._core.values(self._with_fields(increment), at, only, outside == "nan")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from . import _core
-from .arguments import threads_of
+from .arguments import real_array, threads_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ __all__ = ["SuperElement", "boundary_nodes"]
 def boundary_nodes(vertices: ArrayLike, size: float, order: int = 2) -> np.ndarray:
     """Nodes of the boundary of a polygon, counter-clockwise, (n, 2): every edge is divided into elements of equal length,
     at most ``size``, with their nodes at the Gauss-Lobatto-Legendre points of ``order``."""
-    corners = np.asarray(vertices, dtype=float)
+    corners = real_array("vertices", vertices)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
         raise ValueError("vertices must be three or more points, as in [[x, y], ...]")
     if not np.isfinite(corners).all():
@@ -64,7 +64,7 @@ class SuperElement:
     def __init__(self, nodes: ArrayLike, young: float, poisson: float, *, plane: Literal["stress", "strain"] = "stress",
                  order: int = 2, thickness: float = 1.0, centre: ArrayLike | None = None, open: bool = False,
                  unbounded: bool = False, threads: int = 1) -> None:
-        self._nodes = np.array(nodes, dtype=float)
+        self._nodes = real_array("nodes", nodes).copy()
         if self._nodes.ndim != 2 or self._nodes.shape[1] != 2:
             raise ValueError(f"nodes must have the shape (n, 2), not {self._nodes.shape}")
         if not np.isfinite(self._nodes).all():
@@ -85,7 +85,7 @@ class SuperElement:
             if open:
                 raise ValueError("an open super-element needs its scaling centre: the tip of the crack or corner")
             centre = _centroid(self._nodes)
-        self._centre = np.array(centre, dtype=float)
+        self._centre = real_array("centre", centre).copy()
         if self._centre.shape != (2,) or not np.isfinite(self._centre).all():
             raise ValueError("centre must be a point, as in [x, y]")
         at = (float(self._centre[0]), float(self._centre[1]))
@@ -121,10 +121,10 @@ class SuperElement:
     def field(self, displacement: ArrayLike, points: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (m, 2) and stress (m, 3): xx, yy, xy, at points (m, 2) inside, from the displacements of the nodes,
         (2 n) or (n, 2). Not a number for points outside."""
-        u = np.asarray(displacement, dtype=float).reshape(-1)
+        u = real_array("displacement", displacement).reshape(-1)
         if u.size != self._nodes.size:
             raise ValueError(f"there are {self._nodes.size} displacements of nodes, not {u.size}")
-        at = np.asarray(points, dtype=float)
+        at = real_array("points", points)
         if at.ndim != 2 or at.shape[1] != 2:
             raise ValueError(f"points must have the shape (m, 2), not {at.shape}")
         return self._core.values(u, at - self._centre)

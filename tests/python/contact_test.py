@@ -64,20 +64,6 @@ class ClosedForms(unittest.TestCase):
             np.testing.assert_allclose(solution.rigid_motions * unit, [-1.0, 0.0], atol=1e-12)
 
     def test_sparse(self):
-        class Columns:  # what is needed of scipy.sparse
-            def __init__(self, dense):
-                self.dense, self.shape = dense, dense.shape
-
-            def tocsc(self):
-                columns = [np.flatnonzero(column) for column in self.dense.T]
-                self.indptr = np.cumsum([0, *map(len, columns)]).astype(np.int32)
-                self.indices = np.concatenate(columns).astype(np.int64)
-                self.data = np.concatenate([self.dense[rows, k] for k, rows in enumerate(columns)])
-                return self
-
-            def sort_indices(self):
-                pass
-
         W = np.array([[2.0, 0.3, 0.1, 0.0], [0.3, 1.0, 0.0, 0.0], [0.1, 0.0, 2.0, -0.2], [0.0, 0.0, -0.2, 1.0]])
         q = [-1.0, 2.0, -0.5, 0.01]
         np.testing.assert_allclose(scabo.solve_contact(Columns(W), q, 0.4).forces, scabo.solve_contact(W, q, 0.4).forces,
@@ -116,6 +102,45 @@ class ClosedForms(unittest.TestCase):
             with self.subTest(**{key: str(value) for key, value in arguments.items()}):
                 with self.assertRaisesRegex(ValueError, message):
                     scabo.solve_contact(**{**dict(W=W, q=q, mu=0.3), **arguments})
+
+    def test_complex_numbers_keep_their_imaginary_parts(self):
+        """NumPy would drop them with a warning."""
+        W, q, G, f = np.eye(2), np.array([-1.0, 0.0]), np.array([[1.0], [0.0]]), np.array([-1.0])
+        for name, value in (("W", W), ("q", q), ("mu", np.array([0.3])), ("G", G), ("f", f), ("cohesion", np.array([1.0])),
+                            ("start", q)):
+            with self.subTest(name), self.assertRaisesRegex(ValueError, f"^{name} must be real, not of dtype complex128"):
+                scabo.solve_contact(**{**dict(W=W, q=q, mu=0.3, G=G, f=f), name: value + 1j})
+        for name, value in (("q", np.ma.masked_array(q, [True, False])), ("q", ["-1", "0"]), ("q", [-1j, object()])):
+            with self.subTest(value=str(value)), self.assertRaisesRegex(ValueError, f"^{name} "):
+                scabo.solve_contact(**{**dict(W=W, q=q, mu=0.3), name: value})
+
+    def test_unsymmetric_flexibilities_are_refused(self):
+        W, q = np.array([[2.0, 0.1, 0.0, 0.0], [0.1, 3.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.2], [0.0, 0.0, 0.2, 1.0]]), [-1.0, 0.0] * 2
+        forces = scabo.solve_contact(W, q, 0.3).forces
+        wrong, slightly = W.copy(), W.copy()
+        wrong[3, 1], slightly[3, 1] = 0.5, 1e-9
+        for made in (np.array, Columns):
+            with self.assertRaisesRegex(ValueError, r"W must be symmetric, but W\[(3, 1\] is 0.5 and W\[1, 3\] is 0|1, 3\] is 0 and)"):
+                scabo.solve_contact(made(wrong), q, 0.3)
+            np.testing.assert_allclose(scabo.solve_contact(made(slightly), q, 0.3).forces, forces, rtol=1e-7)
+        self.assertEqual(scabo.solve_contact(np.zeros((0, 0)), [], 0.3).forces.shape, (0, 2))
+
+
+class Columns:
+    """What is needed of scipy.sparse."""
+
+    def __init__(self, dense):
+        self.dense, self.shape = dense, dense.shape
+
+    def tocsc(self):
+        columns = [np.flatnonzero(column) for column in self.dense.T]
+        self.indptr = np.cumsum([0, *map(len, columns)]).astype(np.int32)
+        self.indices = np.concatenate(columns).astype(np.int64)
+        self.data = np.concatenate([self.dense[rows, k] for k, rows in enumerate(columns)])
+        return self
+
+    def sort_indices(self):
+        pass
 
 
 class SameAsTheProgram(unittest.TestCase):

@@ -183,6 +183,8 @@ class Points(InTemporaryDirectory):
             result.displacement([[1e300, 0.0]])  # the square of its distance is infinite
         with self.assertRaisesRegex(ValueError, "outside must be"):
             result.displacement([[3.0, 1.0]], outside="zero")
+        with self.assertRaisesRegex(ValueError, "^points must be real"):
+            result.stress(np.array([[3.0, 1.0]]) + 1j)
         for wrong in ([1.0, 2.0], [[1.0, 2.0, 3.0]], 5.0):
             with self.assertRaisesRegex(ValueError, "shape"):
                 result.displacement(wrong)

@@ -91,6 +91,17 @@ class Closed(unittest.TestCase):
             element.field(np.zeros(3), [[1, 0.5]])
         self.assertTrue(np.isnan(element.field(np.zeros(nodes.size), [[9.0, 9.0]])[0]).all())
 
+    def test_complex_numbers_are_refused(self):
+        nodes = scabo.boundary_nodes([[0, 0], [1, 0], [1, 1], [0, 1]], 0.5)
+        element, u = scabo.SuperElement(nodes, 1.0, 0.3), nodes.copy()
+        for name, call in (("nodes", lambda: scabo.SuperElement(nodes + 0j, 1.0, 0.3)),
+                           ("centre", lambda: scabo.SuperElement(nodes, 1.0, 0.3, centre=np.array([0.5, 0.5]) + 1j)),
+                           ("displacement", lambda: element.field(u + 1j, [[0.5, 0.5]])),
+                           ("points", lambda: element.field(u, np.array([[0.5, 0.5]]) + 1j)),
+                           ("vertices", lambda: scabo.boundary_nodes(nodes + 1j, 0.5))):
+            with self.subTest(name), self.assertRaisesRegex(ValueError, f"^{name} must be real"):
+                call()
+
     def test_boundary_nodes(self):
         np.testing.assert_allclose(scabo.boundary_nodes([[0, 0], [1, 0], [0, 1]], 2.0, 1), [[0, 0], [1, 0], [0, 1]])
         nodes = scabo.boundary_nodes(SQUARE, 1.0, 3)

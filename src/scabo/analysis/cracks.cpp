@@ -72,15 +72,18 @@ TipTraction traction_at(const StaticSolution& solution, const IncrementResult& i
 }
 
 /// Adds what the tractions of a closed crack, p and s, would do on the innermost faces, of length d, which are free of
-/// them: sqrt(pi d / 2) times the traction where it keeps the faces together (a crack of length d), and
-/// 2 sqrt(2 d / pi) times it where they slide (a load at the tip). Friction opposes the slip.
+/// them: sqrt(pi d / 2) times the traction (a crack of length d). That holds for s where the faces slide too: friction
+/// of what the pressure is more beside the innermost faces (system/tributary_lengths.hpp) is there already, and
+///
+///     2 sqrt(2 d / pi) - sqrt(2 / pi) integral from d to infinity of
+///         ((r - d / 2) / sqrt(r (r - d)) - 1) / sqrt(r) dr = sqrt(pi d / 2)
+///
+/// Friction opposes the slip.
 void add_innermost_tractions(element::StressIntensity& factors, const TipTraction& at, double d) {
   if (at.state == contact::ContactState::open) return;
-  const double before = std::hypot(factors.K_I, factors.K_II);
-  const double held = std::sqrt(0.5 * std::numbers::pi * d), sliding = 2.0 * std::sqrt(2.0 * d / std::numbers::pi);
-  factors.K_I += at.pressure * held;
-  const double shear = at.shear * (at.state == contact::ContactState::slip ? sliding : held);
-  factors.K_II -= std::copysign(shear, factors.K_II);
+  const double before = std::hypot(factors.K_I, factors.K_II), per_traction = std::sqrt(0.5 * std::numbers::pi * d);
+  factors.K_I += at.pressure * per_traction;
+  factors.K_II -= std::copysign(at.shear * per_traction, factors.K_II);
   const double ratio = before > 0.0 ? std::pow(std::hypot(factors.K_I, factors.K_II) / before, 2) : 1.0;
   if (factors.G) *factors.G *= ratio;
   if (factors.J) *factors.J *= ratio;

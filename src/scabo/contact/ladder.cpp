@@ -93,7 +93,8 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   } else if (!cold) {
     Run how{"newton", 0.0, 1.0, most, patience};
     if (paths) how.first_fall = 0.15;  // as in bonded()
-    if (better(newton_of_many(p, a, how))) return best;
+    const bool held = !many && problem_.G.cols() == 0;
+    if (better(held ? newton_or_kept_states(p, a, how) : newton_of_many(p, a, how))) return best;
   }
   if (!cold && paths && better(along_loads(p, a))) return best;
   const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
@@ -145,8 +146,27 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   return best;
 }
 
-/// Newton from where the loads lead as long as no pair changes its state, if that is nearer than the last increment.
-NewtonEnd Ladder::on_kept_states(const Vector& p, const Vector& a) {
+/// Newton's method where supports hold all bodies. It takes one or two iterations from the last increment or from fewer
+/// pairs, but where all pairs of a closed crack seem to slip, they come back to sticking ring by ring around its tip
+/// (51 iterations).
+NewtonEnd Ladder::newton_or_kept_states(const Vector& p, const Vector& a, Run how) {
+  constexpr int soon = 8;
+  constexpr double nearer = 0.01;  // where some pairs do change, Newton has come as near in these iterations
+  if (options_.iterations <= soon) return newton_alone(p, a, how);
+  how.iterations = soon;
+  NewtonEnd end = newton_alone(p, a, how);
+  if (end.converged || late()) return end;
+  NewtonEnd kept = on_kept_states(p, a, nearer * end.residual);
+  if (kept.converged || late()) return kept;
+  if (kept.residual < end.residual) end = std::move(kept);
+  how.iterations = 0;
+  NewtonEnd more = newton_alone(end.p, end.a, how);
+  return more.converged || more.residual < end.residual ? more : end;
+}
+
+/// Newton from where the loads lead as long as no pair changes its state, if that is nearer than the last increment and
+/// has a smaller |H| than `best`.
+NewtonEnd Ladder::on_kept_states(const Vector& p, const Vector& a, double best) {
   constexpr int few = 8;
   constexpr double nearer = 0.1;  // merit: of points that are hardly better, Newton takes as long as from those before
   const BDifferentiableEquations equations(problem_, options_.r_factor);
@@ -157,7 +177,8 @@ NewtonEnd Ladder::on_kept_states(const Vector& p, const Vector& a) {
   trace_.push_back({iterations_ + coarse_iterations_, before.largest(), before.merit(), 0.0, 0, "states kept"});
   if (options_.on_iteration) options_.on_iteration(trace_.back());
   ++iterations_;
-  if (!(equations.residual(kept->p, kept->a).merit() < nearer * before.merit())) return nothing();
+  const Residual there = equations.residual(kept->p, kept->a);
+  if (!(there.merit() < nearer * before.merit() && there.largest() < best)) return nothing();
   return newton_alone(kept->p, kept->a, {"newton", 0.0, 1.0, std::min(few, options_.iterations)});
 }
 
@@ -168,8 +189,12 @@ NewtonEnd Ladder::without_history(const Vector& p, const Vector& a) {
     // sweeps follow with 51 iterations, and a start from zero with 51 more, where interior points take 7 to 9.
     constexpr int few = 10;
     const bool inner = problem_.G.cols() > 0 && may_take_plane_interior_points(problem_);
+    ColdStart start = nested_start(problem_, a);
+    take_trace_of(start);
     const NewtonEnd end =
-        after_start(nested_start(problem_, a), {"newton", 0.0, 1.0, inner ? std::min(few, options_.iterations) : 0});
+        problem_.G.cols() == 0
+            ? newton_or_kept_states(start.p, start.a, {"newton"})
+            : newton_alone(start.p, start.a, {"newton", 0.0, 1.0, inner ? std::min(few, options_.iterations) : 0});
     if (end.converged || late()) return end;
     if (const std::optional<BondedStart> bonded = inner ? bonded_start(problem_, {}) : std::nullopt) {
       const NewtonEnd near = inside_near(bonded->p, bonded->a, 1.0);
@@ -180,12 +205,16 @@ NewtonEnd Ladder::without_history(const Vector& p, const Vector& a) {
   return end.converged || problem_.G.cols() == 0 ? end : newton_alone(p, a, {"newton from zero"});
 }
 
-NewtonEnd Ladder::after_start(ColdStart start, const Run& how) {
+void Ladder::take_trace_of(ColdStart& start) {
   for (Iteration& iteration : start.trace) {
     iteration.iteration += iterations_ + coarse_iterations_;
     trace_.push_back(std::move(iteration));
   }
   coarse_iterations_ += start.coarse_iterations;
+}
+
+NewtonEnd Ladder::after_start(ColdStart start, const Run& how) {
+  take_trace_of(start);
   return newton_alone(start.p, start.a, how);
 }
 

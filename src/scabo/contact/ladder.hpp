@@ -78,7 +78,8 @@ class Ladder {
   NewtonEnd softly(const Vector& p, const Vector& a, Run how);
   NewtonEnd climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                           const std::function<bool()>& hopeless);
-  NewtonEnd on_kept_states(const Vector& p, const Vector& a);
+  NewtonEnd newton_or_kept_states(const Vector& p, const Vector& a, Run how);
+  NewtonEnd on_kept_states(const Vector& p, const Vector& a, double best = HUGE_VAL);
   NewtonEnd bonded(const BondedStart& start);
   NewtonEnd along_loads(const Vector& p, const Vector& a);
   NewtonEnd along_paths(const BondedStart& bonded, const std::vector<bool>& touching);
@@ -86,6 +87,7 @@ class Ladder {
   PathEnd along_path(const PathStart& start);
   NewtonEnd confirmed(NewtonEnd found, int few, const std::string& name);
   NewtonEnd without_history(const Vector& p, const Vector& a);
+  void take_trace_of(ColdStart& start);
   NewtonEnd after_start(ColdStart start, const Run& how);
   NewtonEnd climb_rank_deficient(const Vector& p, const std::function<bool()>& hopeless);
   NewtonEnd swept(const Vector& p, int sweeps, double regularisation, int iterations = 0);

@@ -32,7 +32,7 @@ bool are_alike(const SolvedSuperElement& a, const SolvedSuperElement& b, double 
   double size = 0.0;
   for (const Vec2& x : a.ring.nodes) size = std::max(size, x.squaredNorm());
   // Coordinates relative to their centres differ only by rounding.
-  const double most = std::max(1e-26 * size, rounding * rounding);
+  const double most = std::max(1e-26 * size, std::min(rounding * rounding, most_apart * most_apart * size));
   for (std::size_t i = 0; i < a.ring.nodes.size(); ++i)
     if ((a.ring.nodes[i] - b.ring.nodes[i]).squaredNorm() > most) return false;
   return true;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "scabo/element/ill_posed.hpp"
@@ -74,7 +75,23 @@ Matrix with_translations(const Exact& K_I, const Exact& R_I, const Block& block)
   return K.cast<double>();
 }
 
+/// Largest distance of the boundary from the scaling centre over the smallest.
+double slenderness(const Ring& ring) {
+  double largest = 0.0, smallest = HUGE_VAL;
+  for (const mesh::LineElement& element : ring.elements) {
+    const Vec2 &from = ring.node(element.nodes.front()), &to = ring.node(element.nodes.back());
+    largest = std::max(largest, from.norm());
+    smallest = std::min(smallest, std::abs(cross(from, to)) / (to - from).norm());
+  }
+  return largest / smallest;
+}
+
 }  // namespace
+
+Eigen::Index rows_with_last_digits(const Ring& ring, double contrast) {
+  if (slenderness(ring) > great_slenderness) return most_slender_rows;
+  return contrast > great_contrast ? most_exact_rows : 0;
+}
 
 Matrix correct_last_digits(const Ring& boundary, const Elasticity& D, double thickness, const Block& block,
                            RingStiffness& ring) {

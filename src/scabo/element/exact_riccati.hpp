@@ -19,6 +19,10 @@ inline constexpr double great_contrast = 1e3;
 inline constexpr double great_slenderness = 50;  // largest distance of the boundary from the centre over the smallest
 inline constexpr Eigen::Index most_exact_rows = 500, most_slender_rows = 1250;
 
+/// Rows of a block up to which a bounded domain gets its last digits without being asked, 0 of most rings. `contrast`:
+/// Elasticity::contrast().
+Eigen::Index rows_with_last_digits(const Ring& ring, double contrast);
+
 /// Corrects K and S of a block of a bounded domain, whose T, I, J are known. Returns the stiffness of the whole block,
 /// the rows J of the translations included. Throws IllPosed when E0 is not positive definite.
 Matrix correct_last_digits(const Ring& boundary, const Elasticity& D, double thickness, const Block& block,

@@ -261,17 +261,6 @@ Block solve_block(const Whole& whole, Eigen::SparseMatrix<double> T, BlockResult
   return block;
 }
 
-/// Largest distance of the boundary from the scaling centre over the smallest.
-double slenderness(const Ring& ring) {
-  double largest = 0.0, smallest = HUGE_VAL;
-  for (const mesh::LineElement& element : ring.elements) {
-    const Vec2 &from = ring.node(element.nodes.front()), &to = ring.node(element.nodes.back());
-    largest = std::max(largest, from.norm());
-    smallest = std::min(smallest, std::abs(cross(from, to)) / (to - from).norm());
-  }
-  return largest / smallest;
-}
-
 /// K <- K + T K_k T', the lower triangle.
 void add_block(const Eigen::SparseMatrix<double>& T, const Matrix& K_k, Matrix& K) {
   const Matrix columns = T * K_k;
@@ -322,8 +311,7 @@ SuperElementSolution solve_super_element(const Ring& ring, const Elasticity& D, 
   Whole whole{ring, D, thickness, domain, matrices, motions};
   const Circle circle = domain.unbounded ? circle_of(ring, domain.far) : Circle();
   whole.circle = &circle;
-  if (D.contrast() > great_contrast) whole.all_digits = most_exact_rows;
-  if (slenderness(ring) > great_slenderness) whole.all_digits = most_slender_rows;
+  whole.all_digits = rows_with_last_digits(ring, D.contrast());
   std::vector<BlockResult> results(bases.size());
   const auto solve = [&](int k) {
     const auto i = static_cast<std::size_t>(k);

@@ -87,13 +87,17 @@ void check_version(Reading& reading, const MapReader& map) {
   }
 }
 
+constexpr const char* about_units =
+    "leave it out, and write all numbers in one consistent set of units, such as m, N, Pa, kg/m3 or mm, N, MPa, t/mm3; "
+    "`scabo plot --units m,N` and `scabo report --units m,N` label pictures";
+
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(
       reading.report, root,
       {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
        "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance", "restart"},
-      "'scabo: 1' and sections");
+      "'scabo: 1' and sections", {{"units", about_units}, {"unit", about_units}, {"unit_system", about_units}});
   if (!map.is_map()) {
     reading.bodies_known = false;
     return;

@@ -26,7 +26,7 @@
 
 namespace scabo::mesh {
 
-/// With these values a crack that slides everywhere has K_II to 7e-6 and |K_I| below 5e-7 K_II, for a cell of a tenth
+/// With these values a crack that slides everywhere has K_II to 1e-7 and |K_I| below 5e-7 K_II, for a cell of a tenth
 /// of its half length, and its pressure is uniform to 2e-4 from 1e-6 of the tip on (docs/methods/22_many_cells.md).
 struct TipRings {
   int count = 14;      ///< 1 or more; fewer where the coordinates do not have enough digits

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <tuple>
 
+#include "scabo/element/cell_library.hpp"
+#include "scabo/element/exact_riccati.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
@@ -42,6 +45,21 @@ int symmetry_blocks(const mesh::BodyMesh& body) {
                     [&](const Vec2& x) { return places.contains(place((x - centre).cwiseProduct(mirror))); }))
       blocks *= 2;
   return blocks;
+}
+
+/// Seconds of a super-element's last digits, of n degrees of freedom in some symmetry blocks.
+double last_digits_of(const mesh::Cell& cell, const mesh::BodyMesh& body, double n, int blocks,
+                      const CostConstants& costs) {
+  const auto rows = element::rows_with_last_digits(element::ring_of(cell, body.nodes), 1.0);
+  return n / blocks <= static_cast<double>(rows) ? costs.last_digits_seconds * n * n * n / (blocks * blocks) : 0.0;
+}
+
+/// Whether coordinates have digits enough for equal cells to be seen as such (element/cell_library).
+bool may_share_cells(const model::Body& body) {
+  const geometry::Box box = geometry::box_of(body.outline);
+  const double farthest = std::max(box.low.lpNorm<Eigen::Infinity>(), box.high.lpNorm<Eigen::Infinity>());
+  return body.mesh.kind == model::MeshKind::quadtree &&
+         std::numeric_limits<double>::epsilon() * farthest < element::most_apart * body.mesh.size;
 }
 
 double log2_of(double n) { return std::log2(std::max(n, 2.0)); }
@@ -121,12 +139,14 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
       const double work = n * n * n;
       plan.bytes += (is_new ? 8.0 + costs.block_bytes / blocks : 8.0) * n * n;
       if (is_new) plan.cells += costs.dense_seconds * work / (blocks * blocks);
+      if (is_new && !body.outside)
+        plan.cells += last_digits_of(mesh.bodies[b].cells.front(), mesh.bodies[b], n, blocks, costs);
       if (is_new && written > 0.0) plan.fields += costs.dense_field_seconds * work / (blocks * blocks);
       plan.factorise += costs.dense_factor_seconds * work;
       plan.condense += costs.dense_condense_seconds * n * n * k;
     } else {
       plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
-      const bool cells_differ = body.mesh.kind != model::MeshKind::quadtree && !fem;
+      const bool cells_differ = !fem && !may_share_cells(body);
       if (cells_differ) {
         plan.bytes += costs.own_cell_bytes * n;
         plan.cells += costs.own_cell_seconds * n;
@@ -137,7 +157,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
         const double m = 2.0 * static_cast<double>(cell.nodes().size());
         if (m < costs.least_large_cell) continue;
         plan.bytes += (8.0 + costs.block_bytes) * m * m;
-        plan.cells += costs.dense_seconds * m * m * m;
+        plan.cells += costs.dense_seconds * m * m * m + last_digits_of(cell, mesh.bodies[b], m, 1, costs);
         if (written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m;
       }
       plan.mesh += (fem ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;

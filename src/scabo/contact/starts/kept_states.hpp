@@ -12,7 +12,7 @@
 // Newton's method itself takes states from those forces together with the motions under the new loads. Where contact
 // alone holds a body, that body has not moved with the loads yet, and nearly all pairs seem to slip or to open: 602
 // unknowns under loads that grow in proportion take ten factorisations that way, and one this way. Bodies that supports
-// hold move without it, and Newton takes one or two iterations.
+// hold move without it, and Newton mostly takes one or two iterations; this start follows if it takes more.
 #pragma once
 
 #include <optional>
