@@ -492,7 +492,7 @@ MUTATIONS = {
     122: ('contact/sliding_bodies.cpp',
         'staying.push_back(motions.front());',
         'staying.insert(staying.end(), motions.begin(), MUTATED ? motions.end() : motions.begin() + 1);',
-        'verification_blocks Wall.OfAFewHundred*'),
+        'unit_contact_parts SlidingBodies*'),
     123: ('contact/unit_motions.cpp',
         'scaled.problem.f = scaled.unit.cwiseProduct(problem.f);',
         'scaled.problem.f = MUTATED ? problem.f : Vector(scaled.unit.cwiseProduct(problem.f));',
