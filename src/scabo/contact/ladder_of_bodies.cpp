@@ -62,17 +62,18 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   // Newton's method solves in 4 iterations; from 0.05 on, half of the limit load and friction 0.6, interior points need
   // fewer.
   constexpr double most_beyond = 0.045;
-  // Walls of 64 to 100 blocks: below 0.12 Newton's method and paths take 3 to 6 iterations, above 0.28 interior points
-  // turn back. Paths of towers take 2 to 5, those of smaller walls 3 to 7.
+  // Walls of 64 to 100 blocks: below 0.12 Newton's method and paths take 3 to 6 iterations, above it Newton's method
+  // does not converge, and above 0.28 interior points turn back. Paths of towers take 2 to 5, those of smaller walls 3
+  // to 7.
   constexpr double least_of_small = 0.12, most_of_small = 0.28, joints_of_walls = 1.5;
   constexpr int least_pairs = 500;
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
   const bool small = problem_.pairs() <= most_of_paths_first;
-  if (problem_.pairs() > least_pairs && may_soften(problem_) && may_take_plane_interior_points(problem_)) {
+  if (may_soften(problem_) && may_take_plane_interior_points(problem_)) {
     const double beyond = beyond_cones(problem_, start.p);
     if (!small && beyond > most_beyond) return nothing();  // interior points are next
-    if (small && beyond > least_of_small && beyond < most_of_small && joints_per_body(problem_) > joints_of_walls)
-      return inside_near(start.p, start.a, 1.0);
+    if (small && beyond > least_of_small && joints_per_body(problem_) > joints_of_walls)
+      return problem_.pairs() > least_pairs && beyond < most_of_small ? inside_near(start.p, start.a, 1.0) : nothing();
   }
   const int most = may_follow_path(problem_) ? std::min(small ? 6 : 10, options_.iterations) : 0;
   Run how{"newton", 0.0, 1.0, most};

@@ -55,6 +55,7 @@ class Path {
     const int most = options_.most > 0 ? options_.most : static_cast<int>(4 * N_) + 100;
     const int patience = options_.patience > 0 ? options_.patience : most / 8;
     int round = 0, least_at = 0, leap_at = changes_between_leaps, between_leaps = changes_between_leaps;
+    double error_before = HUGE_VAL;
     bool endless = false;        // t stands still while the bodies move
     std::optional<Next> passed;  // the limit that the path has just come from
     if (options_.leap > 0) leap_on(end);
@@ -89,7 +90,9 @@ class Path {
         advance(to_end);
         arrived_ = z_;
         const double error = take_softness_back();
-        if (error <= settled || ++round > options_.rounds) return finish(end, PathEnd::How::arrived);
+        const bool rests = error <= rounding && error > gain * error_before;  // of forces that are not unique
+        if (error <= settled || rests || ++round > options_.rounds) return finish(end, PathEnd::How::arrived);
+        error_before = error;
         passed.reset();
         rows_.clear();
         if (!(has_base_states() ? place() : factorise(end))) return finish(end, PathEnd::How::broken);
@@ -113,8 +116,9 @@ class Path {
   }
 
  private:
-  static constexpr double far = 2.0;        // t: the path runs away from the problem
-  static constexpr double settled = 1e-14;  // of the largest force: what rounding leaves of the softness
+  static constexpr double far = 2.0;                    // t: the path runs away from the problem
+  static constexpr double settled = 1e-14;              // of the largest force: what rounding leaves of the softness
+  static constexpr double rounding = 1e-9, gain = 0.1;  // up to which what is left of it may no longer fall
   static constexpr double least_force = 1e-300;
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
   // Leaps: the shortest, the factors after success and failure, |H| relative to the largest force, and how far the path
