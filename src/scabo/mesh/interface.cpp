@@ -149,7 +149,23 @@ class Matching {
   /// the arc.
   bool touches() const {
     return contact_.gap == 0.0 && std::abs(edge_a_.arc->radius - edge_b_.arc->radius) <= 1e-9 * edge_a_.arc->radius &&
-           !is_joined(model_, contact_.a.body) && !is_joined(model_, contact_.b.body);
+           !meets_joined();
+  }
+
+  /// Whether one of the two bodies is joined to others, or a body that another contact presses against one of these two
+  /// arcs: if only some pieces of a ring are joined, the weighted normals of the others alone resist that it turns.
+  bool meets_joined() const {
+    if (is_joined(model_, contact_.a.body) || is_joined(model_, contact_.b.body)) return true;
+    const auto is_on = [](const model::Place& arc, const model::Contact& contact) {
+      const auto is_arc = [&](const model::Place& side) {
+        return side.kind == arc.kind && side.body == arc.body && side.index == arc.index;
+      };
+      return is_arc(contact.a) || is_arc(contact.b);
+    };
+    return std::any_of(model_.contacts.begin(), model_.contacts.end(), [&](const model::Contact& other) {
+      return (is_on(contact_.a, other) || is_on(contact_.b, other)) &&
+             (is_joined(model_, other.a.body) || is_joined(model_, other.b.body));
+    });
   }
 
   Diagnostic not_matching(const LoneNode& lone) const {
