@@ -157,8 +157,8 @@ NewtonEnd Ladder::newton_or_kept_states(const Vector& p, const Vector& a, Run ho
   NewtonEnd end = newton_alone(p, a, how);
   if (end.converged || late()) return end;
   NewtonEnd kept = on_kept_states(p, a, nearer * end.residual);
-  if (kept.converged || late()) return kept;
-  if (kept.residual < end.residual) end = std::move(kept);
+  if (kept.converged || kept.residual < end.residual) end = std::move(kept);
+  if (end.converged || late()) return end;
   how.iterations = 0;
   NewtonEnd more = newton_alone(end.p, end.a, how);
   return more.converged || more.residual < end.residual ? more : end;

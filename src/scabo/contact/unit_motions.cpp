@@ -1,18 +1,22 @@
 #include "scabo/contact/unit_motions.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scabo::contact {
 
 namespace {
 
-/// The factors that bring the largest entry of every column into [1, 2); 1 for a column of zeros.
+/// The factors that bring the largest entry of every column into [1, 2); 1 for a column of zeros, or of numbers so
+/// small that the factor would be infinite.
 Vector units_of(const RigidMap& G) {
   Vector unit = Vector::Ones(G.cols());
   for (Eigen::Index k = 0; k < G.cols(); ++k) {
     double largest = 0.0;
     for (RigidMap::Sparse::InnerIterator at(G.sparse(), k); at; ++at) largest = std::max(largest, std::abs(at.value()));
-    if (largest > 0.0 && std::isfinite(largest)) unit[k] = std::ldexp(1.0, -std::ilogb(largest));
+    if (largest >= std::numeric_limits<double>::min() && std::isfinite(largest))
+      unit[k] = std::ldexp(1.0, -std::ilogb(largest));
   }
   return unit;
 }

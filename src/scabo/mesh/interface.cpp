@@ -148,8 +148,31 @@ class Matching {
   /// which contact carries how much, and what resists a ring that turns about its shaft. Such arcs have the normals of
   /// the arc.
   bool touches() const {
-    return contact_.gap == 0.0 && std::abs(edge_a_.arc->radius - edge_b_.arc->radius) <= 1e-9 * edge_a_.arc->radius &&
-           !is_joined(model_, contact_.a.body) && !is_joined(model_, contact_.b.body);
+    return std::abs(edge_a_.arc->radius - edge_b_.arc->radius) <= 1e-9 * edge_a_.arc->radius && !feels_two_normals();
+  }
+
+  /// Whether this contact or another one on the circles of these two arcs has a gap, an overlap or a joined body: if
+  /// only some pieces of a ring have, the weighted normals of the others alone resist that it turns.
+  bool feels_two_normals() const {
+    const auto feels = [&](const auto& joint) {
+      return joint.gap != 0.0 || is_joined(model_, joint.a.body) || is_joined(model_, joint.b.body);
+    };
+    const auto circle_of = [&](const model::Place& side) {
+      return model_.bodies[side.body].outline.edges[side.index].arc;
+    };
+    const auto is_on = [&](const model::Place& arc, const model::Contact& contact) {
+      const auto is_beside = [&](const model::Place& side) {
+        if (side.kind != arc.kind || side.body != arc.body) return false;
+        const auto one = circle_of(side), other = circle_of(arc);
+        return one && other && (one->centre - other->centre).norm() <= 1e-6 * other->radius &&
+               std::abs(one->radius - other->radius) <= 1e-6 * other->radius;
+      };
+      return is_beside(contact.a) || is_beside(contact.b);
+    };
+    return feels(contact_) ||
+           std::any_of(model_.contacts.begin(), model_.contacts.end(), [&](const model::Contact& other) {
+             return (is_on(contact_.a, other) || is_on(contact_.b, other)) && feels(other);
+           });
   }
 
   Diagnostic not_matching(const LoneNode& lone) const {

@@ -7,14 +7,14 @@
 // with the nodal normals n_A, n_B of contact_side.hpp, which pass on a uniform pressure exactly. Two arcs that are not
 // concentric, or an arc and a straight edge, touch in a narrow zone, and a body that rolls or slides along the other
 // one must not meet the differences of those normals: n_A, n_B are the normals of the undivided edges there; and on
-// concentric arcs with a gap or an overlap, or of bodies that are bonded or tied to others, where two contacts may have
-// one point in common; and on arcs of which one is divided into chords, elements of order 1, but for the ends of all
-// other arcs that touch. Swapping A and B gives -n and exactly the same g. The nodes match if x_B - x_A lies along n:
-// |(x_B - x_A) . t| <= 1e-6 element lengths. Where the two sides are apart and not parallel (a disc and a plane with
-// equal divisions), corresponding nodes are not exactly opposite: x_B - x_A may then also have any direction between
-// the normals of the two sides, divided or exact. On curved edges of nearly equal curvature (a cylinder in a slightly
-// larger ring) the offset may be up to 1/50 of the node spacing if that is at most half of g. On parallel straight
-// edges only the first rule applies.
+// concentric arcs with a gap or an overlap, or of bodies that are bonded or tied to others, and on arcs whose circle
+// has another contact of this kind, where two contacts may have one point in common; and on arcs of which one is
+// divided into chords, elements of order 1, but for the ends of all other arcs that touch. Swapping A and B gives -n
+// and exactly the same g. The nodes match if x_B - x_A lies along n: |(x_B - x_A) . t| <= 1e-6 element lengths. Where
+// the two sides are apart and not parallel (a disc and a plane with equal divisions), corresponding nodes are not
+// exactly opposite: x_B - x_A may then also have any direction between the normals of the two sides, divided or exact.
+// On curved edges of nearly equal curvature (a cylinder in a slightly larger ring) the offset may be up to 1/50 of the
+// node spacing if that is at most half of g. On parallel straight edges only the first rule applies.
 //
 // Partners are searched from the closest pair outwards, node by node along both edges. A node whose foot on the other
 // edge lies beyond the ends of that edge is outside the overlap and has no partner; neither has a node that faces

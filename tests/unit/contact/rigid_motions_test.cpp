@@ -216,5 +216,16 @@ TEST(UnitMotions, OfAnyUnitsGiveTheSameForces) {
   EXPECT_EQ(found.a, Vector(expected.a.cwiseQuotient(units)));
 }
 
+// A power of two that would be infinite is not taken.
+TEST(UnitMotions, OfSmallestNumbersStayFinite) {
+  const Problem plain = block(5, 0.5, Eigen::Vector3d(3.0, -10.0, 1.0));
+  Problem problem = plain;
+  for (const double unit : {std::ldexp(1.0, -1022), std::ldexp(1.0, -1060)}) {
+    problem.G = RigidMap(Matrix(plain.G.dense() * unit));
+    const UnitMotions scaled = in_unit_motions(problem, {});
+    EXPECT_TRUE(scaled.unit.allFinite() && scaled.problem.G.dense().allFinite()) << unit;
+  }
+}
+
 }  // namespace
 }  // namespace scabo::contact
