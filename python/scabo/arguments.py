@@ -17,6 +17,8 @@ def real_array(name: str, values: Any) -> np.ndarray:
     array = np.asarray(values)
     if array.dtype.kind == "c":
         raise ValueError(f"{name} must be real, not of dtype {array.dtype}: pass its real part if the imaginary part is 0")
+    if array.dtype.kind == "O" and any(isinstance(value, (str, bytes)) for value in array.flat):
+        raise ValueError(f"{name} must be numbers, not text")
     if array.dtype.kind not in "biufO":
         raise ValueError(f"{name} must be numbers, not of dtype {array.dtype}")
     try:

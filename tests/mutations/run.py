@@ -122,7 +122,7 @@ def noticed_by(to, number, test):
 
 def main():
     words = sys.argv[2:]
-    if len(sys.argv) < 2 or not all(word.isdigit() and int(word) in MUTATIONS for word in words):
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-") or not all(word.isdigit() and int(word) in MUTATIONS for word in words):
         sys.exit(f"usage: {sys.argv[0]} FOLDER [NUMBER...]; numbers are 1 to {max(MUTATIONS)}")
     to = Path(sys.argv[1]).resolve()
     wanted = copy(to, sorted(map(int, words)) or list(MUTATIONS))

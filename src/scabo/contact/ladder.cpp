@@ -155,7 +155,7 @@ NewtonEnd Ladder::newton_or_kept_states(const Vector& p, const Vector& a, Run ho
   if (options_.iterations <= soon) return newton_alone(p, a, how);
   how.iterations = soon;
   NewtonEnd end = newton_alone(p, a, how);
-  if (end.converged || late()) return end;
+  if (end.converged || late() || end.iterations < soon) return end;
   NewtonEnd kept = on_kept_states(p, a, nearer * end.residual);
   if (kept.converged || kept.residual < end.residual) end = std::move(kept);
   if (end.converged || late()) return end;

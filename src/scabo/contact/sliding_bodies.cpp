@@ -11,9 +11,13 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double no_entry = 1e-9;  // entries of a column of G, of its length
-/// F below this part of the largest |H| is what the other equations still lack; of a group that stayed in the step
-/// before, below the second part; of one whose next pair would turn by less than the third, below the fourth.
-constexpr double indifferent = 1e-2, still_indifferent = 0.3, hardly_turns = 1e-2, indifferent_where_hardly = 0.5;
+/// F below this part of the largest |H| is what the other equations still lack.
+constexpr double indifferent = 1e-2;
+/// The same for a group that stayed in the step before.
+constexpr double still_indifferent = 0.3;
+/// F below this part of what the next pair changes when it turns would make that pair stick at its friction bound. Such
+/// a group balances too, as long as F is below this part of the largest |H|.
+constexpr double hardly_turns = 1e-2, indifferent_where_hardly = 0.5;
 
 bool asks_for_motion(const std::vector<PairState>& states, Index row) {
   const PairState& state = states[static_cast<std::size_t>(row / 2)];

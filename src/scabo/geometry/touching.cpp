@@ -26,10 +26,6 @@ bool lies_on(const Edge& a, const Edge& b, double reach) {
   return false;
 }
 
-}  // namespace
-
-namespace {
-
 struct Entry {
   Box box;
   int body = 0, edge = 0;

@@ -4,7 +4,7 @@
 // whose normals are weighted over the elements of each contact alone: there are two in the point, at an angle a of up
 // to half that between the lines. As on arcs, an overlap d of the contacts would be slips of d a in opposite directions
 // of it, and between bodies that are joined nothing but a would decide how much each contact carries. Both contacts get
-// their mean, where chains are smooth: to 25 degrees.
+// their mean, where chains are smooth: to 26 degrees.
 #pragma once
 
 #include "scabo/mesh/mesh.hpp"
