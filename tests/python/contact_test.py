@@ -110,9 +110,9 @@ class ClosedForms(unittest.TestCase):
                             ("start", q)):
             with self.subTest(name), self.assertRaisesRegex(ValueError, f"^{name} must be real, not of dtype complex128"):
                 scabo.solve_contact(**{**dict(W=W, q=q, mu=0.3, G=G, f=f), name: value + 1j})
-        for name, value in (("q", np.ma.masked_array(q, [True, False])), ("q", ["-1", "0"]), ("q", np.array(["-1", "0"], dtype=object)), ("q", [-1j, object()])):
-            with self.subTest(value=str(value)), self.assertRaisesRegex(ValueError, f"^{name} "):
-                scabo.solve_contact(**{**dict(W=W, q=q, mu=0.3), name: value})
+        for value in (np.ma.masked_array(q, [True, False]), ["-1", "0"], np.array(["-1", "0"], dtype=object), [-1j, object()]):
+            with self.subTest(value=str(value)), self.assertRaisesRegex(ValueError, "^q "):
+                scabo.solve_contact(W=W, q=value, mu=0.3)
 
     def test_unsymmetric_flexibilities_are_refused(self):
         W, q = np.array([[2.0, 0.1, 0.0, 0.0], [0.1, 3.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.2], [0.0, 0.0, 0.2, 1.0]]), [-1.0, 0.0] * 2
