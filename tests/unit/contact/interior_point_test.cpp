@@ -309,6 +309,8 @@ struct LawCase {
   void (*give)(Problem& problem, double force);  ///< the law, with strengths in proportion to a mean force
 };
 
+void PrintTo(const LawCase& law, std::ostream* out) { *out << law.name; }
+
 class PlaneInteriorPointsForLaws : public ::testing::TestWithParam<LawCase> {};
 
 /// The same blocks with pairs of other laws.
