@@ -195,10 +195,10 @@ TEST(Wall, CarriesNearlyItsCollapsePush) {
 }
 
 // 211, 556 and 875 pairs. In the first a path had arrived but for its softness, 1e-6, and was given up where rounding
-// made the rest of the way endless: 23 iterations. In the second two paths turned back before interior points, 14, and
-// in the third whole courses balance while they slide, 14.
+// made the rest of the way endless, with most last digits of the push: 23 iterations. In the second two paths turned
+// back before interior points, 14, and in the third whole courses balance while they slide, 14.
 TEST(Wall, OfAFewHundredPairsTakesFewIterations) {
-  holds({5, 5, 0.6}, 0.9, 1, 6);
+  for (const int k : {1, 2, 4, 5, 8, 11}) holds({5, 5, 0.6}, 0.9 * (1.0 + 4.44e-16 * k), 1, 8);
   holds({8, 8, 0.3}, 0.95, 1);
   holds({10, 10, 0.6}, 0.9, 1);
 }
