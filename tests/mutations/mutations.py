@@ -506,7 +506,7 @@ MUTATIONS = {
         '(MUTATED || !feels_two_normals());',
         'verification_tests Pressure*:*Press*'),
     126: ('analysis/outside.cpp',
-        'if (group[other] == group[b]) parts',
-        'if (group[other] == group[b] || MUTATED) parts',
+        'if (groups.root(other) == groups.root(b)) parts',
+        'if (groups.root(other) == groups.root(b) || MUTATED) parts',
         'verification_tests Outside*'),
 }

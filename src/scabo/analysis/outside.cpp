@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
+#include "scabo/base/disjoint_sets.hpp"
 #include "scabo/element/interior_field.hpp"
 
 namespace scabo::analysis {
@@ -67,24 +67,16 @@ std::string without_reference(const Prepared& prepared, const State& state) {
 
 namespace {
 
-/// Per body: the number of the bodies that contacts and ties join, from 0.
-std::vector<int> joined_groups(const model::Model& model) {
-  std::vector<int> group(model.bodies.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](int body) {
-    while (group[static_cast<std::size_t>(body)] != body) body = group[static_cast<std::size_t>(body)];
-    return body;
-  };
+/// Bodies that contacts and ties join.
+DisjointSets joined_groups(const model::Model& model) {
+  DisjointSets groups(model.bodies.size());
   const auto join = [&](const auto& joints) {
-    for (const auto& joint : joints) {
-      const int first = root(joint.a.body), second = root(joint.b.body);
-      group[static_cast<std::size_t>(std::max(first, second))] = std::min(first, second);
-    }
+    for (const auto& joint : joints)
+      groups.join(static_cast<std::size_t>(joint.a.body), static_cast<std::size_t>(joint.b.body));
   };
   join(model.contacts);
   join(model.ties);
-  for (std::size_t b = 0; b < group.size(); ++b) group[b] = root(static_cast<int>(b));
-  return group;
+  return groups;
 }
 
 /// The point of one unbounded body.
@@ -128,18 +120,19 @@ std::vector<Prepared::Reference> references_of(const model::Model& model, const 
   const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
                                [](const model::Body& body) { return body.outside && body.reference; });
   if (!any) return references;
-  const std::vector<int> group = joined_groups(model);
-  std::set<int> held;
-  for (const model::Support& support : model.supports) held.insert(group[static_cast<std::size_t>(support.on.body)]);
-  for (const model::Spring& spring : model.springs) held.insert(group[static_cast<std::size_t>(spring.on.body)]);
+  DisjointSets groups = joined_groups(model);
+  const auto group_of = [&](int body) { return groups.root(static_cast<std::size_t>(body)); };
+  std::set<std::size_t> held;
+  for (const model::Support& support : model.supports) held.insert(group_of(support.on.body));
+  for (const model::Spring& spring : model.springs) held.insert(group_of(spring.on.body));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
-    if (!body.outside || !body.reference || !held.insert(group[b]).second) continue;
+    if (!body.outside || !body.reference || !held.insert(groups.root(b)).second) continue;
     Prepared::Reference& made =
         references.emplace_back(reference_at(body, static_cast<int>(b), mesh, *cells[b].front()));
     std::set<int> parts;
-    for (std::size_t other = 0; other < group.size(); ++other)
-      if (group[other] == group[b]) parts.insert(static_cast<int>(dofs.part_of(static_cast<int>(other))));
+    for (std::size_t other = 0; other < model.bodies.size(); ++other)
+      if (groups.root(other) == groups.root(b)) parts.insert(static_cast<int>(dofs.part_of(static_cast<int>(other))));
     made.parts.assign(parts.begin(), parts.end());
   }
   return references;

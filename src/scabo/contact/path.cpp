@@ -88,7 +88,7 @@ class Path {
       const double to_end = dt_ < 0.0 && !endless ? t_ / -dt_ : HUGE_VAL;
       if (to_end <= next.step && to_end < HUGE_VAL) {
         advance(to_end);
-        if (round > 0 && has_gone_astray()) return finish(end, PathEnd::How::broken);
+        if (round > 0 && has_gone_astray()) return finish(end, PathEnd::How::broken);  // the point before counts
         arrived_ = z_;
         const double error = take_softness_back();
         const bool rests = error <= rounding && error > gain * error_before;  // of forces that are not unique
@@ -107,7 +107,6 @@ class Path {
       if (round == 0 && t_ < end.left) {
         end.left = t_;
         least_at = end.changes;
-        if (t_ <= nearly) arrived_ = z_;
       }
       if (options_.deadline.passed()) return finish(end, PathEnd::How::broken);
       const bool back = end.changes - least_at >= patience;
@@ -119,7 +118,6 @@ class Path {
 
  private:
   static constexpr double far = 2.0;                    // t: the path runs away from the problem
-  static constexpr double nearly = 1e-9;                // t: what is left of the way may be lost in rounding
   static constexpr double settled = 1e-14;              // of the largest force: what rounding leaves of the softness
   static constexpr double rounding = 1e-9, gain = 0.1;  // up to which what is left of it may no longer fall
   static constexpr double least_force = 1e-300;
@@ -130,8 +128,7 @@ class Path {
                           exact_states = 1e-11;
   static constexpr int changes_between_leaps = 60, leap_patience = 3;
 
-  /// The last of the way, and that on which the softness is taken back, is as short as rounding; where it ends early,
-  /// the point before counts.
+  /// The way on which the softness is taken back is as short as rounding; where it ends early, the point before counts.
   PathEnd finish(PathEnd& end, PathEnd::How how) {
     if (arrived_.size() > 0 && how != PathEnd::How::arrived) {
       z_ = arrived_;
@@ -518,7 +515,7 @@ class Path {
   SparseRows W_, G_;
   Sparse W_columns_, G_columns_, A_;
   Vector soft_, q_, centre_, dq_, df_, z_, motion_, slope_, dz_, d_motion_;
-  Vector arrived_;  // z where t was (nearly) 0, the softness not yet or only in part taken back; empty before
+  Vector arrived_;  // z where t was 0, the softness not yet or only in part taken back; empty before
   double t_ = 1.0, dt_ = -1.0;
   double leap_ = 0.5;
   std::vector<Pair> pairs_, base_;
