@@ -13,53 +13,56 @@ void make_set(std::vector<int>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// First rigid motions, then pairs of which each pair's own motion depends.
-std::pair<std::vector<int>, std::vector<int>> neighbours_of(const Problem& problem,
-                                                            const Eigen::SparseMatrix<double, Eigen::RowMajor>& motions,
-                                                            Eigen::Index pair) {
-  std::vector<int> of_motions, of_pairs;
+/// Pairs that the motion of this one depends on.
+std::vector<int> pairs_beside(const Problem& problem, Eigen::Index pair) {
+  std::vector<int> of_pairs;
   const Eigen::Index d = problem.dimension;
-  for (Eigen::Index row = d * pair; row < d * (pair + 1); ++row) {
+  for (Eigen::Index row = d * pair; row < d * (pair + 1); ++row)
     for (Eigen::SparseMatrix<double>::InnerIterator it(problem.W.sparse(), row); it; ++it)
       if (const auto other = static_cast<int>(it.row() / d); of_pairs.empty() || of_pairs.back() != other)
         of_pairs.push_back(other);
-    if (motions.cols() > 0)
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(motions, row); it; ++it)
-        of_motions.push_back(static_cast<int>(it.col()));
-  }
-  make_set(of_motions);
   make_set(of_pairs);
-  return {std::move(of_motions), std::move(of_pairs)};
+  return of_pairs;
 }
 
 }  // namespace
 
+std::vector<std::vector<int>> motions_of_pairs(const Problem& problem) {
+  std::vector<std::vector<int>> motions(static_cast<std::size_t>(problem.pairs()));
+  if (problem.G.cols() == 0) return motions;
+  const RigidMap::Sparse& G = problem.G.sparse();
+  for (Eigen::Index k = 0; k < G.cols(); ++k)
+    for (RigidMap::Sparse::InnerIterator it(G, k); it; ++it) {
+      std::vector<int>& of_pair = motions[static_cast<std::size_t>(it.row() / problem.dimension)];
+      if (of_pair.empty() || of_pair.back() != k) of_pair.push_back(static_cast<int>(k));
+    }
+  return motions;
+}
+
 JointOrder::JointOrder(const Problem& problem) {
   const Eigen::Index N = problem.pairs(), m = problem.G.cols();
-  Eigen::SparseMatrix<double, Eigen::RowMajor> motions;
-  if (m > 0) motions = problem.G.sparse();
+  const std::vector<std::vector<int>> motions = motions_of_pairs(problem);
   joint_of_pair_.resize(static_cast<std::size_t>(N));
-  std::pair<std::vector<int>, std::vector<int>> before;
-  std::vector<std::vector<int>> pairs_beside;  // of each joint
+  std::vector<std::vector<int>> beside;  // pairs beside each joint
   std::vector<std::vector<int>> joints_of(static_cast<std::size_t>(m));
   for (Eigen::Index i = 0; i < N; ++i) {
-    auto own = neighbours_of(problem, motions, i);
-    if (i == 0 || own != before) {
-      const auto joint = static_cast<int>(pairs_beside.size());
-      for (const int k : own.first) joints_of[static_cast<std::size_t>(k)].push_back(joint);
-      pairs_beside.push_back(own.second);
-      before = std::move(own);
+    const auto pair = static_cast<std::size_t>(i);
+    std::vector<int> own = pairs_beside(problem, i);
+    if (i == 0 || motions[pair] != motions[pair - 1] || own != beside.back()) {
+      for (const int k : motions[pair])
+        joints_of[static_cast<std::size_t>(k)].push_back(static_cast<int>(beside.size()));
+      beside.push_back(std::move(own));
     }
-    joint_of_pair_[static_cast<std::size_t>(i)] = static_cast<int>(pairs_beside.size()) - 1;
+    joint_of_pair_[pair] = static_cast<int>(beside.size()) - 1;
   }
 
   // Rigid bodies have no W; their joints are neighbours by their motions.
-  const auto joints = static_cast<int>(pairs_beside.size());
+  const auto joints = static_cast<int>(beside.size());
   std::vector<Eigen::Triplet<double>> edges;
   for (int joint = 0; joint < joints; ++joint) {
     edges.emplace_back(joint, joint, 1.0);
     int last = -1;
-    for (const int pair : pairs_beside[static_cast<std::size_t>(joint)]) {
+    for (const int pair : beside[static_cast<std::size_t>(joint)]) {
       const int other = joint_of_pair_[static_cast<std::size_t>(pair)];
       if (other == last) continue;
       last = other;

@@ -14,6 +14,9 @@
 
 namespace scabo::contact {
 
+/// The rigid motions that each pair measures, ascending; the same for all pairs of a joint.
+std::vector<std::vector<int>> motions_of_pairs(const Problem& problem);
+
 class JointOrder {
  public:
   /// W sparse.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scabo/contact/interior_point.hpp"
+#include "scabo/contact/joint_order.hpp"
 #include "scabo/contact/ladder.hpp"
 #include "scabo/contact/plane_interior_points.hpp"
 #include "scabo/contact/rigid_motions.hpp"
@@ -41,18 +42,11 @@ double beyond_cones(const Problem& problem, const Vector& p) {
 
 /// Joints that touch bodies only contact holds, over the number of these bodies: 1 in a tower, 3 in a wall.
 double joints_per_body(const Problem& problem) {
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> G = problem.G.sparse();
-  std::set<std::vector<int>> joints;  // motions that a pair measures
-  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    std::vector<int> motions;
-    for (Eigen::Index row = 2 * i; row < 2 * i + 2; ++row)
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator at(G, row); at; ++at)
-        motions.push_back(static_cast<int>(at.col()));
-    std::sort(motions.begin(), motions.end());
-    motions.erase(std::unique(motions.begin(), motions.end()), motions.end());
+  std::set<std::vector<int>> joints;
+  for (std::vector<int>& motions : motions_of_pairs(problem))
     if (!motions.empty()) joints.insert(std::move(motions));
-  }
-  return G.cols() > 0 ? 3.0 * static_cast<double>(joints.size()) / static_cast<double>(G.cols()) : 0.0;
+  const auto motions = static_cast<double>(problem.G.cols());
+  return motions > 0.0 ? 3.0 * static_cast<double>(joints.size()) / motions : 0.0;
 }
 
 }  // namespace
