@@ -186,7 +186,7 @@ TEST(Wall, CarriesNearlyItsCollapsePush) {
     const Vec2 carried = floor_forces(blocks, solution, last(solution));
     EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
     EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
-    EXPECT_LE(last(solution).newton_iterations, 13);
+    EXPECT_LE(last(solution).newton_iterations, 10);
     EXPECT_EQ(last(solution).halvings, 0);
   };
   for (const double friction : {0.3, 0.6, 1.0}) carries({4, 4, friction}, 0.99);
@@ -201,16 +201,21 @@ TEST(Wall, OfAFewHundredPairsTakesFewIterations) {
   for (const int k : {1, 2, 4, 5, 8, 11}) holds({5, 5, 0.6}, 0.9 * (1.0 + 4.44e-16 * k), 1, 8);
   holds({8, 8, 0.3}, 0.95, 1);
   holds({10, 10, 0.6}, 0.9, 1);
+  // Interior points alone: 12 and 15 iterations.
+  holds({9, 9, 0.6}, 0.99, 1);
+  holds({10, 10, 0.6}, 0.99, 1);
 }
 
 // More than a thousand pairs: interior points follow Newton's method (docs/methods/12), 36, 26 and 26 iterations
-// before; near the limit load of the last wall they are divided anew, 23 to 25 before.
+// before. Near the limit load of the last walls their steps become short, and a path follows; by interior points alone
+// these took 17 and 18.
 TEST(Wall, OfManyPairsTakesFewIterations) {
   struct Case {
     double friction, part;
     int most;
   };
-  for (const Case& c : {Case{0.3, 0.9, 10}, Case{1.0, 0.5, 10}, Case{0.3, 0.99, 10}, Case{0.6, 0.92, 18}}) {
+  for (const Case& c :
+       {Case{0.3, 0.9, 10}, Case{1.0, 0.5, 10}, Case{0.3, 0.99, 10}, Case{0.6, 0.92, 10}, Case{0.6, 0.95, 10}}) {
     const Blocks blocks{16, 16, c.friction};
     const double push = c.part * blocks.collapse_push();
     const analysis::StaticSolution solution = run(model_of(blocks, push, 1));
@@ -290,8 +295,11 @@ TEST(Wall, OfManyPairsOfWeakMortarStands) {
   EXPECT_EQ(last(solution).halvings, 0);
 }
 
+// A path follows where Newton's method has not come to the solution in six iterations: of 12 x 12 blocks the last
+// increment took 23 without it.
 TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
   for (const double friction : {0.3, 0.6, 1.0}) holds({4, 4, friction}, 0.99, 10);
+  holds({12, 12, 0.6}, 0.95, 10);
 }
 
 // Forces within the cones balance the push, so that it is no mechanism; but the equilibria that the push passes through

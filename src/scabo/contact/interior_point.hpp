@@ -44,6 +44,8 @@ struct InteriorPointEnd {
   Vector p;  ///< where the judge is content; otherwise of the least residual; empty where no point is finite
   Vector a;  ///< of the same point
   bool content = false;
+  bool jammed = false;      ///< ended after a short step, as was asked for
+  Vector early_p, early_a;  ///< where jammed: the point after the first two steps, which are never short
   int iterations = 0;
   double residual = 0.0;         ///< least natural map met, of forces in the units of W p, over |q|
   std::vector<Iteration> trace;  ///< its residual, its step length; merit is m / 2

@@ -84,7 +84,9 @@ class Ladder {
   NewtonEnd along_loads(const Vector& p, const Vector& a);
   NewtonEnd along_paths(const BondedStart& bonded, const std::vector<bool>& touching);
   NewtonEnd arrived(PathEnd end);
-  PathEnd along_path(const PathStart& start);
+  bool may_cross_over() const;
+  NewtonEnd crossed_over(const Vector& p, const Vector& a);
+  PathEnd along_path(const PathStart& start, bool held = false);
   NewtonEnd confirmed(NewtonEnd found, int few, const std::string& name);
   NewtonEnd without_history(const Vector& p, const Vector& a);
   void take_trace_of(ColdStart& start);

@@ -1,14 +1,15 @@
 #include "scabo/contact/path.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <random>
 
 #include "scabo/contact/b_differentiable.hpp"
+#include "scabo/contact/joint_order.hpp"
 #include "scabo/contact/newton.hpp"
-#include "scabo/linalg/sparse_general_solver.hpp"
+#include "scabo/linalg/replaced_rows.hpp"
 
 namespace scabo::contact {
 
@@ -47,6 +48,14 @@ class Path {
     G_columns_ = m_ > 0 ? problem.G.sparse() : Sparse(2 * N_, 0);
     G_ = G_columns_;
     W_columns_ = W_;
+    if (m_ > 0 && problem.W.is_sparse())
+      blocks_ = [this] {
+        std::vector<int> pair_of(static_cast<std::size_t>(2 * N_));
+        for (std::size_t row = 0; row < pair_of.size(); ++row) pair_of[row] = static_cast<int>(row / 2);
+        return JointOrder(problem_).blocks(pair_of);
+      };
+    hold_.setZero(m_);
+    for (Index k = 0; k < m_; ++k) hold_[k] = options.hold * G_columns_.col(k).squaredNorm();
     begin(start);
   }
 
@@ -55,9 +64,9 @@ class Path {
     const int most = options_.most > 0 ? options_.most : static_cast<int>(4 * N_) + 100;
     const int patience = options_.patience > 0 ? options_.patience : most / 8;
     int round = 0, least_at = 0, leap_at = changes_between_leaps, between_leaps = changes_between_leaps;
-    double error_before = HUGE_VAL;
-    bool endless = false;        // t stands still while the bodies move
-    std::optional<Next> passed;  // the limit that the path has just come from
+    double least = 1.0, error_before = HUGE_VAL;  // least t of the round
+    bool endless = false;                         // t stands still while the bodies move
+    std::optional<Next> passed;                   // the limit that the path has just come from
     if (options_.leap > 0) leap_on(end);
     if (!factorise(end)) return finish(end, PathEnd::How::broken);
     while (true) {
@@ -75,11 +84,7 @@ class Path {
         leap_at = end.changes + between_leaps;
       }
       if (passed) {
-        // Factorised before the change, on a piece on which t moves: there the matrix is regular.
-        const auto replaced = static_cast<int>(rows_.size()) + 2;
-        if ((replaced > options_.changes && !endless) || replaced > capacity()) {
-          if (!factorise(end)) return finish(end, PathEnd::How::broken);
-        }
+        if (!renew(end, endless)) return finish(end, PathEnd::How::broken);
         change(*passed);
       }
       if (!find_direction(passed)) return finish(end, PathEnd::How::broken);
@@ -88,15 +93,18 @@ class Path {
       const double to_end = dt_ < 0.0 && !endless ? t_ / -dt_ : HUGE_VAL;
       if (to_end <= next.step && to_end < HUGE_VAL) {
         advance(to_end);
-        if (round > 0 && has_gone_astray()) return finish(end, PathEnd::How::broken);  // the point before counts
+        if (round > 0 && options_.hold == 0.0 && has_gone_astray())
+          return finish(end, PathEnd::How::broken);  // the point before counts
         arrived_ = z_;
-        const double error = take_softness_back();
+        const double error = take_softness_back(round);
         const bool rests = error <= rounding && error > gain * error_before;  // of forces that are not unique
         if (error <= settled || rests || ++round > options_.rounds) return finish(end, PathEnd::How::arrived);
         error_before = error;
+        least = 1.0;
+        least_at = end.changes;
         passed.reset();
-        rows_.clear();
-        if (!(has_base_states() ? place() : factorise(end))) return finish(end, PathEnd::How::broken);
+        const bool loosens = round == 1 && options_.hold > 0.0;  // another matrix
+        if (!(loosens ? factorise(end) : place())) return finish(end, PathEnd::How::broken);
         continue;
       }
       const bool falls = !(next.step < (endless ? most_of_motion : HUGE_VAL));
@@ -104,9 +112,10 @@ class Path {
       if (falls) return finish(end, PathEnd::How::endless);
       advance(next.step);
       ++end.changes;
-      if (round == 0 && t_ < end.left) {
-        end.left = t_;
+      if (t_ < least) {
+        least = t_;
         least_at = end.changes;
+        if (round == 0) end.left = t_;
       }
       if (options_.deadline.passed()) return finish(end, PathEnd::How::broken);
       const bool back = end.changes - least_at >= patience;
@@ -121,6 +130,10 @@ class Path {
   static constexpr double settled = 1e-14;              // of the largest force: what rounding leaves of the softness
   static constexpr double rounding = 1e-9, gain = 0.1;  // up to which what is left of it may no longer fall
   static constexpr double least_force = 1e-300;
+  static constexpr double loosened = 1e-4;       // of the hold, once t was 0
+  static constexpr double exact = 1e-8;          // what a direction may lack, over its forces and motions
+  static constexpr int least_replaced = 200;     // rows, before a matrix that gives inexact directions is given up
+  static constexpr int between_places = 250;     // changes of state, from piece to piece by sums
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
   // Leaps: the shortest, the factors after success and failure, |H| relative to the largest force, and how far the path
   // is followed change by change before the next leap; twice as far each time that none succeeds.
@@ -180,6 +193,8 @@ class Path {
     q_ = problem_.q;
     centre_.setZero(2 * N_);
     dq_ = wanted - (q_ + W_ * z_.head(2 * N_) + G_ * start.a);
+    f_ = problem_.f + hold_.cwiseProduct(start.a);
+    centre_a_ = start.a;
     df_ = -(problem_.f + G_.transpose() * z_.head(2 * N_));
     motion_ = wanted;
   }
@@ -196,13 +211,19 @@ class Path {
 
   /// From u = q + (W + s) p + G a to u = q + W p + s (p - p_now) + G a: a path once more, with hardly any change.
   /// Returns the motions that go, over the size of all.
-  double take_softness_back() {
+  double take_softness_back(int round) {
     t_ = 1.0;
     dq_ = soft_.cwiseProduct(z_.head(2 * N_) - centre_);
     centre_ = z_.head(2 * N_);
     q_ -= dq_;
-    df_.setZero();
-    return dq_.lpNorm<Eigen::Infinity>() / std::max(centre_.lpNorm<Eigen::Infinity>(), least_force);
+    df_ = hold_.cwiseProduct(centre_a_ - z_.tail(m_));
+    centre_a_ = z_.tail(m_);
+    if (round == 0) hold_ *= loosened;
+    f_ = problem_.f + hold_.cwiseProduct(centre_a_);
+    double held = 0.0;  // forces of what holds the bodies
+    for (Index k = 0; k < m_; ++k)
+      if (hold_[k] > 0.0) held = std::max(held, std::abs(df_[k]) / G_columns_.col(k).norm());
+    return std::max(dq_.lpNorm<Eigen::Infinity>(), held) / std::max(centre_.lpNorm<Eigen::Infinity>(), least_force);
   }
 
   /// Leaps as far as they succeed; whether any did: the matrix is then to be factorised.
@@ -226,7 +247,7 @@ class Path {
   bool leap_to(double to, double tolerance, PathEnd& end) {
     Problem there = problem_;
     there.q = q_ + to * dq_;
-    there.f = problem_.f + to * df_;
+    there.f = f_ + to * df_;
     BDifferentiableEquations equations(there, 1.0);
     equations.hold(options_.softness, Vector::Zero(2 * N_));
     NewtonOptions newton_options;
@@ -265,91 +286,81 @@ class Path {
 
   int capacity() const { return options_.changes + 100; }
 
-  /// Whether the matrix that is factorised is that of the states as they are.
-  bool has_base_states() const {
-    return std::equal(pairs_.begin(), pairs_.end(), base_.begin(),
-                      [](const Pair& a, const Pair& b) { return a.contact == b.contact && a.side == b.side; });
-  }
-
   static bool asks_for_motion_in(const std::vector<Pair>& pairs, Index row) {
     const Pair& pair = pairs[static_cast<std::size_t>(row / 2)];
     return row % 2 == 0 ? pair.contact : pair.side == 0;
   }
-  bool asks_for_motion(Index row) const { return asks_for_motion_in(pairs_, row); }
 
-  /// Row `row` of the matrix of these states, times x.
-  double row_times(const std::vector<Pair>& pairs, Index row, const Eigen::Ref<const Vector>& x) const {
-    double sum = 0.0;
+  /// What row `row` of the matrix of these states adds to `entries`, times `factor`.
+  void add_row(const std::vector<Pair>& pairs, Index row, double factor, linalg::ReplacedRows::Row& entries) const {
+    const auto add = [&](Index column, double value) {
+      entries.emplace_back(static_cast<int>(column), factor * value);
+    };
     if (asks_for_motion_in(pairs, row)) {
-      for (SparseRows::InnerIterator it(W_, row); it; ++it) sum += it.value() * x[it.col()];
-      for (SparseRows::InnerIterator it(G_, row); it; ++it) sum += it.value() * x[2 * N_ + it.col()];
-      return sum;
+      for (SparseRows::InnerIterator it(W_, row); it; ++it) add(it.col(), it.value());
+      for (SparseRows::InnerIterator it(G_, row); it; ++it) add(2 * N_ + it.col(), it.value());
+      return;
     }
-    if (row % 2 == 0) return x[row];
+    add(row, 1.0);
     const int side = pairs[static_cast<std::size_t>(row / 2)].side;
-    return x[row] + side * mu_of(row / 2, side) * x[row - 1];
-  }
-
-  /// What the row has gained since the factorisation, times x.
-  double change_times(Index row, const Eigen::Ref<const Vector>& x) const {
-    return row_times(pairs_, row, x) - row_times(base_, row, x);
+    if (row % 2 == 1) add(row - 1, side * mu_of(row / 2, side));
   }
 
   /// Right-hand side of the derivative by t: A z' = b.
-  double right_of(Index row) const { return asks_for_motion(row) ? -dq_[row] : 0.0; }
+  double right_of(const std::vector<Pair>& pairs, Index row) const {
+    return asks_for_motion_in(pairs, row) ? -dq_[row] : 0.0;
+  }
 
   bool factorise(PathEnd& end) {
     base_ = pairs_;
-    rows_.clear();
-    solved_.resize(n_, capacity());
-    small_.resize(capacity(), capacity());
+    inexact_ = false;
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(static_cast<std::size_t>(W_.nonZeros() + 2 * G_.nonZeros() + 2 * N_));
     const auto add = [&](Index row, Index column, double value) {
       entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
     };
+    linalg::ReplacedRows::Row of_row;
     for (Index row = 0; row < 2 * N_; ++row) {
-      if (asks_for_motion(row)) {
-        for (SparseRows::InnerIterator it(W_, row); it; ++it) add(row, it.col(), it.value());
-        for (SparseRows::InnerIterator it(G_, row); it; ++it) add(row, 2 * N_ + it.col(), it.value());
-      } else {
-        add(row, row, 1.0);
-        const int side = pairs_[static_cast<std::size_t>(row / 2)].side;
-        if (row % 2 == 1) add(row, row - 1, side * mu_of(row / 2, side));
-      }
+      of_row.clear();
+      add_row(base_, row, 1.0, of_row);
+      for (const auto& [column, value] : of_row) add(row, column, value);
       for (SparseRows::InnerIterator it(G_, row); it; ++it) add(2 * N_ + it.col(), row, it.value());
     }
-    A_.resize(n_, n_);
-    A_.setFromTriplets(entries.begin(), entries.end());
+    for (Index k = 0; k < m_; ++k)
+      if (hold_[k] > 0.0) add(2 * N_ + k, 2 * N_ + k, -hold_[k]);
+    Sparse A(n_, n_);
+    A.setFromTriplets(entries.begin(), entries.end());
     ++end.factorisations;
     if (options_.on_factorisation) options_.on_factorisation(z_.head(2 * N_), z_.tail(m_));
-    return lu_.factorise(A_) && place();
+    return matrix_.factorise(std::move(A), capacity(), blocks_) && place();
   }
 
-  /// The point and the direction of the piece whose matrix is factorised, without what rounding added from piece to
+  /// Before a change, on a piece on which t moves (there the matrix is regular): factorises anew where many rows are
+  /// replaced, and else places the point after so many changes.
+  bool renew(PathEnd& end, bool endless) {
+    const auto replaced = static_cast<int>(matrix_.rows().size()) + 2;
+    const bool many = replaced > (inexact_ ? least_replaced : options_.changes);
+    const bool anew = (many && !endless) || replaced > capacity();
+    if (!anew && (endless || end.changes < place_at_)) return true;
+    place_at_ = end.changes + between_places;
+    return anew ? factorise(end) : place();
+  }
+
+  /// The point, and the direction of the piece whose matrix was factorised, without what rounding added from piece to
   /// piece.
   bool place() {
     Vector right(n_), now(n_), z;
     for (Index row = 0; row < 2 * N_; ++row) {
-      right[row] = right_of(row);
-      now[row] = asks_for_motion(row) ? -(q_[row] + t_ * dq_[row]) : 0.0;
+      right[row] = right_of(base_, row);
+      now[row] = asks_for_motion_in(pairs_, row) ? -(q_[row] + t_ * dq_[row]) : 0.0;
     }
     right.tail(m_) = -df_;
-    now.tail(m_) = -(problem_.f + t_ * df_);
-    lu_.solve(right, slope_);
-    refine(right, slope_);
-    lu_.solve(now, z);
-    refine(now, z);
-    if (!z.allFinite() || !slope_.allFinite()) return false;
+    now.tail(m_) = -(f_ + t_ * df_);
+    slope_ = matrix_.solve_before(right);
+    if (!matrix_.solve(now, z) || !slope_.allFinite()) return false;
     z_ = z;
     motion_ = q_ + t_ * dq_ + W_columns_ * z_.head(2 * N_) + G_columns_ * z_.tail(m_);
     return true;
-  }
-
-  void refine(const Vector& right, Vector& x) {
-    Vector correction;
-    lu_.solve(right - A_ * x, correction);
-    x += correction;
   }
 
   /// The pair at its limit takes its next state.
@@ -383,47 +394,24 @@ class Path {
     }
   }
 
-  /// Row `row` differs from before: 1 + D'Y follows.
   void replaced(Index row) {
-    auto place = std::find(rows_.begin(), rows_.end(), row);
-    const Index at = place - rows_.begin();
-    if (place == rows_.end()) {
-      Vector unit = Vector::Zero(n_), column;
-      unit[row] = 1.0;
-      lu_.solve(unit, column);
-      solved_.col(at) = column;
-      for (Index i = 0; i < at; ++i) small_(i, at) = change_times(rows_[static_cast<std::size_t>(i)], column);
-      rows_.push_back(row);
-    }
-    for (Index j = 0; j < static_cast<Index>(rows_.size()); ++j) small_(at, j) = change_times(row, solved_.col(j));
-    small_(at, at) += 1.0;
+    linalg::ReplacedRows::Row difference;
+    add_row(pairs_, row, 1.0, difference);
+    add_row(base_, row, -1.0, difference);
+    matrix_.replace(static_cast<int>(row), std::move(difference));
   }
 
   /// dz / dt on the piece of the states as they are, towards the side of the limit just passed on which it is met.
   bool find_direction(const std::optional<Next>& passed) {
-    const auto k = static_cast<Index>(rows_.size());
-    dz_ = slope_;
-    if (k > 0) {
-      // A = B + E D', D' the changes of the rows; with z_B = B^-1 b, Y = B^-1 E and S = 1 + D'Y, A z = b + E c has the
-      // solution z = z_B + Y (c - w), S w = D'(z_B + Y c) = D'z_B + (S - 1) c.
-      const Matrix S = small_.topLeftCorner(k, k);
-      Vector c(k), rest(k);
-      for (Index i = 0; i < k; ++i) {
-        const Index row = rows_[static_cast<std::size_t>(i)];
-        rest[i] = change_times(row, slope_);
-        c[i] = right_of(row) - (asks_for_motion_in(base_, row) ? -dq_[row] : 0.0);
-      }
-      rest += S * c - c;
-      Vector w = S.partialPivLu().solve(rest);
-      if (!w.allFinite())  // nothing holds a body: by rounding alone the way is along its motion, and t stands still
-        w = Matrix(S + 1e-13 * std::max(1.0, S.cwiseAbs().maxCoeff()) * Matrix::Identity(k, k))
-                .partialPivLu()
-                .solve(rest);
-      dz_.noalias() += solved_.leftCols(k) * (c - w);
-    }
+    const std::vector<int>& rows = matrix_.rows();
+    Vector change(static_cast<Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      change[static_cast<Index>(i)] = right_of(pairs_, rows[i]) - right_of(base_, rows[i]);
+    matrix_.solve_from(slope_, change, dz_);
     if (!dz_.allFinite()) return false;
     dt_ = 1.0;
-    d_motion_ = dq_ + W_columns_ * dz_.head(2 * N_) + G_columns_ * dz_.tail(m_);
+    find_motion();
+    if (options_.hold > 0.0 && !make_exact()) return false;
     if (!passed) {
       turn(-1.0);
     } else {
@@ -452,6 +440,37 @@ class Path {
         std::max(1.0, dz_.lpNorm<Eigen::Infinity>() / std::max(z_.lpNorm<Eigen::Infinity>(), least_force));
     turn(1.0 / size);
     return true;
+  }
+
+  /// Bodies that hardly anything held when the matrix was factorised make what follows from it inexact.
+  bool make_exact() {
+    const Vector left = left_of_direction();
+    const double reached = dz_.lpNorm<Eigen::Infinity>() + d_motion_.lpNorm<Eigen::Infinity>();
+    if (left.lpNorm<Eigen::Infinity>() <= exact * reached) return true;
+    inexact_ = true;
+    Vector more;
+    if (!matrix_.solve(left, more)) return false;
+    dz_ += more;
+    find_motion();
+    return true;
+  }
+
+  void find_motion() { d_motion_ = dq_ + W_columns_ * dz_.head(2 * N_) + G_columns_ * dz_.tail(m_); }
+
+  /// What the direction lacks to A z' = b.
+  Vector left_of_direction() const {
+    Vector left(n_);
+    for (Index row = 0; row < 2 * N_; ++row) {
+      if (asks_for_motion_in(pairs_, row)) {
+        left[row] = -d_motion_[row];
+      } else {
+        left[row] = -dz_[row];
+        const int side = pairs_[static_cast<std::size_t>(row / 2)].side;
+        if (row % 2 == 1) left[row] -= side * mu_of(row / 2, side) * dz_[row - 1];
+      }
+    }
+    left.tail(m_) = hold_.cwiseProduct(dz_.tail(m_)) - df_ - G_columns_.transpose() * dz_.head(2 * N_);
+    return left;
   }
 
   void turn(double factor) {
@@ -513,17 +532,16 @@ class Path {
   const PathOptions& options_;
   Index N_, m_, n_;
   SparseRows W_, G_;
-  Sparse W_columns_, G_columns_, A_;
-  Vector soft_, q_, centre_, dq_, df_, z_, motion_, slope_, dz_, d_motion_;
+  Sparse W_columns_, G_columns_;
+  Vector soft_, hold_, q_, f_, centre_, centre_a_, dq_, df_, z_, motion_, slope_, dz_, d_motion_;
   Vector arrived_;  // z where t was 0, the softness not yet or only in part taken back; empty before
   double t_ = 1.0, dt_ = -1.0;
   double leap_ = 0.5;
   std::vector<Pair> pairs_, base_;
-  std::vector<Index> rows_;  // replaced since the factorisation
-  Matrix solved_;            // Y = B^-1 of their unit vectors
-  Matrix small_;             // 1 + D'Y
-  linalg::SparseGeneralSolver lu_;
-  int side_before_ = 0;
+  linalg::ReplacedRows matrix_;                    // of the states `base_`, with the rows of `pairs_`
+  std::function<linalg::OrderedBlocks()> blocks_;  // empty where W is dense
+  bool inexact_ = false;                           // directions from the factorised matrix lack more than `exact`
+  int side_before_ = 0, place_at_ = between_places;
 };
 
 }  // namespace

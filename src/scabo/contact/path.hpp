@@ -43,6 +43,7 @@ struct PathStart {
 
 struct PathOptions {
   double softness = 1e-6;
+  double hold = 0.0;  ///< of the rows of balance, G'p - hold g a, g the square of each column of G; taken back as well
   int rounds = 8;     ///< paths that take the softness back, most
   int changes = 250;  ///< of state with one factorisation
   int most = 0;       ///< changes of state in all; 0: 100, and four for each pair

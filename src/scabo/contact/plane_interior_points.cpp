@@ -43,6 +43,9 @@ constexpr std::array<double, 3> aims{1.0, 0.3, 0.1};
 // `wider`.
 constexpr double jammed = 0.3, wider = 3.0;
 constexpr int free_steps = 2, most_divided = 8;
+// After so many steps, steps that are to be called short may be longer by this factor.
+constexpr int most_short = 5;
+constexpr double slowly = 1.45;
 // Parts of the factors that may go less far than the others, and how far: they keep at least 1 - `nearly` of what they
 // are, or what gives this part of the usual product.
 constexpr std::array<double, 7> shorter{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
@@ -80,7 +83,7 @@ class PlaneInteriorPoints::Implementation {
     divide(p, a, usual * start * std::max(bound * bound, 1e-300));
   }
 
-  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline) {
+  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline, double shortest) {
     InteriorPointEnd end;
     end.residual = HUGE_VAL;
     int since = 0;
@@ -99,10 +102,16 @@ class PlaneInteriorPoints::Implementation {
       least_middle_ = std::min(least_middle_, middle_);
       least_residual_ = std::min(least_residual_, residual);
       if (residual < end.residual) end.residual = residual, end.p = p, end.a = a;
+      if (steps_ == free_steps) early_p_ = p, early_a_ = a;
       end.trace.push_back({end.iterations, at.largest(), at.merit(), step_, 0, "interior point"});
       if (content && content(p, a, at.motion)) {
         end.p = p, end.a = a;
         end.content = true;
+        break;
+      }
+      if (steps_ >= free_steps && step_ < (steps_ > most_short ? slowly : 1.0) * shortest) {
+        end.jammed = true;
+        end.early_p = early_p_, end.early_a = early_a_;
         break;
       }
       if ((residual <= aim && step_ >= whole) || steps_ >= most_steps || since >= patience || deadline.passed() ||
@@ -462,6 +471,7 @@ class PlaneInteriorPoints::Implementation {
   // Forces, the factors of the products, and by how much p_n, s+ and s- differ from the first factors.
   Array mu_, mu_backward_, cohesion_, tension_, forth_, back_, p_n_, p_t_, normal_, plus_, minus_, u_n_, forward_,
       backward_, off_normal_, off_plus_, off_minus_;
+  Vector early_p_, early_a_;  // after the free steps
   Vector a_, length_, f_, distance_, balance_, row_;
   Products now_;
   Sparse G_, whole_, K_;
@@ -481,8 +491,9 @@ PlaneInteriorPoints::PlaneInteriorPoints(const Problem& problem, const Vector& p
     : implementation_(std::make_unique<Implementation>(problem, p, a, start)) {}
 PlaneInteriorPoints::~PlaneInteriorPoints() = default;
 
-InteriorPointEnd PlaneInteriorPoints::advance(double aim, const IsSolution& content, const Deadline& deadline) {
-  return implementation_->advance(aim, content, deadline);
+InteriorPointEnd PlaneInteriorPoints::advance(double aim, const IsSolution& content, const Deadline& deadline,
+                                              double shortest) {
+  return implementation_->advance(aim, content, deadline, shortest);
 }
 
 }  // namespace scabo::contact

@@ -287,6 +287,7 @@ void MultifrontalLU::solve(const Vector& b, Vector& x) const {
   };
   for (const Front& front : fronts_) {
     take(front);
+    if (of_front.isZero(0.0)) continue;  // most fronts where b is a unit vector
     for (int at = 0; at < front.pivots; ++at)
       std::swap(of_front[at], of_front[front.exchanged[static_cast<std::size_t>(at)] - 1]);
     cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasUnit, front.pivots, front.F11.data(), front.pivots,

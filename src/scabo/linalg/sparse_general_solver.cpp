@@ -14,8 +14,8 @@ namespace scabo::linalg {
 
 namespace {
 
-/// Entries of the fronts' factors above which UMFPACK, whose factors are larger, does not follow where they fail: it runs
-/// out of memory. Who calls has a regular matrix to try next.
+/// Entries of the fronts' factors above which UMFPACK, whose factors are larger, does not follow where they fail: it
+/// runs out of memory. Who calls has a regular matrix to try next.
 constexpr double most_after_fronts = 1e8;
 /// Unknowns from which a saddle matrix is factorised by fronts of blocks instead of UMFPACK. The answers agree; of
 /// fewer unknowns neither takes long.
@@ -193,6 +193,7 @@ struct SparseGeneralSolver::Factor {
   std::vector<double> room;
   std::optional<MultifrontalLU> fronts;
   bool by_fronts = false;  // the matrix at hand is factorised by them
+  double entries = 0.0;    // of UMFPACK's factors
 
   Factor() { of_any(); }
   void of_any() {
@@ -283,7 +284,12 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A,
                                 &factor_->numeric, factor_->control, info);
   if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
   reciprocal_condition_ = status == UMFPACK_OK ? info[UMFPACK_RCOND] : 0.0;
+  factor_->entries = status == UMFPACK_OK ? info[UMFPACK_LNZ] + info[UMFPACK_UNZ] : 0.0;
   return status == UMFPACK_OK;
+}
+
+double SparseGeneralSolver::entries() const {
+  return factor_->by_fronts ? factor_->fronts->entries() : factor_->entries;
 }
 
 void SparseGeneralSolver::solve(const Vector& b, Vector& x) const {

@@ -30,6 +30,8 @@ class SparseGeneralSolver {
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& A, const std::function<OrderedBlocks()>& blocks);
   /// Smallest over largest pivot: a coarse estimate of 1 / (|A| |A^-1|).
   double reciprocal_condition() const { return reciprocal_condition_; }
+  /// Entries of the factors: a solve takes two operations for each.
+  double entries() const;
   /// x = A^-1 b.
   void solve(const Vector& b, Vector& x) const;
 

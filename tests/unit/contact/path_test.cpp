@@ -116,6 +116,24 @@ TEST(Path, TakesTheSoftnessBack) {
   EXPECT_LT((end.p.head(rows) + end.p.tail(rows) - solution.p).lpNorm<Eigen::Infinity>(), 1e-9 * weight);
 }
 
+// From states in which no pair sticks nothing holds the block. Held softly it takes the path to where some do.
+TEST(Path, TakesBackWhatHoldsABodyThatSlides) {
+  const Scaled pushed = scaled(pushed_block(0.9 * friction * weight));
+  const Solution solution = solve(pushed_block(0.9 * friction * weight));
+  PathStart start{solution.p, pushed.stiffness * solution.a, {}, 1e-6, 0.0};
+  start.states.assign(static_cast<std::size_t>(pushed.problem.pairs()), ContactState::slip);
+  for (Eigen::Index i = 1; i < start.p.size(); i += 2) start.p[i] = -std::abs(start.p[i]);
+  EXPECT_EQ(follow_path(pushed.problem, start).how, PathEnd::How::broken);
+  for (const double hold : {1e-9, 1e-6, 1e-3}) {
+    PathOptions options;
+    options.hold = hold;
+    const PathEnd end = follow_path(pushed.problem, start, options);
+    ASSERT_EQ(end.how, PathEnd::How::arrived) << hold;
+    EXPECT_LT((end.p - solution.p).lpNorm<Eigen::Infinity>(), 1e-9 * weight) << hold;
+    EXPECT_LT(test::violation(pushed.problem, end.p, end.a), 1e-11 * weight) << hold;
+  }
+}
+
 // Forces of floor and ceiling, both pressed, would balance any push: no mechanism. But a joint that slides does not
 // open, nothing presses the block against the ceiling, and it slides when friction on the floor is used up.
 TEST(Collapse, OfABlockThatOnlyDilatancyWouldHold) {
