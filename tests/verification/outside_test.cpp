@@ -211,6 +211,55 @@ steps: [{name: first, loads: {push: 1}, increments: 2}, {name: later, loads: {we
   EXPECT_NEAR(last(reversed).energy.external / last(together).energy.external, 1.0, 1e-11);
 }
 
+// What the reference point has moved before a body comes is no displacement of this body: where it sticks to the ground
+// it moves as the ground does from then on.
+TEST(Outside, BodiesThatComeLaterAreDisplacedFromThenOn) {
+  const auto solution = run(R"(scabo: 1
+materials: {rock: {young: 2e9, poisson: 0.25}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}
+    mesh: {size: 0.5}
+    reference: [5, -20]
+  plug: {material: rock, shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}, mesh: {size: 0.5}, added: later}
+  late: {rigid: true, shape: {rectangle: {corner: [-0.5, 1], size: [1, 0.5]}}, added: last}
+contacts:
+  base: {between: [ground.bottom, plug.bottom], friction: 0.5}
+  cap: {between: [plug.top, late.bottom], friction: 0.5}
+loads:
+  push: {on: ground.left, traction: [1e6, 2e5]}
+  weight: {on: plug, body_force: [0, -1e5]}
+  more: {on: ground.left, traction: [0, -5e5]}
+  press: {on: late.top, traction: [0, -1e5]}
+steps:
+  - {name: first, loads: {push: 1}}
+  - {name: later, loads: {weight: 1}, increments: 2}
+  - {name: last, loads: {more: 1, press: 1}}
+)");
+  last(solution);
+  const Vec2 below(0.0, -1.0);
+  const auto at = [&](std::size_t increment, std::size_t body, const Vec2& x) {
+    return result::Probe(solution, increment_at(solution, increment).fields, static_cast<int>(body))
+        .at(x)
+        ->displacement;
+  };
+  const Vec2 before = at(0, 0, below);
+  for (std::size_t k = 1; k < 4; ++k)
+    EXPECT_LE((at(k, 1, below) - (at(k, 0, below) - before)).norm(), 1e-10 * before.norm()) << k;
+  const Vec2 above(0.0, 1.0);
+  EXPECT_LE((at(3, 2, above) - (at(3, 1, above) - at(2, 1, above))).norm(), 1e-10 * before.norm());
+  for (std::size_t k = 1; k < 4; ++k)
+    for (const analysis::PairResult& pair : contact_of(increment_at(solution, k)).pairs) {
+      const Vec2 n(0.0, 1.0);
+      for (const auto& [body, shown] : {std::pair(0, pair.displacement_a), std::pair(1, pair.displacement_b)}) {
+        const Vec2 u = at(k, static_cast<std::size_t>(body), pair.position);
+        EXPECT_LE((shown - Vec2(u.dot(n), u.dot(tangent_of(n)))).norm(), 1e-8 * before.norm());
+      }
+    }
+}
+
 TEST(Outside, AStripLoadHasBoussinesqsStresses) {
   double before = HUGE_VAL;
   for (const double size : {0.5, 0.25, 0.125}) {
