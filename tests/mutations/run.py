@@ -67,7 +67,7 @@ def copy(to, wanted):
         there = to / name
         if not there.exists() or there.read_bytes() != (ROOT / name).read_bytes():
             there.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / name, there)
+            shutil.copy(ROOT / name, there)  # as new: what was built from the former text may be newer than this file
     for name, text in changed.items():
         there = to / name
         there.parent.mkdir(parents=True, exist_ok=True)

@@ -70,6 +70,10 @@ class Program(support.InTemporaryDirectory):
         grid = meshio.read(results / "mechanism.vtu")  # as others read it
         np.testing.assert_array_equal(motion.grid.point_data["displacement"], grid.point_data["displacement"])
         np.testing.assert_allclose(motion.motion, [0.0, 1.0], atol=1e-8)
+        np.testing.assert_array_equal(motion.rigid, [True, False])
+        hatched = [part for part in mechanisms.mechanism(plot.Results(results)).axes[0].collections if part.get_hatch()]
+        self.assertEqual([len(part.get_paths()) for part in hatched], [1])  # the floor
+        np.testing.assert_allclose(np.ptp(hatched[0].get_paths()[0].vertices, axis=0), [4.0, 1.0])
         of_block = grid.point_data["body"] == 2
         expected = np.column_stack([grid.points[:, 1], 1.0 - grid.points[:, 0]]) / np.sqrt(10.0)  # about (1, 0)
         np.testing.assert_allclose(grid.point_data["displacement"][of_block, :2], expected[of_block], atol=1e-8)

@@ -171,6 +171,30 @@ steps: %s
             if status:
                 self.assertIn("keep it at an overlap of 0.001, which no contact force can remove", done.stderr)
 
+    def test_bodies_placed_on_unbounded_ground_count_from_their_placing(self):
+        """What the reference point of the ground had moved before is no displacement of the plug, after a restart either."""
+        text = """
+scabo: 1
+materials: {rock: {young: 2e9, poisson: 0.25}}
+bodies:
+  ground: {material: rock, outside: true, shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}, mesh: {size: 0.5}, reference: [5, -20]}
+  plug: {material: rock, shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}, mesh: {size: 0.5}%s}
+contacts: {base: {between: [ground.bottom, plug.bottom], friction: 0.5}}
+loads: {push: {on: ground.left, traction: [1e6, 2e5]}, weight: {on: plug, body_force: [0, -1e5]}}
+steps: %s
+"""
+        first, then = "{name: push, loads: {push: 1}}, {name: place, loads: {weight: 0.5}}", "{name: more, loads: {weight: 1}}"
+        for name, added, steps, more in (("whole", ", added: place", f"[{first}, {then}]", ""), ("one", ", added: place", f"[{first}]", ""),
+                                         ("two", "", f"[{then}]", "restart: one.results")):
+            model = self.directory / f"{name}.yaml"
+            model.write_text(more + text % (added, steps), encoding="utf-8")
+            done = scabo("run", model, "--quiet")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        whole = [row for row in rows_of(self.directory / "whole.results") if row["step"] == "3"]
+        for one, other in zip(whole, rows_of(self.directory / "two.results"), strict=True):
+            for key in set(one) - {"step"}:
+                self.assertEqual(one[key], other[key], key)
+
     def test_its_own_directory_and_runs_without_an_end_are_refused(self):
         one = self.write("one.yaml", "[{name: a, loads: {weight: 1, push: 0.2}}]")
         self.assertEqual(scabo("run", one, "--quiet").returncode, 0)

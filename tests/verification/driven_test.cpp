@@ -1,6 +1,9 @@
 // Moments on edges and rigid bodies; rigid bodies that are driven by the displacement of a point and a rotation.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <string>
+
 #include "run.hpp"
 
 namespace scabo::verification {
@@ -94,6 +97,42 @@ steps:
   ASSERT_EQ(solution.increments.size(), 2u);
   EXPECT_NEAR(*increment_at(solution, 1).moments[1], -0.5 * *increment_at(solution, 0).moments[1],
               1e-10 * *increment_at(solution, 0).moments[1]);
+}
+
+// The tip of a wedge between a rigid floor and a rigid slope that comes down can only slide out. Friction at both
+// prevents it where tan(beta / 2) < mu, beta the angle of the tip: no force is then large enough to make room.
+TEST(Wedged, TheTipThatFrictionHoldsBetweenTwoDrivenBodiesIsNamed) {
+  const double beta = std::atan2(1.0, 2.0), most = std::tan(0.5 * beta);
+  const auto driven = [](double friction, const char* slope) {
+    return run(fmt::format(R"(scabo: 1
+materials: {{soft: {{young: 1e7, poisson: 0.3}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [4, 1]}}}}}}
+  wall: {{rigid: true, shape: {{rectangle: {{corner: [-1, 0], size: [1, 3]}}}}}}
+  toe: {{material: soft, shape: {{polygon: {{vertices: [[0, 0], [2, 0], [0, 1]]}}}}, mesh: {{size: 0.25}}}}
+  slope: {{rigid: true, shape: {{polygon: {{vertices: {0}}}}}}}
+supports:
+  - {{on: floor, fix: [x, y]}}
+  - {{on: wall, fix: [x, y]}}
+  - {{on: slope, displacement: [0, -0.01], rotation: 0}}
+contacts:
+  on_floor: {{between: [floor.top, toe.edge_1], friction: {1}}}
+  on_wall: {{between: [wall.right, toe.edge_3], friction: {1}}}
+  on_slope: {{between: [toe.edge_2, slope.edge_4], friction: {1}}}
+)",
+                           slope, friction));
+  };
+  const char *to_the_tip = "[[2, 0], [3, 0.5], [1, 1.5], [0, 1]]",
+             *short_of_it = "[[1.5, 0.25], [2.5, 0.75], [1.5, 1.25], [0.5, 0.75]]";
+  EXPECT_EQ(driven(0.97 * most, to_the_tip).outcome, analysis::Outcome::solved);
+  EXPECT_EQ(driven(4.0, short_of_it).outcome, analysis::Outcome::solved);
+  for (const double friction : {1.03 * most, 1.5}) {
+    const auto solution = driven(friction, to_the_tip);
+    EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
+    for (const char* part : {"body 'toe' is wedged at (2, 0) between P", " of contact 'on_floor' and P",
+                             " of contact 'on_slope': the sides enclose 26.6 degrees"})
+      EXPECT_NE(solution.reason.find(part), std::string::npos) << solution.reason;
+  }
 }
 
 }  // namespace

@@ -177,6 +177,84 @@ steps: [{{increments: 2}}]
   EXPECT_NEAR(energy(0.2, 2e4) - energy(0.2, 1e4), between, 1e-3 * between);
 }
 
+// Ground around a square hole.
+constexpr std::string_view around_a_hole = R"(scabo: 1
+materials: {rock: {young: 2e9, poisson: 0.25}}
+bodies:
+  ground:
+    material: rock
+    outside: true
+    shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}
+    mesh: {size: 0.5}
+    reference: [5, -20]
+)";
+
+// Work relative to the reference point depends on the sequence of the loads, but for what the remote ground does: with
+// a second load after the first it was 0.12 % and 0.24 % off the stored energy here. The plug comes later and never
+// slips.
+TEST(Outside, EnergiesBalanceWhenLoadsComeOneAfterTheOther) {
+  constexpr std::string_view alone = R"(
+loads: {push: {on: ground.left, traction: [1e6, 2e5]}, more: {on: ground.bottom, traction: [0, -1e5]}}
+steps: [{loads: {push: 1}, increments: 2}, {loads: {more: 1}, increments: 3}]
+)",
+                             staged = R"(
+  plug: {material: rock, shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}, mesh: {size: 0.5}, added: later}
+contacts: {base: {between: [ground.bottom, plug.bottom], friction: 0.5}}
+loads: {push: {on: ground.left, traction: [1e6, 2e5]}, weight: {on: plug, body_force: [0, -1e5]}}
+steps: [{name: first, loads: {push: 1}, increments: 2}, {name: later, loads: {weight: 1}, increments: 3}]
+)";
+  for (const std::string_view rest : {alone, staged})
+    for (const analysis::IncrementResult& at : run(fmt::format("{}{}", around_a_hole, rest)).increments)
+      EXPECT_NEAR((at.energy.external - at.energy.friction) / at.energy.elastic, 1.0, 1e-11);
+  // The stored energy does not depend on the sequence either.
+  const auto reversed =
+      run(fmt::format("{}{}", around_a_hole, alone), {"steps.0.loads={more: 1}", "steps.1.loads={push: 1}"});
+  const auto together = run(fmt::format("{}{}", around_a_hole, alone), {"steps=[{loads: {push: 1, more: 1}}]"});
+  EXPECT_NEAR(last(reversed).energy.elastic / last(together).energy.elastic, 1.0, 1e-11);
+  EXPECT_NEAR(last(reversed).energy.external / last(together).energy.external, 1.0, 1e-11);
+}
+
+// What the reference point has moved before a body comes is no displacement of this body: where it sticks to the ground
+// it moves as the ground does from then on.
+TEST(Outside, BodiesThatComeLaterAreDisplacedFromThenOn) {
+  const auto solution = run(fmt::format("{}{}", around_a_hole, R"(
+  plug: {material: rock, shape: {rectangle: {corner: [-1, -1], size: [2, 2]}}, mesh: {size: 0.5}, added: later}
+  late: {rigid: true, shape: {rectangle: {corner: [-0.5, 1], size: [1, 0.5]}}, added: last}
+contacts:
+  base: {between: [ground.bottom, plug.bottom], friction: 0.5}
+  cap: {between: [plug.top, late.bottom], friction: 0.5}
+loads:
+  push: {on: ground.left, traction: [1e6, 2e5]}
+  weight: {on: plug, body_force: [0, -1e5]}
+  more: {on: ground.left, traction: [0, -5e5]}
+  press: {on: late.top, traction: [0, -1e5]}
+steps:
+  - {name: first, loads: {push: 1}}
+  - {name: later, loads: {weight: 1}, increments: 2}
+  - {name: last, loads: {more: 1, press: 1}}
+)"));
+  last(solution);
+  const Vec2 below(0.0, -1.0);
+  const auto at = [&](std::size_t increment, std::size_t body, const Vec2& x) {
+    return result::Probe(solution, increment_at(solution, increment).fields, static_cast<int>(body))
+        .at(x)
+        ->displacement;
+  };
+  const Vec2 before = at(0, 0, below);
+  for (std::size_t k = 1; k < 4; ++k)
+    EXPECT_LE((at(k, 1, below) - (at(k, 0, below) - before)).norm(), 1e-10 * before.norm()) << k;
+  const Vec2 above(0.0, 1.0);
+  EXPECT_LE((at(3, 2, above) - (at(3, 1, above) - at(2, 1, above))).norm(), 1e-10 * before.norm());
+  for (std::size_t k = 1; k < 4; ++k)
+    for (const analysis::PairResult& pair : contact_of(increment_at(solution, k)).pairs) {
+      const Vec2 n(0.0, 1.0);
+      for (const auto& [body, shown] : {std::pair(0, pair.displacement_a), std::pair(1, pair.displacement_b)}) {
+        const Vec2 u = at(k, static_cast<std::size_t>(body), pair.position);
+        EXPECT_LE((shown - Vec2(u.dot(n), u.dot(tangent_of(n)))).norm(), 1e-8 * before.norm());
+      }
+    }
+}
+
 TEST(Outside, AStripLoadHasBoussinesqsStresses) {
   double before = HUGE_VAL;
   for (const double size : {0.5, 0.25, 0.125}) {

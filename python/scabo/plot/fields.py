@@ -184,11 +184,7 @@ def bar_ticks(levels, most=7):
 
 
 def draw_rigid(axis, points, grid):
-    bodies = geometry.rigid_outlines(grid)
-    if bodies:
-        axis.add_collection(PolyCollection([points[body] for body in bodies], facecolors="0.93", edgecolors="0.2", hatch="////",
-                                           linewidths=0.6))
-
+    style.draw_hatched(axis, [points[body] for body in geometry.rigid_outlines(grid)])
 
 
 def finish_map(axis, place, window, height):

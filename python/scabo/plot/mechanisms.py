@@ -26,6 +26,7 @@ class Motion:
     points: np.ndarray    # n x 2, moved
     cells: list           # points of each cell of a body
     motion: np.ndarray    # one for each of them: largest displacement of its body
+    rigid: np.ndarray     # one for each of them: whether its body is rigid
     outlines: np.ndarray  # sides of all bodies, S x 2
     slips: np.ndarray     # pieces of contacts that slip and do not open, P x 2
     opens: np.ndarray     # pieces that open, whether they slip or not
@@ -50,8 +51,11 @@ def motion_of(results, magnification=None):
     joints = lines[~of_body]
     opening, slip = (np.abs(grid.point_data[name]) for name in ("opening", "slip"))
     opens, slides = ((values > AT_REST)[joints].any(axis=1) for values in (opening, slip))
-    return Motion(grid, magnification, geometry.moved(grid, magnification), cells, grid.cell_data["motion"][is_body & (kinds == vtu.POLYGON)],
-                  np.concatenate([distinct[times == 1], lines[of_body]]), joints[slides & ~opens], joints[opens])
+    is_cell = is_body & (kinds == vtu.POLYGON)
+    rigid = np.array([body["rigid"] for body in results.summary["model"]["bodies"]], dtype=bool)
+    return Motion(grid, magnification, geometry.moved(grid, magnification), cells, grid.cell_data["motion"][is_cell],
+                  rigid[grid.cell_data["body"][is_cell] - 1], np.concatenate([distinct[times == 1], lines[of_body]]),
+                  joints[slides & ~opens], joints[opens])
 
 
 def magnification_of(size):
@@ -62,7 +66,8 @@ def magnification_of(size):
 
 @style.styled
 def mechanism(results, magnification=None, units=None, window=None):
-    """The bodies where they are (dashed) and moved, coloured by the largest displacement of each, and the joints that slip or open.
+    """The bodies where they are (dashed) and moved, coloured by the largest displacement of each, rigid ones hatched, and the joints that slip or
+    open.
 
     `magnification` of the motion, whose largest displacement is 1 in the model's unit of length: None chooses one. `window`: x0, x1, y0, y1
     in the model's units."""
@@ -85,6 +90,8 @@ def mechanism(results, magnification=None, units=None, window=None):
     colours = ScalarMappable(Normalize(0.0, 1.0), light)
     tints = [colours.to_rgba(value) if value > AT_REST else (0.96, 0.96, 0.96, 1.0) for value in motion.motion]
     axis.add_collection(PolyCollection([after[cell] for cell in motion.cells], facecolors=tints, edgecolors="face", linewidths=0.4))
+    style.draw_hatched(axis, [after[cell] for cell, rigid in zip(motion.cells, motion.rigid) if rigid],
+                       [tint for tint, rigid in zip(tints, motion.rigid) if rigid])
     style.draw_outline(axis, before, motion.outlines, colors="0.45", linewidths=0.5 * thin, linestyles=(0, (4, 3)), zorder=1.5)
     style.draw_outline(axis, after, motion.outlines, linewidths=0.6 * thin, zorder=2.0)
     for pieces, colour, dashes in ((motion.slips, style.BLUE, "solid"), (motion.opens, style.GREEN, OPENS)):

@@ -170,6 +170,12 @@ def close_gaps(figure):
                 part.set_linewidth(0.1)
 
 
+def draw_hatched(axis, polygons, facecolors="0.93"):
+    """Rigid bodies, in one colour or one for each."""
+    if polygons:
+        axis.add_collection(PolyCollection(polygons, facecolors=facecolors, edgecolors="0.2", hatch="////", linewidths=0.6))
+
+
 def draw_outline(axis, points, sides, **options):
     """Sides S x 2 of numbers of points."""
     axis.add_collection(LineCollection(points[sides], **{"colors": "black", "linewidths": 0.6, "capstyle": "projecting", **options}))

@@ -63,24 +63,32 @@ void exchange_results(Io& io, WrittenResults& results) {
   }
 }
 
+template <typename Io>
+void exchange_points(Io& io, const std::string& path, std::vector<Vec2>& points) {
+  std::vector<double> numbers;
+  for (const Vec2& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
+  io.numbers(path, numbers);
+  if constexpr (Io::reads) {
+    points.clear();
+    for (std::size_t k = 0; k < numbers.size(); k += 2) points.emplace_back(numbers.at(k), numbers.at(k + 1));
+  }
+}
+
 /// The mesh is divided again as it was: it follows from the placement.
 template <typename Io>
 void exchange_replacing(Io& io, Replacing& replaced) {
-  std::vector<double> placement, moved;
+  std::vector<double> placement;
   for (const std::array<Vec2, 2>& sides : replaced.placement)
     for (const Vec2& by : sides) placement.insert(placement.end(), by.begin(), by.end());
-  for (const Vec2& by : replaced.moved) moved.insert(moved.end(), by.begin(), by.end());
   io.numbers("state/replaced/placement", placement);
-  io.numbers("state/replaced/moved", moved);
+  exchange_points(io, "state/replaced/moved", replaced.moved);
   exchange_vector(io, "state/replaced/offset", replaced.offset);
   exchange_vector(io, "state/replaced/slip_before", replaced.slip_before);
   if constexpr (Io::reads) {
     replaced.placement.clear();
-    replaced.moved.clear();
     for (std::size_t k = 0; k < placement.size(); k += 4)
       replaced.placement.push_back(
           {Vec2(placement.at(k), placement.at(k + 1)), Vec2(placement.at(k + 2), placement.at(k + 3))});
-    for (std::size_t k = 0; k < moved.size(); k += 2) replaced.moved.emplace_back(moved.at(k), moved.at(k + 1));
   }
 }
 
@@ -101,6 +109,7 @@ void exchange_state(Io& io, RunState& run) {
   state.released.resize(exchange_count(io, "state/released/count", state.released.size()));
   for (std::size_t part = 0; part < state.released.size(); ++part)
     exchange_vector(io, fmt::format("state/released/{}", part), state.released[part]);
+  exchange_points(io, "state/referred", state.referred);
   exchange_vector(io, "state/p", state.p);
   exchange_vector(io, "state/a", state.a);
   exchange_vector(io, "state/gap", state.gap);
@@ -309,7 +318,8 @@ void CheckpointWriter::write(const RunState& run, const StaticSolution& solution
   at.progress = run.progress;
   const State& state = run.state;  // without displacements
   at.state = state;
-  for (std::vector<Vector>* of : {&at.state.u, &at.state.forces, &at.state.reactions, &at.state.prescribed}) of->clear();
+  for (std::vector<Vector>* of : {&at.state.u, &at.state.forces, &at.state.reactions, &at.state.prescribed})
+    of->clear();
   replace();
 }
 

@@ -63,6 +63,7 @@ Posed pose(const Prepared& prepared, const State& from, const Factors& factors, 
   to.offset = from.offset;
   to.held_offset = from.held_offset;
   to.released = from.released;
+  to.referred = from.referred;
   to.forces = applied_forces(prepared, factors, to.released);
   to.prescribed = prescribed_values(prepared, factors.supports, to.replaced.moved);
 

@@ -82,6 +82,7 @@ struct State {
   Vector offset;                 // 2N, [n, t]: added to the motion of a pair, which counts from its placing
   Vector held_offset;            // the same of held pairs
   std::vector<Vector> released;  // per part, what removed bodies exerted on it; empty where nothing did
+  std::vector<Vec2> referred;    // per part, displacement of its reference point (outside.hpp) when it was put in place
   double largest_force = 0.0;    ///< largest force so far, against which forces are judged after failure and unloading
   Energy energy;
   Replacing replaced;

@@ -32,6 +32,22 @@ Eigen::Vector3d resultant(const system::BodySystem& part, const std::vector<Vec2
   return sum;
 }
 
+/// 1/2 R'w: half the resultant of the loads on all bodies that share a reference point, times its displacement (7.6).
+double work_on_references(const Prepared& prepared, const State& state) {
+  double work = 0.0;
+  for (const Prepared::Reference& reference : prepared.references) {
+    Vec2 resultant = Vec2::Zero();
+    for (const int number : reference.parts) {
+      const Vector& forces = state.forces[static_cast<std::size_t>(number)];
+      // Of a rigid part: force and moment about its centroid.
+      const bool rigid = prepared.structure.dofs.is_rigid(static_cast<std::size_t>(number));
+      resultant += rigid ? Vec2(forces.head<2>()) : resultant_of(forces);
+    }
+    work += 0.5 * resultant.dot(displacement_of(reference, prepared, state.u));
+  }
+  return work;
+}
+
 }  // namespace
 
 std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to) {
@@ -123,19 +139,10 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.elastic += thermal;
     energy.external += thermal - thermal_energy(prepared, from.factors, p, from.u[p]);
   }
-  for (const Prepared::Reference& reference : prepared.references) {
-    const Vec2 reached = displacement_of(reference, prepared, to.u),
-               moved = reached - displacement_of(reference, prepared, from.u);
-    for (const int number : reference.parts) {
-      const auto p = static_cast<std::size_t>(number);
-      const auto loads = [&](const State& state) {  // of a rigid part: force and moment about its centroid
-        return prepared.structure.dofs.is_rigid(p) ? Vec2(state.forces[p].head<2>()) : resultant_of(state.forces[p]);
-      };
-      energy.external -= 0.5 * (loads(from) + loads(to)).dot(moved);
-    }
-    const std::size_t part = prepared.structure.dofs.part_of(reference.body);
-    energy.elastic -=
-        0.5 * resultant_of(to.forces[part] + prepared.contact.motion[part].transpose() * to.p).dot(reached);
+  if (!prepared.references.empty()) {
+    const double reached = work_on_references(prepared, to);
+    energy.elastic -= reached;
+    energy.external -= reached - work_on_references(prepared, from);
   }
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
     const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)],

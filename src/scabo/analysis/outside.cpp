@@ -101,13 +101,14 @@ void take_off_pairs(const Prepared& prepared, const FieldState& fields, std::vec
   std::vector<std::size_t> next(contacts.size(), 0);
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
     const auto c = static_cast<std::size_t>(at.contact);
-    // Its two bodies are joined.
-    const Vec2 translation = fields.reference_displacement(static_cast<std::size_t>(prepared.model.contacts[c].a.body));
     const Vec2& normal = prepared.mesh.interfaces[c].pairs[static_cast<std::size_t>(at.index)].normal;
-    const Vec2 along(translation.dot(normal), translation.dot(tangent_of(normal)));
+    const auto translation_of = [&](const model::Place& side) {
+      const Vec2 translation = fields.reference_displacement(static_cast<std::size_t>(side.body));
+      return Vec2(translation.dot(normal), translation.dot(tangent_of(normal)));
+    };
     PairResult& pair = contacts[c].pairs[next[c]++];
-    pair.displacement_a -= along;
-    pair.displacement_b -= along;
+    pair.displacement_a -= translation_of(prepared.model.contacts[c].a);
+    pair.displacement_b -= translation_of(prepared.model.contacts[c].b);
   }
 }
 
@@ -143,9 +144,12 @@ void refer_displacements(const Prepared& prepared, const State& state, Increment
   result.fields.reference_displacements.assign(prepared.model.bodies.size(), Vec2::Zero());
   for (const Prepared::Reference& reference : prepared.references) {
     const Vec2 moved = displacement_of(reference, prepared, state.u);
-    for (const int part : reference.parts)
-      for (const int body : prepared.structure.dofs.bodies_of(static_cast<std::size_t>(part)))
-        result.fields.reference_displacements[static_cast<std::size_t>(body)] = moved;
+    for (const int part : reference.parts) {
+      const auto p = static_cast<std::size_t>(part);
+      for (const int body : prepared.structure.dofs.bodies_of(p))
+        result.fields.reference_displacements[static_cast<std::size_t>(body)] =
+            state.referred.empty() ? moved : Vec2(moved - state.referred[p]);
+    }
   }
   take_off_pairs(prepared, result.fields, result.contacts);
 }

@@ -20,7 +20,8 @@ std::vector<Prepared::Reference> references_of(const model::Model& model, const 
                                                const system::Dofs& dofs);
 
 /// Sets FieldState::reference_displacements and subtracts them from the displacements of the pairs. The nodal
-/// displacements, from which fields are recovered, are not changed.
+/// displacements, from which fields are recovered, are not changed. Of a body that was put in place later (stages.hpp)
+/// what the point had moved before is none of its own.
 void refer_displacements(const Prepared& prepared, const State& state, IncrementResult& result);
 
 }  // namespace scabo::analysis

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scabo/analysis/warnings.hpp"
+#include "scabo/analysis/wedged_points.hpp"
 #include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/onset.hpp"
 #include "scabo/contact/uniqueness.hpp"
@@ -164,6 +165,10 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   solver.force_scale = tried.force_scale;
   if (const std::string why = contact::why_no_solution(tried.problem, solver); !why.empty())
     reached.reason += "; " + why;
+  if (const std::string where = wedged_point(prepared, tried.problem); !where.empty()) {
+    reached.reason += "; " + where;
+    return;
+  }
   const std::string remedy = remedy_for(prepared, tried.certificate.worst());
   reached.reason += remedy.empty() ? lost_in_rounding(prepared, tried, tolerance) : remedy;
 }

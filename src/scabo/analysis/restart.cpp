@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "2";
+constexpr const char* end_version = "3";
 
 /// Digest of numbers and texts, one after the other.
 class Fingerprint {
@@ -184,6 +184,7 @@ void exchange_end(Io& io, EndState& end) {
   exchange_list(io, "parts", end.parts, [&](const std::string& path, EndState::OfPart& of) {
     io.text(path + "/body", of.body), exchange_vector(io, path + "/a", of.a);
     io.numbers(path + "/moved", of.moved);
+    io.numbers(path + "/referred", of.referred);
   });
   exchange_scalars(io, "energy", {&end.energy.external, &end.energy.elastic, &end.energy.friction});
   exchange_scalars(io, "largest_force", {&end.largest_force});
@@ -340,10 +341,11 @@ EndState end_state(const Prepared& now, const State& state) {
     if (now.is_absent(p)) continue;
     const Eigen::Index m = now.structure.parts[p]->rigid_motions().cols();
     const auto body = static_cast<std::size_t>(now.structure.dofs.bodies_of(p).front());
-    std::vector<double> moved;
-    if (!state.replaced.moved.empty()) moved.assign(state.replaced.moved[p].begin(), state.replaced.moved[p].end());
-    end.parts.push_back(
-        {now.model.bodies[body].name, state.a.segment(now.contact.first_rigid[p], m), std::move(moved)});
+    EndState::OfPart& of = end.parts.emplace_back();
+    of.body = now.model.bodies[body].name;
+    of.a = state.a.segment(now.contact.first_rigid[p], m);
+    if (!state.replaced.moved.empty()) of.moved.assign(state.replaced.moved[p].begin(), state.replaced.moved[p].end());
+    if (!state.referred.empty()) of.referred.assign(state.referred[p].begin(), state.referred[p].end());
   }
   for (std::size_t i = 0; i < now.model.loads.size(); ++i)
     end.loads.push_back({now.model.loads[i].name, state.factors.loads[i]});
@@ -413,6 +415,10 @@ State state_of_restart(const Prepared& now) {
       const auto body = static_cast<std::size_t>(now.structure.dofs.bodies_of(p).front());
       if (now.is_absent(p) || now.model.bodies[body].name != of.body) continue;
       if (!of.moved.empty() && !state.replaced.moved.empty()) state.replaced.moved[p] = vector_at(of.moved, 0);
+      if (!of.referred.empty()) {
+        state.referred.resize(now.structure.parts.size(), Vec2::Zero());
+        state.referred[p] = vector_at(of.referred, 0);
+      }
       if (of.a.size() == 0) continue;
       state.a.segment(now.contact.first_rigid[p], of.a.size()) = of.a;
     }

@@ -37,7 +37,8 @@ struct EndState {
   struct OfPart {
     std::string body;  ///< its first one
     Vector a;
-    std::vector<double> moved;  ///< Replacing, 2 numbers; or empty
+    std::vector<double> moved;     ///< Replacing, 2 numbers; or empty
+    std::vector<double> referred;  ///< State::referred, 2 numbers; or empty
   };
   struct Factor {
     std::string name;

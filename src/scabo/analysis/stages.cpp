@@ -91,6 +91,19 @@ void take_away(const Prepared& before, const std::vector<char>& absent, State& s
     if (state.released[p].size() > 0) state.forces[p] += state.released[p];
 }
 
+/// Parts that are put in place are not displaced yet: what the reference points of the others have moved so far does
+/// not count for them.
+void refer_new_parts(const Prepared& whole, const std::vector<char>& before, const std::vector<char>& absent,
+                     State& state) {
+  if (whole.references.empty() || before.empty()) return;
+  state.referred.resize(whole.structure.parts.size(), Vec2::Zero());
+  for (const Prepared::Reference& reference : whole.references)
+    for (const int number : reference.parts) {
+      const auto p = static_cast<std::size_t>(number);
+      if (before[p] && (absent.empty() || !absent[p])) state.referred[p] = displacement_of(reference, whole, state.u);
+    }
+}
+
 }  // namespace
 
 std::vector<double> presence_at(const model::Model& model, int step) {
@@ -129,6 +142,7 @@ void Stages::enter(std::size_t step, State& state) {
   const std::vector<char> absent_before = now().absent;
   const std::vector<char> none(whole_.structure.parts.size(), 0);
   if (takes_away(whole_.model, step)) take_away(now(), absent.empty() ? none : absent, state);
+  refer_new_parts(whole_, absent_before, absent, state);
   set(std::move(absent));
   const system::ContactSystem& contact = now().contact;
 

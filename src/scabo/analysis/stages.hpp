@@ -6,7 +6,8 @@
 //
 //     put in place: its displacement and its stress are zero at the start of its step. A pair counts its motion from
 //                   there: motion = B (u - u_0), u_0 the displacements of its two bodies when the second one came; its
-//                   gap is then the gap as drawn, whatever the bodies below have settled. Its loads grow over the step
+//                   gap is then the gap as drawn, whatever the bodies below have settled. Of a reference point
+//                   (outside.hpp) only what it moves from then on counts for the body. Its loads grow over the step
 //                   from zero to their factors.
 //     taken away:   the body and its pairs vanish at the start of its step. The forces p that its pairs exerted on what
 //                   remains still act, and fall linearly to zero over the step:  f += (1 - s) B' p,  s from 0 to 1

@@ -95,9 +95,16 @@ std::vector<Mirror> find_mirrors(const Ring& ring, const Elasticity& D) {
   const double tolerance = 1e-13 * size;
   if (ring.is_open()) return mirror_of_open_ring(ring, D, tolerance);
   std::vector<Mirror> found;
+  std::optional<Mirror> to_opposite;  // maps node 0 to the opposite one: the partner of the line through both, or alone
   for (int shift = 0; shift < n; ++shift) {  // node 0 is mapped to node `shift`, which determines the line
-    const Vec2 sum = ring.nodes[0].normalized() + ring.nodes[static_cast<std::size_t>(shift)].normalized();
-    if (sum.norm() < 1e-6) continue;  // opposite nodes: found as the partner of the perpendicular line
+    const Vec2 &from = ring.nodes[0],
+               sum = from.normalized() + ring.nodes[static_cast<std::size_t>(shift)].normalized();
+    if (sum.norm() < 1e-6) {
+      const Vec2 across = Vec2(-from.y(), from.x()).normalized();
+      auto images = images_under(ring, across, shift, tolerance);
+      if (images && maps_elements(ring, D, across, *images)) to_opposite = Mirror{across, std::move(*images)};
+      continue;
+    }
     const Vec2 axis = sum.normalized();
     const auto images = images_under(ring, axis, shift, tolerance);
     if (!images || !maps_elements(ring, D, axis, *images)) continue;
@@ -108,6 +115,7 @@ std::vector<Mirror> find_mirrors(const Ring& ring, const Elasticity& D) {
     }
     if (found.empty()) found.push_back({axis, *images});
   }
+  if (found.empty() && to_opposite) found.push_back(std::move(*to_opposite));
   return found;
 }
 

@@ -154,9 +154,8 @@ class Matching {
   /// Whether this contact or another one on the circles of these two arcs has a gap, an overlap or a joined body: if
   /// only some pieces of a ring have, the weighted normals of the others alone resist that it turns.
   bool feels_two_normals() const {
-    const auto feels = [&](const auto& joint) {
-      return joint.gap != 0.0 || is_joined(model_, joint.a.body) || is_joined(model_, joint.b.body);
-    };
+    const std::vector<bool> joined = joined_to_others(model_);
+    const auto feels = [&](const auto& joint) { return mesh::feels_two_normals(joined, joint, joint.gap); };
     const auto circle_of = [&](const model::Place& side) {
       return model_.bodies[side.body].outline.edges[side.index].arc;
     };

@@ -1,8 +1,8 @@
 #include "scabo/mesh/shared_points.hpp"
 
-#include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "scabo/mesh/interface.hpp"
 
@@ -27,11 +27,6 @@ bool has_chain(const model::Model& model, const model::Contact& contact) {
   return is_chain(contact.a) || is_chain(contact.b);
 }
 
-/// Whether two normals in one point would be felt.
-bool matters(const model::Model& model, const model::Contact& contact, const ContactPair& pair) {
-  return pair.gap != 0.0 || is_joined(model, contact.a.body) || is_joined(model, contact.b.body);
-}
-
 void set_normal(ContactPair& pair, const Vec2& normal, double added) {
   pair.normal = normal;
   std::vector<ContactPair> alone{pair};
@@ -41,11 +36,15 @@ void set_normal(ContactPair& pair, const Vec2& normal, double added) {
 
 }  // namespace
 
-bool is_joined(const model::Model& model, int body) {
-  const auto is_of_body = [&](const auto& joint) { return joint.a.body == body || joint.b.body == body; };
-  return std::any_of(model.ties.begin(), model.ties.end(), is_of_body) ||
-         std::any_of(model.contacts.begin(), model.contacts.end(),
-                     [&](const model::Contact& contact) { return contact.bond && is_of_body(contact); });
+std::vector<bool> joined_to_others(const model::Model& model) {
+  std::vector<bool> joined(model.bodies.size(), false);
+  const auto join = [&](const auto& joint) {
+    for (const int body : {joint.a.body, joint.b.body}) joined[static_cast<std::size_t>(body)] = true;
+  };
+  for (const model::Tie& tie : model.ties) join(tie);
+  for (const model::Contact& contact : model.contacts)
+    if (contact.bond) join(contact);
+  return joined;
 }
 
 void share_normals(const model::Model& model, Mesh& mesh) {
@@ -61,6 +60,7 @@ void share_normals(const model::Model& model, Mesh& mesh) {
         ends[{contact.b.body, node}].push_back({i, pair, -1.0});
     }
   }
+  const std::vector<bool> joined = joined_to_others(model);
   for (const auto& [point, meeting] : ends) {
     if (meeting.size() != 2 || meeting[0].interface == meeting[1].interface) continue;
     const auto pair_of = [&](const End& end) -> ContactPair& { return mesh.interfaces[end.interface].pairs[end.pair]; };
@@ -70,7 +70,7 @@ void share_normals(const model::Model& model, Mesh& mesh) {
     const Vec2 first = meeting[0].sign * pair_of(meeting[0]).normal,
                second = meeting[1].sign * pair_of(meeting[1]).normal;
     if (first == second || first.dot(second) < smooth_cosine) continue;
-    const auto felt = [&](const End& end) { return matters(model, contact_of(end), pair_of(end)); };
+    const auto felt = [&](const End& end) { return feels_two_normals(joined, contact_of(end), pair_of(end).gap); };
     if (!felt(meeting[0]) && !felt(meeting[1])) continue;
     const Vec2 mean = (first + second).normalized();
     for (const End& end : meeting) set_normal(pair_of(end), end.sign * mean, contact_of(end).gap);

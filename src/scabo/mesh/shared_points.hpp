@@ -7,12 +7,20 @@
 // their mean, where chains are smooth: to 26 degrees.
 #pragma once
 
+#include <vector>
+
 #include "scabo/mesh/mesh.hpp"
 
 namespace scabo::mesh {
 
-/// Whether a bonded contact or a tie holds the body to another one.
-bool is_joined(const model::Model& model, int body);
+/// Per body: whether a bonded contact or a tie holds it to another one.
+std::vector<bool> joined_to_others(const model::Model& model);
+
+/// Whether two normals in one point of a joint would be felt, whose sides are `gap` apart; `joined`: of the model.
+template <typename Sides>
+bool feels_two_normals(const std::vector<bool>& joined, const Sides& joint, double gap) {
+  return gap != 0.0 || joined[static_cast<std::size_t>(joint.a.body)] || joined[static_cast<std::size_t>(joint.b.body)];
+}
 
 /// Of the interfaces of a mesh that are complete.
 void share_normals(const model::Model& model, Mesh& mesh);

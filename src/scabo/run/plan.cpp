@@ -12,6 +12,8 @@
 
 #include "scabo/element/cell_library.hpp"
 #include "scabo/element/exact_riccati.hpp"
+#include "scabo/element/mirror_symmetry.hpp"
+#include "scabo/element/sectors.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
@@ -29,29 +31,29 @@ bool is_one_super_element(const mesh::BodyMesh& body) {
   return body.cells.size() == 1 && body.count(mesh::CellKind::superelement) == 1;
 }
 
-/// Number of symmetry blocks of a super-element whose mirror lines are parallel to the axes: 1, 2 or 4.
-int symmetry_blocks(const mesh::BodyMesh& body) {
-  const Vec2 centre = body.cells.front().centre;
-  double size = 0.0;
-  for (const Vec2& x : body.nodes) size = std::max(size, (x - centre).lpNorm<Eigen::Infinity>());
-  const auto place = [&](const Vec2& arm) {
-    return std::pair(std::llround(1e6 * arm.x() / size), std::llround(1e6 * arm.y() / size));
-  };
-  std::set<std::pair<long long, long long>> places;
-  for (const Vec2& x : body.nodes) places.insert(place(x - centre));
-  int blocks = 1;
-  for (const Vec2& mirror : {Vec2(-1.0, 1.0), Vec2(1.0, -1.0)})
-    if (std::all_of(body.nodes.begin(), body.nodes.end(),
-                    [&](const Vec2& x) { return places.contains(place((x - centre).cwiseProduct(mirror))); }))
-      blocks *= 2;
-  return blocks;
-}
+/// What the cost of a super-element depends on besides its degrees of freedom.
+struct Effort {
+  int blocks = 1;            ///< by symmetry
+  bool last_digits = false;  ///< it gets them
 
-/// Seconds of a super-element's last digits, of n degrees of freedom in some symmetry blocks.
-double last_digits_of(const mesh::Cell& cell, const mesh::BodyMesh& body, double n, int blocks,
-                      const CostConstants& costs) {
-  const auto rows = element::rows_with_last_digits(element::ring_of(cell, body.nodes), 1.0);
-  return n / blocks <= static_cast<double>(rows) ? costs.last_digits_seconds * n * n * n / (blocks * blocks) : 0.0;
+  /// Of the stiffness, of n degrees of freedom.
+  double seconds(double n, const CostConstants& costs) const {
+    return (costs.dense_seconds + (last_digits ? costs.last_digits_seconds : 0.0)) * n * n * n / (blocks * blocks);
+  }
+  double bytes(double n, const CostConstants& costs) const {
+    return (costs.block_bytes + (last_digits ? costs.last_digits_bytes : 0.0)) * n * n / blocks;
+  }
+};
+
+Effort effort_of(const model::Model& model, const model::Body& body, const mesh::Cell& cell,
+                 const std::vector<Vec2>& nodes) {
+  const element::Ring ring = element::ring_of(cell, nodes);
+  const element::Elasticity D = element::sectors_of(model, cell).D;
+  Effort effort;
+  effort.blocks = static_cast<int>(element::symmetry_blocks(ring, D).size());
+  const auto rows = 2 * static_cast<Eigen::Index>(ring.nodes.size()) / effort.blocks;
+  effort.last_digits = !body.outside && rows <= element::rows_with_last_digits(ring, D.contrast());
+  return effort;
 }
 
 /// Whether coordinates have digits enough for equal cells to be seen as such (element/cell_library).
@@ -123,8 +125,8 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   }
   const double written =
       model.output.fields.any_of_bodies() ? std::ceil(static_cast<double>(plan.increments) / model.output.every) : 0.0;
-  double joined_bytes = 0.0, joined_seconds = 0.0;       // of one factor of the bodies joined at their pairs
-  std::set<std::tuple<std::size_t, int, double>> known;  // equal bodies are solved once
+  double joined_bytes = 0.0, joined_seconds = 0.0;             // of one factor of the bodies joined at their pairs
+  std::set<std::tuple<std::size_t, int, bool, double>> known;  // equal bodies are solved once
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     plan.first_mesh_only = plan.first_mesh_only || body.mesh.tolerance || model.tolerance;
@@ -133,15 +135,15 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
     const double k = std::min(2.0 * pairs_of[b], n);
     const bool fem = body.mesh.kind == model::MeshKind::fem;
     if (is_one_super_element(mesh.bodies[b])) {
-      const int blocks = symmetry_blocks(mesh.bodies[b]);
-      const bool is_new =
-          known.insert({mesh.bodies[b].nodes.size(), blocks, geometry::outline_size(body.outline)}).second;
+      const Effort effort = effort_of(model, body, mesh.bodies[b].cells.front(), mesh.bodies[b].nodes);
+      const bool is_new = known
+                              .insert({mesh.bodies[b].nodes.size(), effort.blocks, effort.last_digits,
+                                       geometry::outline_size(body.outline)})
+                              .second;
       const double work = n * n * n;
-      plan.bytes += (is_new ? 8.0 + costs.block_bytes / blocks : 8.0) * n * n;
-      if (is_new) plan.cells += costs.dense_seconds * work / (blocks * blocks);
-      if (is_new && !body.outside)
-        plan.cells += last_digits_of(mesh.bodies[b].cells.front(), mesh.bodies[b], n, blocks, costs);
-      if (is_new && written > 0.0) plan.fields += costs.dense_field_seconds * work / (blocks * blocks);
+      plan.bytes += 8.0 * n * n + (is_new ? effort.bytes(n, costs) : 0.0);
+      if (is_new) plan.cells += effort.seconds(n, costs);
+      if (is_new && written > 0.0) plan.fields += costs.dense_field_seconds * work / (effort.blocks * effort.blocks);
       plan.factorise += costs.dense_factor_seconds * work;
       plan.condense += costs.dense_condense_seconds * n * n * k;
     } else {
@@ -156,9 +158,10 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
         if (cell.kind != mesh::CellKind::superelement) continue;
         const double m = 2.0 * static_cast<double>(cell.nodes().size());
         if (m < costs.least_large_cell) continue;
-        plan.bytes += (8.0 + costs.block_bytes) * m * m;
-        plan.cells += costs.dense_seconds * m * m * m + last_digits_of(cell, mesh.bodies[b], m, 1, costs);
-        if (written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m;
+        const Effort effort = effort_of(model, body, cell, mesh.bodies[b].nodes);
+        plan.bytes += 8.0 * m * m + effort.bytes(m, costs);
+        plan.cells += effort.seconds(m, costs);
+        if (written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m / (effort.blocks * effort.blocks);
       }
       plan.mesh += (fem ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;
       if (cells_differ) plan.mesh += costs.own_mesh_seconds * n;

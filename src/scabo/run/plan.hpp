@@ -4,7 +4,8 @@
 //
 //     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness,
 //                         dense_field_seconds n^3 / b^2 for fields, dense_factor_seconds n^3 for its factor;
-//                         last_digits_seconds n^3 / b^2 besides where its scaling centre is near the boundary
+//                         last_digits_seconds n^3 / b^2 and last_digits_bytes n^2 / b besides where its scaling centre
+//                         is near the boundary or its sectors differ much in stiffness (element/exact_riccati.hpp)
 //     many cells          sparse_bytes n; mesh, cells and fields in times proportional to n, of finite elements
 //                         shorter ones; more bytes and seconds where no two cells are equal
 //     their factor        fill_bytes n log2(n); order_seconds n log2(n) + factor_seconds n^1.5
@@ -37,6 +38,7 @@ struct CostConstants {
   double block_bytes = 88.0;                ///< for n^2 / b of a super-element: eleven matrices of doubling and modes
   double dense_seconds = 1.5e-9;            ///< for n^3 / b^2
   double last_digits_seconds = 1.1e-8;      ///< for n^3 / b^2 of super-elements that get their last digits
+  double last_digits_bytes = 140.0;         ///< for n^2 / b of them: nine matrices of long double
   double dense_field_seconds = 1e-9;        ///< for n^3 / b^2
   double dense_factor_seconds = 3.2e-12;    ///< for n^3
   double dense_condense_seconds = 1.5e-11;  ///< for n^2 k

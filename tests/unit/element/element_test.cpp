@@ -73,6 +73,20 @@ TEST(SymmetryBlocks, AreAnOrthonormalBasisThatSplitsTheMatrices) {
   }
 }
 
+// The only mirror line maps the first node to the opposite one: the line through both is none, by the shape or by the
+// materials.
+TEST(SymmetryBlocks, FindTheLineAcrossTheFirstNode) {
+  const Ring tall = polygon_ring({{-1, 0}, {-1, -1}, {1, -1}, {1, 0}, {1, 2}, {-1, 2}}, 2, 1),
+             square = polygon_ring({{-1, 0}, {-1, -1}, {1, -1}, {1, 0}, {1, 1}, {-1, 1}}, 2, 1);
+  const Mat3 soft = elasticity(1.0, 0.3);
+  EXPECT_EQ(symmetry_blocks(tall, soft).size(), 2u);
+  EXPECT_EQ(symmetry_blocks(square, soft).size(), 4u);
+  std::vector<Mat3> of_elements;
+  for (std::size_t e = 0; e < square.elements.size(); ++e)
+    of_elements.push_back((e < square.elements.size() / 2 ? 10.0 : 1.0) * soft);
+  EXPECT_EQ(symmetry_blocks(square, of_elements).size(), 2u);
+}
+
 // A mirror line of the nodes that is not one of the elements is none of the body.
 TEST(SymmetryBlocks, LookAtElementsToo) {
   Ring ring = polygon_ring(rectangle(2, 2), 4, 1);  // 16 nodes; elements of order 2 and 1 on them, not mirrored
