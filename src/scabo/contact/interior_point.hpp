@@ -45,7 +45,7 @@ struct InteriorPointEnd {
   Vector a;  ///< of the same point
   bool content = false;
   bool jammed = false;      ///< ended after a short step, as was asked for
-  Vector early_p, early_a;  ///< where jammed: the point after the first two steps, which are never short
+  Vector early_p, early_a;  ///< where jammed: the point after the first two steps, which may be short
   int iterations = 0;
   double residual = 0.0;         ///< least natural map met, of forces in the units of W p, over |q|
   std::vector<Iteration> trace;  ///< its residual, its step length; merit is m / 2

@@ -236,7 +236,8 @@ NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
       // 0.945 to 0.954 of the limit load one arrived from where steps were short, and all six from the second step.
       may_cross = false;
       NewtonEnd end = crossed_over(reached.p, reached.a);
-      if (!end.converged && !late()) end = crossed_over(reached.early_p, reached.early_a);
+      if (!end.converged && !late() && reached.p != reached.early_p)
+        end = crossed_over(reached.early_p, reached.early_a);
       if (end.converged || late()) return end;
       continue;
     }

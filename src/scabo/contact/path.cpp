@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "scabo/base/interruption.hpp"
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/joint_order.hpp"
 #include "scabo/contact/newton.hpp"
@@ -85,6 +86,8 @@ class Path {
       }
       if (passed) {
         if (!renew(end, endless)) return finish(end, PathEnd::How::broken);
+        interruption_point();
+        options_.deadline.spend(solves_of_a_change * matrix_.operations_of_solve());
         change(*passed);
       }
       if (!find_direction(passed)) return finish(end, PathEnd::How::broken);
@@ -130,11 +133,12 @@ class Path {
   static constexpr double settled = 1e-14;              // of the largest force: what rounding leaves of the softness
   static constexpr double rounding = 1e-9, gain = 0.1;  // up to which what is left of it may no longer fall
   static constexpr double least_force = 1e-300;
-  static constexpr double loosened = 1e-4;       // of the hold, once t was 0
-  static constexpr double exact = 1e-8;          // what a direction may lack, over its forces and motions
-  static constexpr int least_replaced = 200;     // rows, before a matrix that gives inexact directions is given up
-  static constexpr int between_places = 250;     // changes of state, from piece to piece by sums
-  static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
+  static constexpr double loosened = 1e-4;           // of the hold, once t was 0
+  static constexpr double solves_of_a_change = 3.0;  // about
+  static constexpr double exact = 1e-8;              // what a direction may lack, over its forces and motions
+  static constexpr int least_replaced = 200;         // rows, before a matrix that gives inexact directions is given up
+  static constexpr int between_places = 250;         // changes of state, from piece to piece by sums
+  static constexpr double most_of_motion = 1e6;      // of all forces and motions so far
   // Leaps: the shortest, the factors after success and failure, |H| relative to the largest force, and how far the path
   // is followed change by change before the next leap; twice as far each time that none succeeds.
   static constexpr double least_leap = 1.0 / 256.0, longer = 2.0, shorter = 0.25, leap_tolerance = 3e-6,

@@ -15,9 +15,10 @@
 // again. The chain ends at t = 0, or its last piece leads to infinity, along a motion of the bodies that changes no
 // force, or it goes back to larger t for good.
 //
-// One matrix is factorised for up to `changes` changes of state; each replaces a row (Sherman, Morrison, Woodbury). To
-// the diagonal of W `softness` times itself is added (of its mean where it is zero), because pairs of three bodies that
-// meet in a point are redundant; Newton's method on the problem itself follows.
+// One matrix is factorised for up to `changes` changes of state; each replaces a row (linalg/replaced_rows). To the
+// diagonal of W `softness` times itself is added (of its mean where it is zero), because pairs of three bodies that meet
+// in a point are redundant. Where no pair of a body sticks at the start, the matrix is singular unless the rows of
+// balance are held as well (`hold`). Both are taken back at the end.
 //
 // Of thousands of pairs most of the way can be taken in leaps: Newton's method at a smaller t, from the point reached,
 // changes all states together in a few factorisations, where one change after the other takes a solve each. A leap that

@@ -109,7 +109,7 @@ class PlaneInteriorPoints::Implementation {
         end.content = true;
         break;
       }
-      if (steps_ >= free_steps && step_ < (steps_ > most_short ? slowly : 1.0) * shortest) {
+      if (steps_ > free_steps && step_ < (steps_ > most_short ? slowly : 1.0) * shortest) {
         end.jammed = true;
         end.early_p = early_p_, end.early_a = early_a_;
         break;

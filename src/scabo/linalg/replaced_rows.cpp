@@ -19,6 +19,9 @@ constexpr double left_over = 1e-10;
 constexpr int refinements = 2;
 /// Least change of the determinant, as a factor, after which the inverse is still taken from the one before.
 constexpr double least_factor = 1e-8;
+/// Where no more rows are to be replaced 1 + D'Y is factorised for each solve: close to a singular A its solutions are
+/// as exact as they can be, and up to here it takes no longer than a solve with a large B.
+constexpr Index few = 400;
 
 }  // namespace
 
@@ -29,7 +32,7 @@ bool ReplacedRows::factorise(Eigen::SparseMatrix<double> B, Index most, const st
   differences_.clear();
   solved_.resize(B_.rows(), most);
   small_.resize(most, most);
-  inverse_.resize(most, most);
+  if (keeps_inverse()) inverse_.resize(most, most);
   place_.assign(static_cast<std::size_t>(B_.rows()), -1);
   return lu_.factorise(B_, blocks);
 }
@@ -54,11 +57,13 @@ void ReplacedRows::replace(int row, Row difference) {
     for (Index i = 0; i < k; ++i) small_(i, k - 1) = times_difference(static_cast<std::size_t>(i), column);
     small_.row(k - 1).head(k).setZero();
     small_(k - 1, k - 1) = 1.0;
-    // Its difference is still zero: the last row of 1 + D'Y is that of the identity.
-    const Vector last = inverse_.topLeftCorner(k - 1, k - 1) * small_.col(k - 1).head(k - 1);
-    inverse_.col(k - 1).head(k - 1) = -last;
-    inverse_.row(k - 1).head(k).setZero();
-    inverse_(k - 1, k - 1) = 1.0;
+    if (keeps_inverse()) {
+      // Its difference is still zero: the last row of 1 + D'Y is that of the identity.
+      const Vector last = inverse_.topLeftCorner(k - 1, k - 1) * small_.col(k - 1).head(k - 1);
+      inverse_.col(k - 1).head(k - 1) = -last;
+      inverse_.row(k - 1).head(k).setZero();
+      inverse_(k - 1, k - 1) = 1.0;
+    }
   }
   differences_[static_cast<std::size_t>(place)] = std::move(difference);
   const Index k = count(), at = place;
@@ -66,6 +71,7 @@ void ReplacedRows::replace(int row, Row difference) {
   for (Index j = 0; j < k; ++j)
     change[j] = times_difference(static_cast<std::size_t>(at), solved_.col(j)) + (j == at ? 1.0 : 0.0) - small_(at, j);
   small_.row(at).head(k) += change.transpose();
+  if (!keeps_inverse()) return;
   auto inverse = inverse_.topLeftCorner(k, k);
   const Vector column = inverse.col(at);
   const double factor = 1.0 + change.dot(column);
@@ -73,12 +79,14 @@ void ReplacedRows::replace(int row, Row difference) {
     const Eigen::RowVectorXd along = change.transpose() * inverse / factor;
     inverse.noalias() -= column * along;
   } else {
-    invert(Vector::Zero(k));
+    factorised_solution(Vector::Zero(k));
   }
 }
 
+bool ReplacedRows::keeps_inverse() const { return small_.rows() > few; }
+
 /// Where it is singular a body is held by nothing: with the least that working precision tells from zero it moves far.
-Vector ReplacedRows::invert(const Vector& right) const {
+Vector ReplacedRows::factorised_solution(const Vector& right) const {
   constexpr double least = 1e-13;
   const Index k = count();
   const Matrix S = small_.topLeftCorner(k, k);
@@ -88,11 +96,12 @@ Vector ReplacedRows::invert(const Vector& right) const {
     lu.compute(S + least * std::max(1.0, S.cwiseAbs().maxCoeff()) * Matrix::Identity(k, k));
     w = lu.solve(right);
   }
-  inverse_.topLeftCorner(k, k) = lu.inverse();
+  if (keeps_inverse()) inverse_.topLeftCorner(k, k) = lu.inverse();
   return w;
 }
 
 Vector ReplacedRows::small_solution(const Vector& right) const {
+  if (!keeps_inverse()) return factorised_solution(right);
   const Index k = count();
   const auto S = small_.topLeftCorner(k, k);
   const auto inverse = inverse_.topLeftCorner(k, k);
@@ -103,7 +112,7 @@ Vector ReplacedRows::small_solution(const Vector& right) const {
     left = right - S * w;
     if (left.lpNorm<Eigen::Infinity>() <= aim) return w;
   }
-  return invert(right);
+  return factorised_solution(right);
 }
 
 void ReplacedRows::subtract(const Vector& w, Vector& y) const {

@@ -3,9 +3,9 @@
 //
 //     A = B + E D',   E the unit vectors of R,   A^-1 b = y - Y w,   y = B^-1 b,   Y = B^-1 E,   (1 + D'Y) w = D'y
 //
-// (Sherman, Morrison, Woodbury). A row takes one solve with the factors when it is first replaced, and the inverse of
-// 1 + D'Y follows from the one before. It is not relied on: w is refined with 1 + D'Y itself, and where that does not
-// converge, as close to a singular A, the inverse is computed anew.
+// (Sherman, Morrison, Woodbury). A row takes one solve with the factors when it is first replaced. Where there may be
+// many rows the inverse of 1 + D'Y follows from the one before. It is not relied on: w is refined with 1 + D'Y itself,
+// and where that does not converge, as close to a singular A, 1 + D'Y is factorised.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -34,6 +34,9 @@ class ReplacedRows {
   /// Rows that were replaced since the factorisation.
   const std::vector<int>& rows() const { return rows_; }
 
+  /// With the factors of B alone.
+  double operations_of_solve() const { return 2.0 * lu_.entries(); }
+
   /// x = A^-1 b, refined once. False where A is singular to working precision.
   [[nodiscard]] bool solve(const Vector& b, Vector& x) const;
 
@@ -48,10 +51,11 @@ class ReplacedRows {
   double times_difference(std::size_t at, const Eigen::Ref<const Vector>& x) const;
   /// (1 + D'Y)^-1 right.
   Vector small_solution(const Vector& right) const;
+  /// The same by a factorisation, of which the inverse is kept where there is one.
+  Vector factorised_solution(const Vector& right) const;
+  bool keeps_inverse() const;
   /// y - Y w.
   void subtract(const Vector& w, Vector& y) const;
-  /// The same by a factorisation, of which the inverse is kept.
-  Vector invert(const Vector& right) const;
   Eigen::Index count() const { return static_cast<Eigen::Index>(rows_.size()); }
 
   Eigen::SparseMatrix<double> B_;

@@ -30,14 +30,16 @@ ReplacedRows::Row row_of(const Eigen::RowVectorXd& row) {
   return entries;
 }
 
-TEST(ReplacedRows, SolveWhatMatricesFactorisedAnewSolve) {
+class ReplacedRowsOf : public testing::TestWithParam<int> {};  // most rows; of many the inverse is kept
+
+TEST_P(ReplacedRowsOf, SolveWhatMatricesFactorisedAnewSolve) {
   constexpr int n = 60;
   std::mt19937 random(5);
   const Matrix B = random_matrix(random, n), other = random_matrix(random, n);
   Matrix A = B;
   const Vector b = Vector::Random(n);
   ReplacedRows rows;
-  ASSERT_TRUE(rows.factorise(B.sparseView(), 30, {}));
+  ASSERT_TRUE(rows.factorise(B.sparseView(), GetParam(), {}));
   for (int change = 0; change < 200; ++change) {
     // Of thirty rows, some for the first time, others once more or back to what they were.
     const int row = static_cast<int>(random() % 30) * 2;
@@ -59,13 +61,13 @@ TEST(ReplacedRows, SolveWhatMatricesFactorisedAnewSolve) {
 }
 
 // The inverse of the small matrix cannot be taken from the one before where that is singular.
-TEST(ReplacedRows, PassASingularMatrix) {
+TEST_P(ReplacedRowsOf, PassASingularMatrix) {
   constexpr int n = 40;
   std::mt19937 random(6);
   const Matrix B = random_matrix(random, n), other = random_matrix(random, n);
   Matrix A = B;
   ReplacedRows rows;
-  ASSERT_TRUE(rows.factorise(B.sparseView(), 10, {}));
+  ASSERT_TRUE(rows.factorise(B.sparseView(), GetParam(), {}));
   A.row(3) = B.row(4);
   rows.replace(3, row_of(A.row(3) - B.row(3)));
   Vector x;
@@ -77,6 +79,8 @@ TEST(ReplacedRows, PassASingularMatrix) {
   ASSERT_TRUE(rows.solve(b, x));
   EXPECT_LT((x - expected).norm(), 1e-11 * expected.norm());
 }
+
+INSTANTIATE_TEST_SUITE_P(FewAndMany, ReplacedRowsOf, testing::Values(30, 500));
 
 TEST(ReplacedRows, AreAsManyAsWasSaidAtMost) {
   const Matrix B = 2.0 * Matrix::Identity(4, 4);
