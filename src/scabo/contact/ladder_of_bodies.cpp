@@ -140,9 +140,9 @@ NewtonEnd Ladder::arrived(PathEnd end) {
   return confirmed(std::move(found), few, "path");
 }
 
-/// Whether a path from where Newton's method or interior points no longer lead on takes less than what they would still
-/// take. Each of its changes costs two solves: 1 ms in a wall of 16 x 16 blocks, 3 ms in one of 24 x 24, 15 ms in one
-/// of 40 x 40, where there are 5,000 of them.
+/// Whether a path follows where Newton's method or interior points are slow. It takes fewer factorisations, but each of
+/// its changes costs two solves: 1 ms in a wall of 16 x 16 blocks, 3 ms in one of 24 x 24 and 15 ms in one of 40 x 40,
+/// where there are 5,000 of them.
 bool Ladder::may_cross_over() const {
   constexpr int most_pairs = 8000;
   return problem_.pairs() <= most_pairs && has_many_motions(problem_) && may_follow_path(problem_);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "scabo/base/error.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/b_differentiable.hpp"
 #include "scabo/contact/joint_order.hpp"
@@ -557,6 +558,7 @@ bool may_follow_path(const Problem& problem) {
 }
 
 PathEnd follow_path(const Problem& problem, const PathStart& start, const PathOptions& options) {
+  ensure(options.hold == 0.0 || options.leap == 0, "follow_path: leaps know nothing of what holds bodies");
   return Path(problem, start, options).run();
 }
 

@@ -16,8 +16,8 @@
 // force, or it goes back to larger t for good.
 //
 // One matrix is factorised for up to `changes` changes of state; each replaces a row (linalg/replaced_rows). To the
-// diagonal of W `softness` times itself is added (of its mean where it is zero), because pairs of three bodies that meet
-// in a point are redundant. Where no pair of a body sticks at the start, the matrix is singular unless the rows of
+// diagonal of W `softness` times itself is added (of its mean where it is zero), because pairs of three bodies that
+// meet in a point are redundant. Where no pair of a body sticks at the start, the matrix is singular unless the rows of
 // balance are held as well (`hold`). Both are taken back at the end.
 //
 // Of thousands of pairs most of the way can be taken in leaps: Newton's method at a smaller t, from the point reached,
@@ -44,7 +44,8 @@ struct PathStart {
 
 struct PathOptions {
   double softness = 1e-6;
-  double hold = 0.0;  ///< of the rows of balance, G'p - hold g a, g the square of each column of G; taken back as well
+  double hold = 0.0;  ///< of the rows of balance, G'p - hold g a, g the square of each column of G; taken back as well.
+                      ///< Not with leaps.
   int rounds = 8;     ///< paths that take the softness back, most
   int changes = 250;  ///< of state with one factorisation
   int most = 0;       ///< changes of state in all; 0: 100, and four for each pair
