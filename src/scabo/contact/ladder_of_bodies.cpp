@@ -18,8 +18,8 @@ namespace scabo::contact {
 
 namespace {
 
-/// Pairs from which most of a path is taken in leaps. Of fewer a factorisation costs as much as fifty changes.
-constexpr int least_of_leaps = 4000;
+/// Pairs from which most of a path is taken in leaps, and changes of state in one.
+constexpr int least_of_leaps = 4000, most_together = 128;
 
 /// Whether a path was followed to where bodies move on. Not if that is where the loads are reached but for rounding, as
 /// where all loads are taken away.
@@ -170,15 +170,15 @@ PathEnd Ladder::along_path(const PathStart& start, bool held) {
   if (problem_.pairs() > most_of_paths_first) {
     const int pairs = problem_.pairs();
     options.changes = 100;
-    options.leap = pairs > least_of_leaps ? 6 : 0;
+    options.together = pairs > least_of_leaps ? most_together : 0;
     // Paths that arrive take up to two changes for each pair, those that end in a fall up to eight.
     options.most = 8 * pairs + 100;
     options.patience = 300 + pairs / 20;
   }
   if (held) {
     options.hold = 1e-6;
-    options.changes = 1000;
-    options.leap = 0;
+    options.changes = 1500;
+    options.together = most_together;
   }
   options.on_factorisation = [&](const Vector& p, const Vector& a) {
     const Residual at = equations.residual(p, a);

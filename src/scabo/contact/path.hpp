@@ -20,10 +20,12 @@
 // meet in a point are redundant. Where no pair of a body sticks at the start, the matrix is singular unless the rows of
 // balance are held as well (`hold`). Both are taken back at the end.
 //
-// Of thousands of pairs most of the way can be taken in leaps: Newton's method at a smaller t, from the point reached,
-// changes all states together in a few factorisations, where one change after the other takes a solve each. A leap that
-// fails is made again a quarter as long. What leaps do not pass, a body that begins to move or a path that turns back,
-// is passed change by change.
+// Of thousands of pairs most of the way can be taken in leaps: past many limits at once, and at the t reached Newton's
+// method with the factors at hand, where rows of all pairs beyond their limits are replaced together. Two or three
+// iterations suffice, or it leads away: then a leap to half as many limits follows. A leap ends where the matrix has
+// the same sign of its determinant as before: with the other sign, paths lead back. Where bodies are held, what
+// Newton's method found before it led away begins a path of its own, whose dq and df are what is then missing. What
+// leaps do not pass, a body that begins to move or a path that turns back, is passed change by change.
 #pragma once
 
 #include <functional>
@@ -44,13 +46,12 @@ struct PathStart {
 
 struct PathOptions {
   double softness = 1e-6;
-  double hold = 0.0;  ///< of the rows of balance, G'p - hold g a, g the square of each column of G; taken back as well.
-                      ///< Not with leaps.
+  double hold = 0.0;  ///< of the rows of balance, G'p - hold g a, g the square of each column of G; taken back as well
   int rounds = 8;     ///< paths that take the softness back, most
   int changes = 250;  ///< of state with one factorisation
   int most = 0;       ///< changes of state in all; 0: 100, and four for each pair
   int patience = 0;   ///< changes without a smaller t after which the path has turned back; 0: an eighth of `most`
-  int leap = 0;       ///< Newton iterations of a leap; 0: no leaps
+  int together = 0;   ///< changes of state in a leap, most; 0: no leaps
   Deadline deadline = {};
   std::function<void(const Vector& p, const Vector& a)> on_factorisation = {};  ///< may be empty
 };

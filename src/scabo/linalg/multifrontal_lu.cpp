@@ -51,6 +51,26 @@ void solve_upper_from_right(const Eigen::Ref<const Matrix>& U, Eigen::Ref<Matrix
   solve_upper_from_right(U.bottomRightCorner(n - half, n - half), X.rightCols(n - half));
 }
 
+/// X <- T^-1 X, T a triangle of F; of one column with the kernels for vectors, which are faster there.
+void solve_triangular(CBLAS_UPLO part, CBLAS_DIAG diagonal, const Matrix& F, Matrix& X) {
+  const auto n = static_cast<int>(F.rows()), columns = static_cast<int>(X.cols());
+  if (columns == 1)
+    cblas_dtrsv(CblasColMajor, part, CblasNoTrans, diagonal, n, F.data(), n, X.data(), 1);
+  else
+    cblas_dtrsm(CblasColMajor, CblasLeft, part, CblasNoTrans, diagonal, n, columns, 1.0, F.data(), n, X.data(), n);
+}
+
+/// Y <- Y - A X.
+void subtract_product(const Matrix& A, const Matrix& X, Matrix& Y) {
+  const auto rows = static_cast<int>(A.rows()), inner = static_cast<int>(A.cols()),
+             columns = static_cast<int>(X.cols());
+  if (columns == 1)
+    cblas_dgemv(CblasColMajor, CblasNoTrans, rows, inner, -1.0, A.data(), rows, X.data(), 1, 1.0, Y.data(), 1);
+  else
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, columns, inner, -1.0, A.data(), rows, X.data(), inner,
+                1.0, Y.data(), rows);
+}
+
 }  // namespace
 
 MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) : bare_(std::move(blocks.bare)) {
@@ -269,46 +289,46 @@ bool MultifrontalLU::factorise(const Eigen::SparseMatrix<double>& A) {
   }
   if (!(least > 0.0) || !std::isfinite(largest)) return false;
   reciprocal_condition_ = least / largest;
-  const Vector ones = Vector::Ones(n_), b = A * ones;
-  Vector x;
+  const Matrix b = A * Vector::Ones(n_);
+  Matrix x;
   solve(b, x);
   const Vector left = row_scale_.cwiseProduct(b - A * x);  // of rows whose entries add up to 1
   return left.lpNorm<Eigen::Infinity>() <= largest_error * x.lpNorm<Eigen::Infinity>();
 }
 
-void MultifrontalLU::solve(const Vector& b, Vector& x) const {
-  ensure(b.size() == n_, "MultifrontalLU: matrix and right-hand side differ in size");
-  x = b;
-  if (!bare_.empty()) x.noalias() += added_ * b;
-  x.array() *= row_scale_.array();
-  Vector of_front, of_border;
-  const auto take = [&](const Front& front) {
-    of_front = x(Eigen::Map<const Eigen::VectorXi>(front.unknowns.data(), front.pivots));
+void MultifrontalLU::solve(const Matrix& B, Matrix& X) const {
+  ensure(B.rows() == n_, "MultifrontalLU: matrix and right-hand side differ in size");
+  X = B;
+  if (!bare_.empty()) X.noalias() += added_ * B;
+  X.array().colwise() *= row_scale_.array();
+  Matrix of_front, of_border;
+  const auto pivots_of = [](const Front& front) {
+    return Eigen::Map<const Eigen::VectorXi>(front.unknowns.data(), front.pivots);
+  };
+  const auto border_of = [](const Front& front) {
+    return Eigen::Map<const Eigen::VectorXi>(front.unknowns.data() + front.pivots, front.border());
   };
   for (const Front& front : fronts_) {
-    take(front);
-    if (of_front.isZero(0.0)) continue;  // most fronts where b is a unit vector
+    of_front = X(pivots_of(front), Eigen::all);
+    if (of_front.isZero(0.0)) continue;  // most fronts where B has unit vectors
     for (int at = 0; at < front.pivots; ++at)
-      std::swap(of_front[at], of_front[front.exchanged[static_cast<std::size_t>(at)] - 1]);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasUnit, front.pivots, front.F11.data(), front.pivots,
-                of_front.data(), 1);
-    x(Eigen::Map<const Eigen::VectorXi>(front.unknowns.data(), front.pivots)) = of_front;
+      if (const int other = front.exchanged[static_cast<std::size_t>(at)] - 1; other != at)
+        of_front.row(at).swap(of_front.row(other));
+    solve_triangular(CblasLower, CblasUnit, front.F11, of_front);
+    X(pivots_of(front), Eigen::all) = of_front;
     if (front.border() == 0) continue;
-    of_border.resize(front.border());
-    cblas_dgemv(CblasColMajor, CblasNoTrans, front.border(), front.pivots, 1.0, front.L21.data(), front.border(),
-                of_front.data(), 1, 0.0, of_border.data(), 1);
-    x(Eigen::Map<const Eigen::VectorXi>(front.unknowns.data() + front.pivots, front.border())) -= of_border;
+    of_border.setZero(front.border(), X.cols());
+    subtract_product(front.L21, of_front, of_border);
+    X(border_of(front), Eigen::all) += of_border;
   }
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
-    take(*front);
+    of_front = X(pivots_of(*front), Eigen::all);
     if (front->border() > 0) {
-      of_border = x(Eigen::Map<const Eigen::VectorXi>(front->unknowns.data() + front->pivots, front->border()));
-      cblas_dgemv(CblasColMajor, CblasNoTrans, front->pivots, front->border(), -1.0, front->U12.data(), front->pivots,
-                  of_border.data(), 1, 1.0, of_front.data(), 1);
+      of_border = X(border_of(*front), Eigen::all);
+      subtract_product(front->U12, of_border, of_front);
     }
-    cblas_dtrsv(CblasColMajor, CblasUpper, CblasNoTrans, CblasNonUnit, front->pivots, front->F11.data(), front->pivots,
-                of_front.data(), 1);
-    x(Eigen::Map<const Eigen::VectorXi>(front->unknowns.data(), front->pivots)) = of_front;
+    solve_triangular(CblasUpper, CblasNonUnit, front->F11, of_front);
+    X(pivots_of(*front), Eigen::all) = of_front;
   }
 }
 

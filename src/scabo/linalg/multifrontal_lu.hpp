@@ -44,8 +44,8 @@ class MultifrontalLU {
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& A);
   /// Smallest over largest pivot, of rows whose entries add up to 1.
   double reciprocal_condition() const { return reciprocal_condition_; }
-  /// x = A^-1 b; sizes n.
-  void solve(const Vector& b, Vector& x) const;
+  /// X = A^-1 B, n rows.
+  void solve(const Matrix& B, Matrix& X) const;
 
   double operations() const { return operations_; }  ///< of a factorisation
   double entries() const { return entries_; }        ///< of L and U

@@ -293,15 +293,22 @@ double SparseGeneralSolver::entries() const {
 }
 
 void SparseGeneralSolver::solve(const Vector& b, Vector& x) const {
+  Matrix X;
+  solve(Matrix(b), X);
+  x = X.col(0);
+}
+
+void SparseGeneralSolver::solve(const Matrix& B, Matrix& X) const {
   const Eigen::SparseMatrix<double>& A = *factor_->A;
-  ensure(b.size() == A.rows(), "SparseGeneralSolver: matrix and right-hand side differ in size");
-  x.resize(b.size());
-  if (b.size() == 0) return;
-  if (factor_->by_fronts) return factor_->fronts->solve(b, x);
-  factor_->indices.resize(static_cast<std::size_t>(b.size()));
-  factor_->room.resize(static_cast<std::size_t>(b.size()));
-  umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), x.data(), b.data(), factor_->numeric,
-                    factor_->control, nullptr, factor_->indices.data(), factor_->room.data());
+  ensure(B.rows() == A.rows(), "SparseGeneralSolver: matrix and right-hand side differ in size");
+  X.resize(B.rows(), B.cols());
+  if (B.size() == 0) return;
+  if (factor_->by_fronts) return factor_->fronts->solve(B, X);
+  factor_->indices.resize(static_cast<std::size_t>(B.rows()));
+  factor_->room.resize(static_cast<std::size_t>(B.rows()));
+  for (Eigen::Index j = 0; j < B.cols(); ++j)
+    umfpack_di_wsolve(UMFPACK_A, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), X.col(j).data(), B.col(j).data(),
+                      factor_->numeric, factor_->control, nullptr, factor_->indices.data(), factor_->room.data());
 }
 
 }  // namespace scabo::linalg

@@ -32,8 +32,9 @@ class SparseGeneralSolver {
   double reciprocal_condition() const { return reciprocal_condition_; }
   /// Entries of the factors: a solve takes two operations for each.
   double entries() const;
-  /// x = A^-1 b.
+  /// X = A^-1 B, of one right-hand side or several.
   void solve(const Vector& b, Vector& x) const;
+  void solve(const Matrix& B, Matrix& X) const;
 
  private:
   struct Factor;

@@ -45,15 +45,15 @@ Problem between_floor_and_ceiling(double push, double gap) {
   return problem;
 }
 
-/// From the block at rest under its weight; `leap`: PathOptions::leap.
-PathEnd path_under(double push, int leap = 0) {
+/// From the block at rest under its weight; `together`: PathOptions::together.
+PathEnd path_under(double push, int together = 0) {
   const Solution at_rest = solve(pushed_block(0.0));
   const Scaled pushed = scaled(pushed_block(push));
   return follow_path(
       pushed.problem,
       {at_rest.p, pushed.stiffness * at_rest.a,
        std::vector<ContactState>(static_cast<std::size_t>(pushed.problem.pairs()), ContactState::stick), 1e-8, 0.0},
-      {.leap = leap});
+      {.together = together});
 }
 
 TEST(Path, OfABlockBelowTheFrictionLimitArrives) {
@@ -79,16 +79,15 @@ TEST(Path, OfABlockEndsAtTheFrictionLimitInSliding) {
 // Leaps stop short of the limit, and the path finds it change by change.
 TEST(Path, LeapsDoNotPassALimit) {
   const double push = 3.7;  // no leap ends at the limit itself
-  const PathEnd end = path_under(push * friction * weight, 6);
+  const PathEnd end = path_under(push * friction * weight, 16);
   EXPECT_EQ(end.how, PathEnd::How::endless);
   EXPECT_GT(end.leaps, 0);
   EXPECT_NEAR(1.0 - end.left, 1.0 / push, 1e-6);
   ASSERT_EQ(end.motion.size(), 3);
   EXPECT_NEAR(end.motion[0], 1.0, 1e-9);
   const double below = 0.9 * friction * weight;
-  const PathEnd solved = path_under(below, 6);
+  const PathEnd solved = path_under(below, 16);
   ASSERT_EQ(solved.how, PathEnd::How::arrived);
-  EXPECT_GT(solved.leaps, 0);
   EXPECT_LT(test::violation(scaled(pushed_block(below)).problem, solved.p, solved.a), 1e-12 * weight);
 }
 
@@ -132,6 +131,33 @@ TEST(Path, TakesBackWhatHoldsABodyThatSlides) {
     EXPECT_LT((end.p - solution.p).lpNorm<Eigen::Infinity>(), 1e-9 * weight) << hold;
     EXPECT_LT(test::violation(pushed.problem, end.p, end.a), 1e-11 * weight) << hold;
   }
+}
+
+// Where bodies are held a leap that leads away leaves a point that another path begins with.
+TEST(Path, BeginsAgainWhereALeapLeadsAway) {
+  std::mt19937 random(12);
+  int followed = 0, arrived = 0, leaps = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Problem problem = test::floating_problem(random, test::whole(random, 6, 30), 1.0);
+    if (solve(problem).status != Status::solved) continue;
+    const Scaled in_forces = scaled(problem);
+    const auto start = bonded_start(in_forces.problem, {});
+    if (!start) continue;
+    ++followed;
+    const PathEnd end = follow_path(
+        in_forces.problem,
+        {start->p, start->a, std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::slip),
+         1e-6, 0.0},
+        {.hold = 1e-6, .together = 64});
+    leaps += end.leaps;
+    if (end.how != PathEnd::How::arrived) continue;
+    ++arrived;
+    EXPECT_LT(test::violation(in_forces.problem, end.p, end.a), 1e-8 * std::max(1.0, end.p.lpNorm<Eigen::Infinity>()))
+        << k;
+  }
+  EXPECT_GT(followed, 150);
+  EXPECT_GT(arrived, 0.75 * followed);
+  EXPECT_GT(leaps, 100);
 }
 
 // Forces of floor and ceiling, both pressed, would balance any push: no mechanism. But a joint that slides does not
@@ -179,11 +205,11 @@ TEST(Path, FindsTheFrictionLimitOfEachDirection) {
   EXPECT_NEAR(std::min(held[0], held[1]), 0.4, 1e-5);
 }
 
-class PathOfRandomProblems : public testing::TestWithParam<int> {};  // PathOptions::leap
+class PathOfRandomProblems : public testing::TestWithParam<int> {};  // PathOptions::together
 
 TEST_P(PathOfRandomProblems, EndsInSolutions) {
   std::mt19937 random(12);
-  int solvable = 0, arrived = 0;
+  int solvable = 0, arrived = 0, leaps = 0;
   for (int k = 0; k < 300; ++k) {
     Problem problem = k % 2 == 0 ? test::floating_problem(random, test::whole(random, 2, 12), 1.0)
                                  : test::held_problem(random, test::whole(random, 2, 12), 1.0);
@@ -199,7 +225,8 @@ TEST_P(PathOfRandomProblems, EndsInSolutions) {
         in_forces.problem,
         {start->p, start->a, std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::stick),
          1e-2, 1.0},
-        {.leap = GetParam()});
+        {.together = GetParam()});
+    leaps += end.leaps;
     if (end.how != PathEnd::How::arrived) continue;
     ++arrived;
     EXPECT_LT(test::violation(in_forces.problem, end.p, end.a), 1e-9 * std::max(1.0, end.p.lpNorm<Eigen::Infinity>()))
@@ -207,9 +234,10 @@ TEST_P(PathOfRandomProblems, EndsInSolutions) {
   }
   EXPECT_GT(solvable, 200);
   EXPECT_GT(arrived, 0.95 * solvable);
+  EXPECT_EQ(leaps > 100, GetParam() > 0) << leaps;
 }
 
-INSTANTIATE_TEST_SUITE_P(WithoutAndWithLeaps, PathOfRandomProblems, testing::Values(0, 5));
+INSTANTIATE_TEST_SUITE_P(WithoutAndWithLeaps, PathOfRandomProblems, testing::Values(0, 4, 64));
 
 }  // namespace
 }  // namespace scabo::contact

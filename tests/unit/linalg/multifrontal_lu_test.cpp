@@ -71,10 +71,14 @@ TEST(MultifrontalLU, AgreesWithTheDenseFactorisation) {
       const Sparse A = grid.matrix(seed);
       ASSERT_TRUE(lu.factorise(A));
       EXPECT_GT(lu.reciprocal_condition(), 1e-6);
-      const Vector b = Vector::LinSpaced(grid.size(), -1.0, 2.0);
-      Vector x;
-      lu.solve(b, x);
-      EXPECT_LT((x - Matrix(A).partialPivLu().solve(b)).norm(), 1e-12 * x.norm()) << side << " " << seed;
+      // One right-hand side, and several with unit vectors among them.
+      Matrix several = Matrix::Identity(grid.size(), std::min(grid.size(), 3));
+      several.col(0).setLinSpaced(-1.0, 2.0);
+      for (const Matrix& b : {Matrix(several.col(0)), several}) {
+        Matrix x;
+        lu.solve(b, x);
+        EXPECT_LT((x - Matrix(A).partialPivLu().solve(b)).norm(), 1e-12 * x.norm()) << side << " " << seed;
+      }
     }
   }
 }

@@ -39,7 +39,7 @@ TEST_P(ReplacedRowsOf, SolveWhatMatricesFactorisedAnewSolve) {
   Matrix A = B;
   const Vector b = Vector::Random(n);
   ReplacedRows rows;
-  ASSERT_TRUE(rows.factorise(B.sparseView(), GetParam(), {}));
+  ASSERT_TRUE(rows.factorise(B.sparseView(), 0, GetParam(), {}));
   for (int change = 0; change < 200; ++change) {
     // Of thirty rows, some for the first time, others once more or back to what they were.
     const int row = static_cast<int>(random() % 30) * 2;
@@ -60,6 +60,42 @@ TEST_P(ReplacedRowsOf, SolveWhatMatricesFactorisedAnewSolve) {
   }
 }
 
+// Together they are what they are one after the other, and the sign of the determinant is known.
+TEST_P(ReplacedRowsOf, AreReplacedTogether) {
+  constexpr int n = 50;
+  std::mt19937 random(8);
+  const Matrix B = random_matrix(random, n);
+  Matrix A = B;
+  const Vector b = Vector::Random(n);
+  ReplacedRows rows;
+  ASSERT_TRUE(rows.factorise(B.sparseView(), 0, GetParam(), {}));
+  EXPECT_EQ(rows.sign(), 1);
+  rows.replace({});
+  int negative = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Matrix other = random_matrix(random, n);
+    std::vector<ReplacedRows::Replaced> changes;
+    for (int row = k % 4; row < 30; row += 4 + k % 5) {
+      // Rows in the order of another permutation, some of them back to what they were.
+      A.row(row) = row % 3 == 0 ? B.row(row) : other.row((row + k % 3) % n);
+      A(row, row) += row % 3 == 0 ? 0.0 : 3.0;
+      changes.push_back({row, row_of(A.row(row) - B.row(row))});
+    }
+    rows.replace(std::move(changes));
+    const Eigen::PartialPivLU<Matrix> anew(A);
+    Vector x;
+    ASSERT_TRUE(rows.solve(b, x));
+    EXPECT_LT((A * x - b).norm(), 1e-11 * (b.norm() + x.norm())) << k;
+    const int sign = anew.determinant() / B.determinant() > 0.0 ? 1 : -1;
+    negative += sign < 0;
+    ASSERT_EQ(rows.sign(), sign) << k;
+    rows.solve_once(b, x);
+    EXPECT_LT((A * x - b).norm(), 1e-8 * (b.norm() + x.norm())) << k;
+  }
+  EXPECT_GT(negative, 10);
+  EXPECT_LT(negative, 50);
+}
+
 // The inverse of the small matrix cannot be taken from the one before where that is singular.
 TEST_P(ReplacedRowsOf, PassASingularMatrix) {
   constexpr int n = 40;
@@ -67,7 +103,7 @@ TEST_P(ReplacedRowsOf, PassASingularMatrix) {
   const Matrix B = random_matrix(random, n), other = random_matrix(random, n);
   Matrix A = B;
   ReplacedRows rows;
-  ASSERT_TRUE(rows.factorise(B.sparseView(), GetParam(), {}));
+  ASSERT_TRUE(rows.factorise(B.sparseView(), 0, GetParam(), {}));
   A.row(3) = B.row(4);
   rows.replace(3, row_of(A.row(3) - B.row(3)));
   Vector x;
@@ -85,14 +121,14 @@ INSTANTIATE_TEST_SUITE_P(FewAndMany, ReplacedRowsOf, testing::Values(30, 500));
 TEST(ReplacedRows, AreAsManyAsWasSaidAtMost) {
   const Matrix B = 2.0 * Matrix::Identity(4, 4);
   ReplacedRows rows;
-  ASSERT_TRUE(rows.factorise(B.sparseView(), 1, {}));
+  ASSERT_TRUE(rows.factorise(B.sparseView(), 0, 1, {}));
   rows.replace(2, {{2, 1.0}});
   rows.replace(2, {{2, 2.0}});
   EXPECT_THROW(rows.replace(0, {{0, 1.0}}), BrokenInvariant);
   Vector x;
   ASSERT_TRUE(rows.solve(Vector::Ones(4), x));
   EXPECT_NEAR(x[2], 0.25, 1e-15);
-  EXPECT_FALSE(rows.factorise(Sparse(4, 4), 1, {}));
+  EXPECT_FALSE(rows.factorise(Sparse(4, 4), 0, 1, {}));
 }
 
 }  // namespace
