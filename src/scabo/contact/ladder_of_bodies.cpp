@@ -141,10 +141,10 @@ NewtonEnd Ladder::arrived(PathEnd end) {
 }
 
 /// Whether a path follows where Newton's method or interior points are slow. It takes at most 10 factorisations where
-/// these take up to 45, but also 3,000 changes of state in a wall of 24 x 24 blocks and 10,000 in one of 40 x 40, with
-/// which it needs 10 and 60 s. Larger walls were not tried.
+/// these take up to 45, but also thousands of changes of state: 10 s in a wall of 24 x 24 blocks, and up to 80 s in one
+/// of 40 x 40, where interior points take 10 to 28 s.
 bool Ladder::may_cross_over() const {
-  constexpr int most_pairs = 16000;
+  constexpr int most_pairs = 8000;
   return problem_.pairs() <= most_pairs && has_many_motions(problem_) && may_follow_path(problem_);
 }
 
@@ -176,9 +176,8 @@ PathEnd Ladder::along_path(const PathStart& start, bool held) {
     options.patience = 300 + pairs / 20;
   }
   if (held) {
-    constexpr int large = 8000;
     options.hold = 1e-6;
-    options.changes = problem_.pairs() > large ? 2000 : 1500;
+    options.changes = 1500;
     options.together = most_together;
   }
   options.on_factorisation = [&](const Vector& p, const Vector& a) {
