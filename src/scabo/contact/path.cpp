@@ -325,6 +325,7 @@ class Path {
       if (changes.empty() || !leads_on || !room) break;
       if (may_end) last = at_.point();
       before = changes.size();
+      interruption_point();
       options_.deadline.spend(solves_of_a_change * at_.operations_of_solve());
       at_.change(changes);
       if (!at_.correct()) break;
