@@ -56,6 +56,15 @@ PathEnd path_under(double push, int together = 0) {
       {.together = together});
 }
 
+/// From bonded forces, all pairs in this state; `broken` where there are none.
+PathEnd path_from_bonded(const Scaled& problem, ContactState state, double margin, double pressure,
+                         const PathOptions& options) {
+  const auto start = bonded_start(problem.problem, {});
+  if (!start) return {};
+  const std::vector<ContactState> states(static_cast<std::size_t>(problem.problem.pairs()), state);
+  return follow_path(problem.problem, {start->p, start->a, states, margin, pressure}, options);
+}
+
 TEST(Path, OfABlockBelowTheFrictionLimitArrives) {
   const double push = 0.9 * friction * weight;
   const PathEnd end = path_under(push);
@@ -141,14 +150,8 @@ TEST(Path, BeginsAgainWhereALeapLeadsAway) {
     const Problem problem = test::floating_problem(random, test::whole(random, 6, 30), 1.0);
     if (solve(problem).status != Status::solved) continue;
     const Scaled in_forces = scaled(problem);
-    const auto start = bonded_start(in_forces.problem, {});
-    if (!start) continue;
     ++followed;
-    const PathEnd end = follow_path(
-        in_forces.problem,
-        {start->p, start->a, std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::slip),
-         1e-6, 0.0},
-        {.hold = 1e-6, .together = 64});
+    const PathEnd end = path_from_bonded(in_forces, ContactState::slip, 1e-6, 0.0, {.hold = 1e-6, .together = 64});
     leaps += end.leaps;
     if (end.how != PathEnd::How::arrived) continue;
     ++arrived;
@@ -219,13 +222,7 @@ TEST_P(PathOfRandomProblems, EndsInSolutions) {
     if (slides_freely || solve(problem).status != Status::solved) continue;
     ++solvable;
     const Scaled in_forces = scaled(problem);
-    const auto start = bonded_start(in_forces.problem, {});
-    if (!start) continue;
-    const PathEnd end = follow_path(
-        in_forces.problem,
-        {start->p, start->a, std::vector<ContactState>(static_cast<std::size_t>(problem.pairs()), ContactState::stick),
-         1e-2, 1.0},
-        {.together = GetParam()});
+    const PathEnd end = path_from_bonded(in_forces, ContactState::stick, 1e-2, 1.0, {.together = GetParam()});
     leaps += end.leaps;
     if (end.how != PathEnd::How::arrived) continue;
     ++arrived;
