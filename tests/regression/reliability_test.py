@@ -54,6 +54,13 @@ class Memory(support.InTemporaryDirectory):
                 self.assertEqual((summary["status"], summary["increments"]), ("failed", []))
                 self.assertIn("not enough memory", summary["reason"])
 
+    def test_a_wall_is_solved_where_a_path_has_no_memory(self):
+        # Near its limit load the path needs 120 MB more than interior points, which then follow.
+        wall = BEAM.parent.parent / "14_wall" / "model.yaml"
+        ended = run("run", wall, "-q", "-o", self.directory / "out", before=limited(resource.RLIMIT_AS, 370_000 * 1024),
+                    env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+        self.assertEqual(ended.returncode, SOLVED, ended.stderr)
+
 
 class Streams(support.InTemporaryDirectory):
     def shell(self, command):

@@ -2,6 +2,7 @@
 // interior points.
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <optional>
 #include <set>
 #include <vector>
@@ -148,7 +149,8 @@ bool Ladder::may_cross_over() const {
   return problem_.pairs() <= most_pairs && has_many_motions(problem_) && may_follow_path(problem_);
 }
 
-/// From a point whose states are mostly right to the solution, along the path whose start has these states.
+/// From a point whose states are mostly right to the solution, along the path whose start has these states. It needs
+/// more memory than what follows: where there is none, nothing is found.
 NewtonEnd Ladder::crossed_over(const Vector& p, const Vector& a) {
   constexpr double margin = 1e-6;
   const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(p, a);
@@ -158,7 +160,12 @@ NewtonEnd Ladder::crossed_over(const Vector& p, const Vector& a) {
     start.states.push_back(!branch.contact                            ? ContactState::open
                            : branch.tangent == Branch::Tangent::stick ? ContactState::stick
                                                                       : ContactState::slip);
-  PathEnd end = along_path(start, true);
+  PathEnd end;
+  try {
+    end = along_path(start, true);
+  } catch (const std::bad_alloc&) {
+    return nothing();
+  }
   return end.how == PathEnd::How::arrived ? arrived(std::move(end)) : nothing();
 }
 
