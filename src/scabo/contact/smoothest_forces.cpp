@@ -34,14 +34,11 @@ struct Freedom {
 
 /// Adds the limits p_n >= 0 (or -tension <= p_n <= 0, of a pair that is pulled) and those of friction to a pair that
 /// does not slip.
-void add_limits(const Problem& problem, Index i, double p_n, double p_t, bool sticks, Freedom& freedom) {
+void add_limits(const Problem& problem, Index i, double p_n, double p_t, bool sticks, bool pulled, Freedom& freedom) {
   const double tension = problem.tension_of(i), cohesion = problem.cohesion_of(i);
   const auto add = [&](const Vec2& of_force, double least) {
-    const double now = of_force[0] * p_n + of_force[1] * p_t;
-    // The solution itself is admissible, but for rounding.
-    freedom.limits.push_back({freedom.C.transpose() * of_force, std::min(least - now, 0.0)});
+    freedom.limits.push_back({freedom.C.transpose() * of_force, least - of_force[0] * p_n - of_force[1] * p_t});
   };
-  const bool pulled = p_n < 0.0;
   if (!std::isinf(tension)) add({1.0, 0.0}, pulled ? -tension : 0.0);
   const bool bound_by_friction = sticks && !std::isinf(cohesion);
   if (pulled && (bound_by_friction || !sticks)) add({-1.0, 0.0}, 0.0);  // beyond, the bound grows with mu
@@ -62,17 +59,19 @@ Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, co
   const bool bonded = std::isinf(problem.tension_of(i));
   const bool slips = moves && state != ContactState::stick;
   const bool frictionless = !bonded && problem.largest_mu(i) == 0.0 && problem.cohesion_of(i) == 0.0;
+  // Rounding leaves a tensile force where there is none: no strength is in it, and such a pair may press.
+  const bool pulled = problem.tension_of(i) > 0.0 && p_n < -no_force * scales.force;
   freedom.C(0, 0) = 1.0;
   freedom.columns = 1;
   if (frictionless || slips) {
     const double against = slip > 0.0 ? -1.0 : 1.0;  // the direction of friction
-    if (!frictionless && p_n >= 0.0) freedom.C(1, 0) = against * problem.mu_against(i, against);
-    add_limits(problem, i, p_n, p_t, false, freedom);
+    if (!frictionless && !pulled) freedom.C(1, 0) = against * problem.mu_against(i, against);
+    add_limits(problem, i, p_n, p_t, false, pulled, freedom);
     return freedom;
   }
   freedom.C(1, 1) = 1.0;
   freedom.columns = 2;
-  add_limits(problem, i, p_n, p_t, true, freedom);
+  add_limits(problem, i, p_n, p_t, true, pulled, freedom);
   return freedom;
 }
 
@@ -264,6 +263,23 @@ Vector nearest_within(const Matrix& B, const Vector& h, const Vector& wanted) {
   return part * v;
 }
 
+/// y, moved as little as possible to where B y >= h. It is beyond these limits by rounding, and by as much as the
+/// solution is, up to its tolerance.
+Vector within(const Matrix& B, const Vector& h, Vector y) {
+  std::vector<Index> beyond;
+  double before = HUGE_VAL;
+  while (true) {
+    const Vector room = B * y - h;
+    const double least = room.size() > 0 ? room.minCoeff() : 0.0;
+    if (least >= 0.0 || -least >= 0.5 * before) return y;
+    before = -least;
+    for (Index i = 0; i < room.size(); ++i)
+      if (room[i] < 0.0 && std::find(beyond.begin(), beyond.end(), i) == beyond.end()) beyond.push_back(i);
+    const Matrix held = B(beyond, Eigen::all);
+    y += held.completeOrthogonalDecomposition().solve(h(beyond) - held * y);
+  }
+}
+
 /// Change of the forces of a group, 2 for each of its pairs; empty where they are unique.
 Vector change_of(const std::vector<int>& group, Index columns, const Network& network,
                  const std::vector<Freedom>& freedom, const ActionOfPairs& action, const Vector& p) {
@@ -321,14 +337,17 @@ Vector change_of(const std::vector<int>& group, Index columns, const Network& ne
     B.row(l) = limit.row.head(width).transpose() * Z.middleRows(column, width);
     h[l] = limit.bound;
   }
+  const Matrix limits_of_y = B;
+  const Vector bounds_of_y = h;
+  h = h.cwiseMin(0.0);  // as if the solution itself, y = 0, were within them
   B = R.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(B);
   for (Index l = 0; l < B.rows(); ++l)
     if (const double size = B.row(l).norm(); size > 0.0) {
       B.row(l) /= size;
       h[l] /= size;
     }
-  const Vector v = nearest_within(B, h, wanted);
-  return CZ * R.triangularView<Eigen::Upper>().solve(v);
+  const Vector y = R.triangularView<Eigen::Upper>().solve(nearest_within(B, h, wanted));
+  return CZ * within(limits_of_y, bounds_of_y, y);
 }
 
 }  // namespace
