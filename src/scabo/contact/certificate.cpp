@@ -7,13 +7,18 @@
 
 namespace scabo::contact {
 
+Vector rounding_of_rigid_motions(const Problem& problem, const Vector& a, double length) {
+  constexpr double most = 1e-8;
+  if (a.size() == 0) return Vector::Zero(problem.q.size());
+  const Vector lost = std::numeric_limits<double>::epsilon() * (problem.G.sparse().cwiseAbs() * a.cwiseAbs());
+  return lost.cwiseMin(most * length);
+}
+
 namespace {
 
 /// Each motion nearer to zero by the rounding error of G a.
 Vector beyond_rounding(const Problem& problem, const Vector& a, const Vector& motion, double length) {
-  constexpr double most = 1e-8;
-  const Vector lost = std::numeric_limits<double>::epsilon() * (problem.G.sparse().cwiseAbs() * a.cwiseAbs());
-  return motion.binaryExpr(lost.cwiseMin(most * length),
+  return motion.binaryExpr(rounding_of_rigid_motions(problem, a, length),
                            [](double u, double error) { return std::copysign(std::max(std::abs(u) - error, 0.0), u); });
 }
 

@@ -34,6 +34,9 @@ struct Scales {
   double length = 1.0;  ///< > 0
 };
 
+/// What the last digits of the rigid motions a may add to the motions of the pairs (dN numbers), at most 1e-8 of the
+/// length scale: gaps and slips below it are none.
+Vector rounding_of_rigid_motions(const Problem& problem, const Vector& a, double length);
 /// The part of the certificate that follows from the discrete problem, for forces `p` (dN) and rigid motions `a` (m).
 Certificate certify(const Problem& problem, const Vector& p, const Vector& a, const Scales& scales);
 /// The same for known motions u of these rigid motions.

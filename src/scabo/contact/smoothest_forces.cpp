@@ -15,7 +15,7 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr Index most_columns = 150;       // of a group, which is solved by dense matrices: 0.1 s
-constexpr double no_motion = 1e-12;       // of the length scale
+constexpr double no_motion = 1e-12;       // of the length scale, beyond what rigid motions lose
 constexpr double dependent = 1e-10;       // of entries of A, which are parts of 1
 constexpr double shortness = 1e-5;        // sqrt(E)
 constexpr double worth_changing = 1e-12;  // of the largest force
@@ -49,13 +49,14 @@ void add_limits(const Problem& problem, Index i, double p_n, double p_t, bool st
   add({backward, -1.0}, -cohesion);
 }
 
-Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, const Scales& scales) {
+/// `still`: motions of the pair's two components up to which it does not move.
+Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, const Vec2& still, const Scales& scales) {
   const double p_n = solution.p[2 * i], p_t = solution.p[2 * i + 1], slip = solution.slip_increment[i];
-  const bool moves = std::abs(slip) > no_motion * scales.length;
+  const bool moves = std::abs(slip) > still[1];
   const ContactState state = solution.states[static_cast<std::size_t>(i)];
   const bool has_strength = problem.tension_of(i) > 0.0 || problem.cohesion_of(i) > 0.0;
   Freedom freedom;
-  if (state == ContactState::open && (has_strength || solution.gap[i] > no_motion * scales.length)) return freedom;
+  if (state == ContactState::open && (has_strength || solution.gap[i] > still[0])) return freedom;
   const bool bonded = std::isinf(problem.tension_of(i));
   const bool slips = moves && state != ContactState::stick;
   const bool frictionless = !bonded && problem.largest_mu(i) == 0.0 && problem.cohesion_of(i) == 0.0;
@@ -356,7 +357,10 @@ SmoothestForces smoothest_forces(const Problem& problem, const Solution& solutio
                                  const Scales& scales) {
   SmoothestForces result{solution.p};
   std::vector<Freedom> freedom;
-  for (Index i = 0; i < problem.pairs(); ++i) freedom.push_back(freedom_of(problem, solution, i, scales));
+  const Vector still =
+      rounding_of_rigid_motions(problem, solution.a, scales.length).array() + no_motion * scales.length;
+  for (Index i = 0; i < problem.pairs(); ++i)
+    freedom.push_back(freedom_of(problem, solution, i, still.segment<2>(2 * i), scales));
   const Network network(action, freedom);
   const double small = worth_changing * scales.force;
   for (const std::vector<int>& group : network.groups()) {
