@@ -101,6 +101,10 @@ void take_blas_buffers(int count) {
   for (void* buffer : buffers) blas_memory_free(buffer);
 }
 
+/// Of the signals held before main(), see hold_termination.
+bool termination_held = false;
+sigset_t signals_before;
+
 }  // namespace
 
 int threads_that_fit(int wanted) {
@@ -122,6 +126,7 @@ void keep_memory() {
 void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 
 void prepare_process() {
+  if (termination_held) sigprocmask(SIG_SETMASK, &signals_before, nullptr);
   keep_open(STDIN_FILENO, O_WRONLY);
   keep_open(STDOUT_FILENO, O_RDONLY);
   keep_open(STDERR_FILENO, O_RDONLY);
@@ -194,10 +199,21 @@ void check_memory(int, char** arguments, char** environment) {
   if (!is_free(blas_buffer + for_work)) refuse();
 }
 
+/// Until prepare_process, so that threads which libraries start, as OpenBLAS does, never take SIGTERM: where it waits
+/// for the end of METIS (linalg/held_termination), it must not find another thread.
+void hold_termination(int, char**, char**) {
+  sigset_t held;
+  sigemptyset(&held);
+  sigaddset(&held, SIGTERM);
+  scabo::app::termination_held = sigprocmask(SIG_BLOCK, &held, &scabo::app::signals_before) == 0;
+}
+
 }  // namespace
 
 // Functions listed here run before the initialisers of shared libraries.
 [[gnu::section(".preinit_array"), gnu::used]] static void (*const check_memory_first)(int, char**,
                                                                                       char**) = check_memory;
+[[gnu::section(".preinit_array"), gnu::used]] static void (*const hold_termination_next)(int, char**,
+                                                                                         char**) = hold_termination;
 
 #endif

@@ -11,6 +11,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/interruption.hpp"
+#include "scabo/linalg/held_termination.hpp"
 
 namespace scabo::linalg {
 
@@ -206,6 +207,7 @@ std::vector<std::int64_t> elimination_order(const SparseMatrix& A, Ordering meth
   } else if (done != 0 && method == Ordering::nested_dissection) {
     static std::mutex one_at_a_time;  // METIS draws from rand(), which it sets at its start
     const std::lock_guard lock(one_at_a_time);
+    const HeldTermination held;
     done = cholmod_l_metis(&view, nullptr, 0, 0, order_of_groups.data(), &common);
   }
   const bool out_of_memory = common.status == CHOLMOD_OUT_OF_MEMORY;

@@ -10,6 +10,7 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/linalg/dense.hpp"
+#include "scabo/linalg/held_termination.hpp"
 
 namespace scabo::linalg {
 
@@ -49,6 +50,7 @@ void parallel_for(int count, int threads, const std::function<void(int)>& task) 
   {
     std::vector<std::jthread> pool;  // joined at the end of the block
     try {
+      const HeldTermination held;  // signals are for the thread that calls
       for (std::size_t k = 1; k < failures.size(); ++k) pool.emplace_back([&, k] { work(failures[k]); });
     } catch (const std::system_error&) {  // a limit on processes or memory: the existing threads do the work
     }

@@ -9,6 +9,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/elimination_order.hpp"
+#include "scabo/linalg/held_termination.hpp"
 
 namespace scabo::linalg {
 
@@ -275,6 +276,7 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A,
                                     &factor_->symbolic, factor_->control, info);
     } else {
       factor_->of_any();
+      const HeldTermination held;  // UMFPACK calls METIS
       status = umfpack_di_symbolic(n, n, A.outerIndexPtr(), A.innerIndexPtr(), nullptr, &factor_->symbolic,
                                    factor_->control, info);
     }

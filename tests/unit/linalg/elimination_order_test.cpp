@@ -1,10 +1,14 @@
 #include "scabo/linalg/elimination_order.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <numeric>
 #include <set>
+#include <thread>
 
 namespace scabo::linalg {
 namespace {
@@ -180,6 +184,29 @@ TEST(EliminationOrder, DissectsWhatFillsItsFactor) {
   const auto order = elimination_order(A);
   EXPECT_EQ(order, elimination_order(A, Ordering::nested_dissection));
   EXPECT_NE(order, elimination_order(A, Ordering::minimum_degree));
+}
+
+volatile std::sig_atomic_t signals_taken = 0;
+
+extern "C" void take_signal(int) { signals_taken = signals_taken + 1; }
+
+// METIS takes SIGTERM for an error of its own, and its handler jumps out of what was being done.
+TEST(EliminationOrder, IsFoundAlthoughSignalsArrive) {
+  const auto before = std::signal(SIGTERM, take_signal);
+  const SparseMatrix A = grid(60, 1);
+  const std::vector<std::int64_t> undisturbed = elimination_order(A, Ordering::nested_dissection);
+  const pthread_t here = pthread_self();
+  for (int k = 0; k < 20; ++k) {
+    std::jthread sender([&](const std::stop_token& over) {
+      while (!over.stop_requested()) {
+        pthread_kill(here, SIGTERM);
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+      }
+    });
+    EXPECT_EQ(elimination_order(A, Ordering::nested_dissection), undisturbed);
+  }
+  EXPECT_GT(signals_taken, 0);
+  std::signal(SIGTERM, before);
 }
 
 }  // namespace
