@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <mutex>
 #include <new>
 #include <numeric>
 
@@ -205,8 +204,6 @@ std::vector<std::int64_t> elimination_order(const SparseMatrix& A, Ordering meth
     std::vector<SuiteSparse_long> members = DissectionByPosition(graph, std::move(of_groups)).groups();
     done = cholmod_l_camd(&view, nullptr, 0, members.data(), order_of_groups.data(), &common);
   } else if (done != 0 && method == Ordering::nested_dissection) {
-    static std::mutex one_at_a_time;  // METIS draws from rand(), which it sets at its start
-    const std::lock_guard lock(one_at_a_time);
     const HeldTermination held;
     done = cholmod_l_metis(&view, nullptr, 0, 0, order_of_groups.data(), &common);
   }
