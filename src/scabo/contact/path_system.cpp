@@ -15,7 +15,8 @@ constexpr double least_force = 1e-300;
 /// Rows beyond those after which the matrix is factorised anew: for changes one after the other, and together.
 constexpr int spare_rows = 100, spare_rows_together = 500;
 
-constexpr double exact = 1e-8;  // what a direction or a point may lack, over its forces and motions
+// What a direction or a point may lack, over its forces and motions, and what of that is not corrected.
+constexpr double exact = 1e-8, negligible = 1e-12;
 
 }  // namespace
 
@@ -253,8 +254,10 @@ bool PathSystem::find_direction() {
 }
 
 bool PathSystem::correct() {
-  Vector more;
-  matrix_.solve_roughly(left_of_point(), more);
+  Vector left = left_of_point(), more;
+  const double least = negligible * (z_.lpNorm<Eigen::Infinity>() + motion_.lpNorm<Eigen::Infinity>());
+  left = (left.array().abs() > least).select(left, 0.0);  // mostly in rows that were replaced: a solve instead of two
+  matrix_.solve_roughly(left, more);
   if (!more.allFinite()) return false;
   z_ += more;
   find_motion();

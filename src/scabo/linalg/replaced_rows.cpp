@@ -123,7 +123,7 @@ void ReplacedRows::replace(std::vector<Replaced> changes) {
   add_rows(changes);
   const Index k = count(), changed = static_cast<Index>(changes.size());
   std::vector<int> places;
-  Matrix by(changed, k);  // what the rows of 1 + D'Y change by
+  ByRows by(changed, k);  // what the rows of 1 + D'Y change by
   for (Replaced& change : changes) {
     const int at = place_[static_cast<std::size_t>(change.row)];
     auto row = by.row(static_cast<Index>(places.size()));
@@ -236,12 +236,23 @@ void ReplacedRows::solve_once(const Vector& b, Vector& x) const {
   solve_from(y, Vector::Zero(count()), x);
 }
 
+bool ReplacedRows::is_of_replaced_rows(const Vector& b) const {
+  for (Index row = 0; row < b.size(); ++row)
+    if (b[row] != 0.0 && place_[static_cast<std::size_t>(row)] < 0) return false;
+  return true;
+}
+
 void ReplacedRows::solve_roughly(const Vector& b, Vector& x) const {
   if (!keeps_inverse() || count() == 0) return solve_once(b, x);
-  solve_with_factors(b, x);
-  Vector rest(count());
-  for (Index i = 0; i < count(); ++i) rest[i] = times_difference(static_cast<std::size_t>(i), x);
   bool exact = false;
+  Vector rest(count());
+  if (is_of_replaced_rows(b)) {  // b = E c: x = Y S^-1 c
+    for (Index i = 0; i < count(); ++i) rest[i] = -b[rows_[static_cast<std::size_t>(i)]];
+    x.setZero(b.size());
+  } else {
+    solve_with_factors(b, x);
+    for (Index i = 0; i < count(); ++i) rest[i] = times_difference(static_cast<std::size_t>(i), x);
+  }
   subtract(solution_by_inverse(rest, exact), x);
 }
 

@@ -52,7 +52,7 @@ class ReplacedRows {
   /// The same, not refined.
   void solve_once(const Vector& b, Vector& x) const;
 
-  /// The same, in haste: not exact where 1 + D'Y should be factorised.
+  /// The same, in haste: not exact where 1 + D'Y should be factorised. Half as long for a b that is zero but in rows().
   void solve_roughly(const Vector& b, Vector& x) const;
 
   /// B^-1 b, refined once.
@@ -73,6 +73,7 @@ class ReplacedRows {
   /// By the inverse that is kept; whether that is `exact`.
   Vector solution_by_inverse(const Vector& right, bool& exact) const;
   bool keeps_inverse() const;
+  bool is_of_replaced_rows(const Vector& b) const;
   /// y - Y w.
   void subtract(const Vector& w, Vector& y) const;
   Eigen::Index count() const { return static_cast<Eigen::Index>(rows_.size()); }
@@ -83,8 +84,9 @@ class ReplacedRows {
   SubstitutedRows lu_;
   std::vector<int> rows_, place_;  // place: of each row of B in rows_, or -1
   std::vector<Row> differences_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> solved_;  // Y
-  Matrix small_;  // 1 + D'Y; as Y with room for more rows
+  using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  ByRows solved_;  // Y
+  ByRows small_;   // 1 + D'Y; as Y with room for more rows
   mutable Matrix inverse_;
   mutable int sign_ = 1;  ///< where the inverse is kept
 };

@@ -91,6 +91,13 @@ TEST_P(ReplacedRowsOf, AreReplacedTogether) {
     ASSERT_EQ(rows.sign(), sign) << k;
     rows.solve_once(b, x);
     EXPECT_LT((A * x - b).norm(), 1e-8 * (b.norm() + x.norm())) << k;
+    Vector of_replaced = Vector::Zero(n);  // zero but in some of the replaced rows
+    of_replaced(rows.rows()) = Vector::Random(static_cast<Eigen::Index>(rows.rows().size()));
+    of_replaced[rows.rows().front()] = 0.0;
+    for (const Vector& right : {b, of_replaced}) {
+      rows.solve_roughly(right, x);
+      EXPECT_LT((A * x - right).norm(), 1e-8 * (right.norm() + x.norm())) << k;
+    }
   }
   EXPECT_GT(negative, 10);
   EXPECT_LT(negative, 50);
