@@ -90,7 +90,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     constexpr int most_of_soft = 14, most_before_path = 5, slowly = 5;
     const bool crosses = may_cross_over();
     if (better(softly(p, a, {"newton", 0.0, 1.0, crosses ? most_before_path : most_of_soft, slowly}))) return best;
-    if (crosses && better(crossed_over(best.p, best.a))) return best;
+    if (crosses && better(crossed_over({{best.p, best.a}}))) return best;
     if (better(inside_near(best.p, best.a, near_by))) return best;
   } else if (!cold) {
     Run how{"newton", 0.0, 1.0, most, patience};

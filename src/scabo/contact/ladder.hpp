@@ -85,7 +85,11 @@ class Ladder {
   NewtonEnd along_paths(const BondedStart& bonded, const std::vector<bool>& touching);
   NewtonEnd arrived(PathEnd end);
   bool may_cross_over() const;
-  NewtonEnd crossed_over(const Vector& p, const Vector& a);
+  struct CrossingPoint {
+    Vector p, a;
+  };
+  NewtonEnd crossed_over(const std::vector<CrossingPoint>& points);
+  PathStart crossing_start(const CrossingPoint& from, double margin) const;
   PathEnd along_path(const PathStart& start, bool held = false);
   NewtonEnd confirmed(NewtonEnd found, int few, const std::string& name);
   NewtonEnd without_history(const Vector& p, const Vector& a);
