@@ -200,8 +200,12 @@ void check_memory(int, char** arguments, char** environment) {
 }
 
 /// Until prepare_process, so that threads which libraries start, as OpenBLAS does, never take SIGTERM: where it waits
-/// for the end of METIS (linalg/held_termination), it must not find another thread.
-void hold_termination(int, char**, char**) {
+/// for the end of METIS (linalg/held_termination), it must not find another thread. Not under mpirun, which ends lost
+/// runs by SIGTERM: there a rank would no longer record that end.
+void hold_termination(int, char**, char** environment) {
+  for (char* const* of = environment; *of; ++of)
+    for (const char* launched : {"OMPI_COMM_WORLD_SIZE=", "PMI_SIZE=", "PMIX_RANK="})
+      if (std::strncmp(*of, launched, std::strlen(launched)) == 0) return;
   sigset_t held;
   sigemptyset(&held);
   sigaddset(&held, SIGTERM);

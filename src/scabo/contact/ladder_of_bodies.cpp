@@ -151,13 +151,16 @@ bool Ladder::may_cross_over() const {
 
 /// From points whose states are mostly right to the solution, along paths whose starts have these states. Near the
 /// limit load one may turn back where another, that starts at other distances from the limits of its pairs, arrives:
-/// of walls of 200 to 600 blocks at 0.9 to 0.99 of it two of three arrive, in 1 to 3 s where they do not. A path that
+/// of walls of 200 to 600 blocks at 0.9 to 0.99 of it two of three arrive, and the others take 1 to 3 s. A path that
 /// arrives with what holds its bodies, but not without, is the last: the bodies are about to fall. They need more
 /// memory than what follows: where there is none, nothing is found.
 NewtonEnd Ladder::crossed_over(const std::vector<CrossingPoint>& points) {
+  constexpr std::size_t most_paths = 4;
   try {
-    for (const double margin : {1e-6, 1e-5})
+    std::size_t paths = 0;
+    for (const double margin : {1e-6, 1e-5, 1e-7, 1e-4})
       for (const CrossingPoint& from : points) {
+        if (paths++ == most_paths) return nothing();
         PathEnd end = along_path(crossing_start(from, margin), true);
         if (end.how == PathEnd::How::arrived) return arrived(std::move(end));
         if (late()) return nothing();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/path_system.hpp"
@@ -94,8 +95,8 @@ class Path {
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
   // Leaps: how many changes at first, and after so many single ones again; what counts as beyond a limit, of the
   // largest force or motion; when Newton's method leads on: each time this part of the pairs before, or fewer.
-  static constexpr int first_together = 16, later_together = 8, least_pause = 2, most_pause = 16;
-  static constexpr double beyond = 1e-11, beyond_at_end = 1e-13, fewer = 0.6, near_the_end = 0.999, most_growth = 100.0;
+  static constexpr int first_together = 16, later_together = 8, least_pause = 2, most_pause = 16, most_corrections = 8;
+  static constexpr double beyond = 1e-11, beyond_at_end = 1e-13, fewer = 0.6, most_growth = 100.0;
   // Another path begins so far from limits, of the mean force, and not so near to the end that this would be felt.
   static constexpr double margin_again = 1e-6, least_again = 1e-3;
 
@@ -279,13 +280,20 @@ class Path {
   /// As many changes together as succeed; whether any did.
   bool change_together(const Next& next) {
     std::vector<double> steps;
-    for_each_limit([&](Limit, double step, Index) { steps.push_back(step); });
+    for_each_limit([&](Limit, double step, Index) {
+      if (step > 0.0) steps.push_back(step);  // else it has been passed by less than counts as beyond
+    });
+    const double to_end = at_.t() / -at_.dt();
+    bool tried_to_end = false;
     const PathSystem::Point from = at_.point();
     for (; together_ > 1; together_ /= 2) {
-      if (steps.size() < static_cast<std::size_t>(together_)) continue;
-      const auto last = steps.begin() + (together_ - 1);
-      std::nth_element(steps.begin(), last, steps.end());
-      const double step = std::min(*last, near_the_end * at_.t() / -at_.dt());
+      double step = to_end;
+      if (const auto count = static_cast<std::size_t>(together_); count <= steps.size()) {
+        const auto last = steps.begin() + (together_ - 1);
+        std::nth_element(steps.begin(), last, steps.end());
+        step = std::min(step, *last);
+      }
+      if (std::exchange(tried_to_end, step == to_end) && step == to_end) continue;
       if (!(step > next.step) || !leap(step, from)) {
         successes_ = 0;
         continue;
@@ -296,7 +304,9 @@ class Path {
       }
       pause_ = least_pause;
       ++end_.leaps;
-      for (std::size_t i = 0; i < from.states.size(); ++i) end_.changes += !(from.states[i] == at_.states()[i]);
+      int changed = 0;
+      for (std::size_t i = 0; i < from.states.size(); ++i) changed += !(from.states[i] == at_.states()[i]);
+      end_.changes += std::max(changed, 1);
       return true;
     }
     together_at_ = end_.changes + pause_;
@@ -318,8 +328,12 @@ class Path {
       const std::vector<PathSystem::Change> changes = impossible_states(beyond);
       const bool nearby = size(at_.z()) <= most_growth * std::max(size(from.z), pressed) &&
                           size(at_.motion()) <= most_growth * std::max(size(from.motion), moved);
-      const bool may_end = k > 0 && nearby && at_.sign() == sign;
+      const bool may_end = (k > 0 || changes.empty()) && nearby && at_.sign() == sign;
       if (changes.empty() && may_end && at_.is_exact()) return true;
+      if (changes.empty() && may_end && k < most_corrections) {
+        if (!at_.correct()) break;
+        continue;
+      }
       const bool leads_on = k == 0 || static_cast<double>(changes.size()) <= fewer * static_cast<double>(before);
       const bool room = at_.replaced_rows() + 2 * static_cast<int>(changes.size()) <= at_.capacity();
       if (changes.empty() || !leads_on || !room) break;
