@@ -9,7 +9,7 @@ namespace scabo {
 enum class WarningKind {
   input,  ///< a part of the input that has no effect, or is named otherwise than expected
   load_without_effect,
-  overlap,       ///< bodies overlap at the start by more than small strains cover
+  overlap,       ///< bodies overlap at the start by more than small strains cover, or without a contact or tie
   pressure,      ///< a pressure beyond small strains
   open_contact,  ///< never closes
   few_pairs,     ///< too few pairs in contact for a reliable pressure

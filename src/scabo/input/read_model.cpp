@@ -10,6 +10,7 @@
 #include "scabo/input/parameters.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/text_file.hpp"
+#include "scabo/model/bodies_in_one_place.hpp"
 
 namespace scabo::input {
 
@@ -224,6 +225,8 @@ Model read_tree(Reading& reading, const NodePtr& tree, const std::string& file) 
   tell_what_has_no_effect(reading, whole);
   tell_of_weight_twice(reading.model);
   reading.report.throw_if_any(file);
+  if (auto warning = model::warning_of_bodies_in_one_place(reading.model))
+    reading.model.warnings.push_back(std::move(*warning));
   return std::move(reading.model);
 }
 

@@ -1,10 +1,14 @@
-// Edges that cross, touch or lie on each other, and outlines that overlap.
+// Edges that cross, touch or lie on each other, and outlines that overlap or share area.
 #include "scabo/geometry/pieces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "scabo/geometry/common_area.hpp"
+#include "scabo/geometry/foot_points.hpp"
 
 namespace scabo::geometry {
 namespace {
@@ -107,6 +111,75 @@ TEST(Overlap, OfTwoOutlines) {
     EXPECT_EQ(found.first_beyond, given.first_beyond) << given.name;
     EXPECT_EQ(found.second_beyond, given.second_beyond) << given.name;
   }
+}
+
+Outline polygon_of(const std::vector<Vec2>& p) {
+  Outline outline;
+  for (std::size_t i = 0; i < p.size(); ++i) outline.edges.push_back(segment(p[i], p[(i + 1) % p.size()]));
+  return outline;
+}
+
+Outline disc_at(const Vec2& centre, double radius, double sweep = 2.0 * half_turn) {
+  Outline outline;
+  outline.edges = {arc_of(centre, radius, 0.0, sweep)};
+  outline.edges.front().end = outline.edges.front().start;
+  return outline;
+}
+
+/// Both ways round.
+bool share(const Outline& a, const Outline& b) {
+  const bool found = common_area(a, b, tolerance).has_value();
+  EXPECT_EQ(common_area(b, a, tolerance).has_value(), found);
+  return found;
+}
+
+TEST(CommonArea, OfBodiesThatOverlapInPart) {
+  EXPECT_TRUE(share(box(0, 0, 2, 1), box(1.5, 0.5, 2, 1)));
+  EXPECT_TRUE(share(box(0, 0, 2, 1), box(1.5, 0, 2, 1)));            // along common lines
+  EXPECT_TRUE(share(box(-10, 0, 20, 0.1), box(0.37, -9, 0.1, 20)));  // thin bars that cross
+  EXPECT_TRUE(share(disc_at({0, 0}, 1), disc_at({1.9, 0}, 1)));
+}
+
+TEST(CommonArea, OfBodiesInTheSamePlaceOrInside) {
+  EXPECT_TRUE(share(box(0, 0, 2, 1), box(0, 0, 2, 1)));
+  EXPECT_TRUE(share(disc_at({0, 0}, 1), disc_at({0, 0}, 1)));
+  EXPECT_TRUE(share(box(0, 0, 2, 1), box(0.5, 0.25, 0.1, 0.1)));
+  EXPECT_TRUE(share(disc_at({0, 0}, 1), box(-0.1, -0.1, 0.2, 0.2)));
+}
+
+TEST(CommonArea, NoneOfBodiesThatTouchOrAreApart) {
+  EXPECT_FALSE(share(box(0, 0, 2, 1), box(2, 0, 2, 1)));
+  EXPECT_FALSE(share(box(0, 0, 2, 1), box(0.5, 1 - 1e-10, 2, 1)));  // rounding
+  EXPECT_FALSE(share(box(0, 0, 2, 1), box(2, 1, 2, 1)));            // in a corner
+  EXPECT_FALSE(share(disc_at({0, 0}, 1), box(-1, 1, 2, 1)));        // in a point
+  EXPECT_FALSE(share(box(0, 0, 2, 1), box(9, 0, 2, 1)));
+  const Outline angle = polygon_of({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}});
+  EXPECT_FALSE(share(angle, box(1.5, 1.5, 1, 1)));  // within its box
+  EXPECT_FALSE(share(angle, box(1, 1, 1, 1)));
+}
+
+TEST(CommonArea, NoneOfAShaftInItsHub) {
+  Outline hub = box(-2, -2, 4, 4);
+  hub.holes = {4};
+  hub.edges.push_back(disc_at({0, 0}, 1, -2.0 * half_turn).edges.front());
+  EXPECT_FALSE(share(hub, disc_at({0, 0}, 1)));
+  EXPECT_FALSE(share(hub, disc_at({0, 0}, 0.5)));
+  EXPECT_TRUE(share(hub, disc_at({0, 0}, 1.1)));
+}
+
+TEST(CommonArea, OfBodiesFromMeshFiles) {
+  Outline chain = polygon_of({{0, 0}, {4, 0}, {4, 1}});
+  chain.edges[2].points = {{3, 2}, {1, 2}};  // from (4, 1) back to (0, 0)
+  EXPECT_TRUE(share(chain, box(1.5, 1.9, 0.5, 1)));
+  EXPECT_FALSE(share(chain, box(1.5, 2, 0.5, 1)));
+}
+
+TEST(CommonArea, IsShownByAPointOfIt) {
+  const Outline a = box(0, 0, 2, 1), b = box(1.5, 0.5, 2, 1);
+  const auto point = common_area(a, b, tolerance);
+  ASSERT_TRUE(point);
+  EXPECT_LE(std::min(distance_to(a, *point), distance_to(b, *point)), tolerance);
+  EXPECT_TRUE(encloses(a, *point) || encloses(b, *point));
 }
 
 }  // namespace
