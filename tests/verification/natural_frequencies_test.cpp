@@ -58,6 +58,17 @@ std::vector<double> errors(const std::vector<double>& frequencies, const std::ve
   return percent;
 }
 
+// The corners of the free end move equally far, in bending with opposite components along the beam.
+TEST(NaturalFrequencies, TheSignOfAModeIsThatOfTheFirstNodeThatMovesFarthest) {
+  for (const analysis::NaturalMode& mode : run(cantilever).modes) {
+    const Vector& shape = mode.shape.front();
+    Eigen::Index node = 0;
+    while (node < shape.size() / 2 && shape.segment<2>(2 * node).norm() < 1.0 - 1e-6) ++node;
+    ASSERT_LT(node, shape.size() / 2);
+    EXPECT_GT(shape.segment<2>(2 * node).maxCoeff(), std::numbers::sqrt2 / 2.0) << mode.frequency;
+  }
+}
+
 // Lame's mode of a free square of side a, u = sin(kx) cos(ky), v = -cos(kx) sin(ky), k = pi / a about its centre: no
 // dilatation, no traction on the sides, omega = sqrt(2) k sqrt(G / rho), in plane stress and plane strain.
 TEST(NaturalFrequencies, LamesModeOfAFreeSquareInFiniteElements) {

@@ -52,10 +52,15 @@ NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, con
     const double participation = phi.dot(mass_of_translation[c]);
     mode.effective_mass[static_cast<Eigen::Index>(c)] = participation * participation;  // phi' M phi = 1
   }
-  Eigen::Index node = 0, component = 0;
-  const double largest = std::sqrt(phi.reshaped(2, phi.size() / 2).colwise().squaredNorm().maxCoeff(&node));
-  phi.segment<2>(place_of(node)).cwiseAbs().maxCoeff(&component);
-  const double scale = (phi[place_of(node, static_cast<int>(component))] < 0.0 ? -1.0 : 1.0) / largest;
+  // Nodes of a symmetric body move equally far but for rounding, which must not choose among them.
+  const Vector distances = phi.reshaped(2, phi.size() / 2).colwise().norm();
+  const double largest = distances.maxCoeff();
+  const auto is_largest = [&](double distance) { return distance >= (1.0 - 1e-6) * largest; };
+  const auto node =
+      static_cast<Eigen::Index>(std::find_if(distances.begin(), distances.end(), is_largest) - distances.begin());
+  const Vec2 motion = phi.segment<2>(place_of(node));
+  const double leading = std::abs(motion.x()) >= (1.0 - 1e-6) * std::abs(motion.y()) ? motion.x() : motion.y();
+  const double scale = (leading < 0.0 ? -1.0 : 1.0) / largest;
   for (const int body : mode.bodies) mode.shape.push_back(dofs.of_body(body, scale * phi));
   mode.modal_mass = scale * scale;
   return mode;
