@@ -24,7 +24,7 @@ def main():
         joint, energy = last["contacts"]["joint"], last["energy"]
         free = energy["external"] - energy["elastic"] - energy["friction"]
         print(f"{name}: {joint['open']} pairs open, {joint['slip']} slip, {joint.get('broken', '-')} broken, widest "
-              f"{1e3 * joint['max_gap']:.4f} mm; {free:.1f} J/m set free")
+              f"{1e3 * joint['max_gap']:.4f} mm; {round(free, 1) + 0.0:.1f} J/m set free")
     path = options.output / "joint.png"
     picture(options, glued, plain).savefig(path)
     print(path)

@@ -18,7 +18,7 @@ def main():
     print(f"{model['super_elements']} super-elements, {model['dofs']} degrees of freedom, {model['contact_pairs']} contact pairs")
     for number, (name, _, _) in STATES.items():
         joint = summary["increments"][number - 1]["contacts"]["joint"]
-        print(f"{name}: normal force {joint['normal_force'] / 1e3:.2f} kN/m, tangential {joint['tangential_force'] / 1e3:.2f} kN/m; "
+        print(f"{name}: normal force {joint['normal_force'] / 1e3:.2f} kN/m, tangential {round(joint['tangential_force'] / 1e3, 2) + 0.0:.2f} kN/m; "
               f"{joint['open']} pairs open, {joint['stick']} stick, {joint['slip']} slip; widest {1e3 * joint['max_gap']:.3f} mm")
     path = options.output / "gravity_dam.png"
     picture(options, summary).savefig(path)

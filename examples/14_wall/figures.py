@@ -24,7 +24,7 @@ def main():
         contacts = increment["contacts"].values()
         counts = [sum(contact[state] for contact in contacts) for state in ("open", "stick", "slip")]
         x, y = increment["reactions"]["ground"]
-        print(f"push {increment['factors']['push']:.1f}: reaction {x / 1e3:.6f}, {y / 1e3:.6f} kN; open, stick, slip {counts}; widest joint "
+        print(f"push {increment['factors']['push']:.1f}: reaction {round(x / 1e3, 6) + 0.0:.6f}, {y / 1e3:.6f} kN; open, stick, slip {counts}; widest joint "
               f"{1e3 * max(contact['max_gap'] for contact in contacts):.4f} mm; certificate {max(increment['certificate'].values()):.1e}; "
               f"{increment['newton_iterations']} iterations")
     path = options.output / "wall.png"

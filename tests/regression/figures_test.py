@@ -15,8 +15,9 @@ class Figures(support.InTemporaryDirectory):
             with self.subTest(example=folder):
                 directory = self.directory / folder
                 directory.mkdir()
-                support.draw(folder, directory)
+                printed = support.draw(folder, directory)
                 support.check_pictures(self, folder, directory)
+                support.check_stated_numbers(self, folder, printed)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import io
 import json
 import os
 import pathlib
+import re
 import runpy
 import subprocess
 import sys
@@ -69,15 +70,18 @@ class OfDrawnExample(OfExample):
         holder = tempfile.TemporaryDirectory(prefix="scabo_test_")
         cls.addClassCleanup(holder.cleanup)
         cls.drawn_in = pathlib.Path(holder.name)
-        draw(cls.FOLDER, cls.drawn_in)
+        cls.printed = draw(cls.FOLDER, cls.drawn_in)
 
     def test_figures_are_drawn(self):
         check_pictures(self, self.FOLDER, self.drawn_in)
 
+    def test_the_readme_states_the_numbers(self):
+        check_stated_numbers(self, self.FOLDER, self.printed)
+
 
 def draw(folder, directory):
     """Runs the figures.py of an example in this process, as importing Matplotlib takes longer than most pictures. Results and
-    pictures go to `directory`."""
+    pictures go to `directory`. What it has printed."""
     example = ROOT / "examples" / folder
     before, arguments, path = pathlib.Path.cwd(), sys.argv, list(sys.path)
     sys.argv = ["figures.py", "--scabo", SCABO, "-o", str(directory)]
@@ -86,12 +90,41 @@ def draw(folder, directory):
         sys.modules.pop(own, None)
     os.chdir(directory)
     try:
-        with contextlib.redirect_stdout(io.StringIO()):
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
             runpy.run_path(str(example / "figures.py"), run_name="__main__")
+        return printed.getvalue()
     finally:
         os.chdir(before)
         sys.argv, sys.path[:] = arguments, path
         sys.modules["matplotlib.pyplot"].close("all")
+
+
+# The numbers of a run in a README, and the same ones as figures.py prints them.
+STATED = {
+    "09_plate_with_hole": (r"\| (?:polygons|quadtree) \| ([\d,]+) \| ([\d,]+) \| ([\d.]+) \|",
+                           r"(?:polygons|quadtree) +(\d+) +(\d+) +([\d.]+) "),
+    "10_culvert": (r"(\d+), (\d+), (\d+) (?=\|)", r"(\d+) pairs open, (\d+) stick, (\d+) slip"),
+    "12_hertz": (r"\| ([\d,]+) \| (\d+) \| (\d+) \| (-?[\d.]+) % \|",
+                 r"(\d+) dofs, +(\d+) meshes, +(\d+) pairs in contact: largest pressure ([+-][\d.]+) %"),
+    "14_wall": (r"\| (-?[\d.]+) \| ([\d.]+) \| (\d+), (\d+), (\d+) \| ([\d.]+) \|",
+                r"reaction (-?[\d.]+), ([\d.]+) kN; open, stick, slip \[(\d+), (\d+), (\d+)\]; widest joint ([\d.]+) mm"),
+}
+
+
+def check_stated_numbers(test, folder, printed):
+    """Those of the README agree with those of the run to half a unit of their last digit; on other processors, which round
+    otherwise, counts may differ by one or a hundredth."""
+    if folder not in STATED:
+        return
+    readme = (ROOT / "examples" / folder / "README.md").read_text(encoding="utf-8")
+    stated, found = (re.findall(pattern, text) for pattern, text in zip(STATED[folder], (readme, printed)))
+    test.assertTrue(found, printed)
+    test.assertEqual(len(stated), len(found), f"{stated} beside {found}")
+    for in_readme, of_run in zip(stated, found):
+        for text, number in zip(in_readme, of_run, strict=True):
+            value, decimals = float(text.replace(",", "")), len(text.partition(".")[2])
+            slack = 0.51 * 10**-decimals if decimals or text.startswith("-") else max(1, 0.01 * value)
+            test.assertAlmostEqual(value, float(number), delta=slack, msg=f"{in_readme} beside {of_run}")
 
 
 def check_pictures(test, folder, directory):
