@@ -18,10 +18,27 @@ namespace scabo::files {
 
 namespace {
 
+/// The bytes after the mark of UTF-8. Throws InputError for text that no format of meshes consists of.
+std::string_view readable(std::string_view bytes, const std::string& path) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("\xFF\xFE"sv) || bytes.starts_with("\xFE\xFF"sv))
+    fail_in_file(path, 0, 0, "the file is text in UTF-16; save it as UTF-8");
+  if (bytes.starts_with("\xEF\xBB\xBF"sv)) bytes.remove_prefix(3);
+  const auto ends_text = [](char c) { return c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r'; };
+  const std::string_view head = bytes.substr(0, 4096);
+  const std::string_view text(
+      head.data(), static_cast<std::size_t>(std::find_if(head.begin(), head.end(), ends_text) - head.begin()));
+  const std::size_t end = text.find('\r');
+  if (end != std::string_view::npos && end + 1 < text.size() && text.find('\n') == std::string_view::npos)
+    fail_in_file(path, 0, 0, "its lines end with a carriage return alone; save it with line feeds");
+  return bytes;
+}
+
 std::optional<IncludedFile> read_beside(const std::string& name, const std::string& from) {
   const std::filesystem::path path = std::filesystem::path(from).parent_path() / name;
   std::optional<std::string> text = bytes_of_file(path);
   if (!text) return std::nullopt;
+  text->erase(0, text->size() - readable(*text, path.string()).size());
   return IncludedFile{path.string(), std::move(*text)};
 }
 
@@ -39,9 +56,8 @@ std::string other_format(std::string_view start) {
 }  // namespace
 
 ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
-  std::string_view start = bytes;
-  if (start.substr(0, 3) == "\xEF\xBB\xBF") start.remove_prefix(3);
-  const std::string_view text = start;
+  const std::string_view text = readable(bytes, path);
+  std::string_view start = text;
   while (!start.empty() && static_cast<unsigned char>(start.front()) <= ' ') start.remove_prefix(1);
   if (start.empty()) fail_in_file(path, 0, 0, "the file is empty; save the mesh again");
   const std::string_view head = start.substr(0, 4096);
@@ -63,9 +79,7 @@ ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
 AbaqusDeck read_deck_file(const std::string& path) {
   const std::optional<std::string> bytes = bytes_of_file(path);
   if (!bytes) fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
-  std::string_view text = *bytes;
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-  return parse_abaqus_deck(text, path, read_beside);
+  return parse_abaqus_deck(readable(*bytes, path), path, read_beside);
 }
 
 ImportedMesh read_mesh_file(const std::string& path) {

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sample_files.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/files/read_mesh_file.hpp"
@@ -255,6 +257,16 @@ TEST(BrokenMeshFiles, Gmsh) { check(gmsh_files()); }
 TEST(BrokenMeshFiles, Quadratic) { check(quadratic_files()); }
 TEST(BrokenMeshFiles, Abaqus) { check(abaqus_files()); }
 TEST(BrokenMeshFiles, Vtu) { check(vtu_files()); }
+
+TEST(BrokenMeshFiles, TextOfOtherSystems) {
+  std::string little = "\xFF\xFE", big = "\xFE\xFF", old_mac = sample::inp_by_hand;
+  for (const char* c = sample::inp_by_hand; *c != '\0'; ++c)
+    little += std::string{*c, '\0'}, big += std::string{'\0', *c};
+  std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
+  check({{"a.inp", little, "a.inp: the file is text in UTF-16; save it as UTF-8"},
+         {"a.inp", big, "a.inp: the file is text in UTF-16; save it as UTF-8"},
+         {"a.inp", old_mac, "a.inp: its lines end with a carriage return alone; save it with line feeds"}});
+}
 
 TEST(BrokenMeshFiles, AFileThatIsMissing) {
   EXPECT_THROW(scabo::files::read_mesh_file("no_such_file.msh"), scabo::InputError);

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "sample_files.hpp"
@@ -161,6 +163,16 @@ TEST(MeshFiles, WindowsLineEndsAndByteOrderMark) {
     for (const char* c = sample_file; *c != '\0'; ++c) windows += *c == '\n' ? std::string("\r\n") : std::string(1, *c);
     EXPECT_EQ(text_of(parse_mesh(windows, "a.inp")), text_of(parse_mesh(sample_file, "a.inp")));
   }
+}
+
+TEST(MeshFiles, ByteOrderMarkOfAnIncludedFile) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "byte_order_mark";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "all.inp") << "*INCLUDE, INPUT=part.inp\n";
+  const std::string text = sample::inp_by_hand;
+  std::ofstream(folder / "part.inp") << "\xEF\xBB\xBF" << text.substr(text.find("*Node"));
+  EXPECT_EQ(text_of(read_mesh_file((folder / "all.inp").string())), text_of(parse_mesh(sample::inp_by_hand, "a.inp")));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Gmsh, NamesOfPhysicalGroupsAndEntities) {
