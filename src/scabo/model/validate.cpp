@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "scabo/geometry/box.hpp"
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/model/checking.hpp"
 
 namespace scabo::model {
@@ -144,8 +145,12 @@ void check_solver(Checking& checking) {
 
 namespace {
 
-/// Edges that coincide everywhere have neither gap nor interference.
+/// Edges that coincide everywhere, or lie on one straight line, have neither gap nor interference.
 bool coincide(const Edge& a, const Edge& b, double tolerance) {
+  const auto is_on = [&](const Vec2& point) {
+    return (point - geometry::foot_on(a, point)->point).norm() <= tolerance;
+  };
+  if (runs_straight(a) && runs_straight(b) && is_on(b.start) && is_on(b.end)) return true;
   return (a.start - b.end).norm() <= tolerance && (a.end - b.start).norm() <= tolerance &&
          (a.at(0.5) - b.at(0.5)).norm() <= tolerance;
 }
