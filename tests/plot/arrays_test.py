@@ -9,7 +9,7 @@ import made_up
 import numpy as np
 import plot
 from matplotlib.collections import PathCollection, PolyCollection
-from plot import contacts, curves, fields, geometry, style, vtu
+from plot import contacts, curves, fields, geometry, meshes, style, vtu
 
 
 class WithResults(unittest.TestCase):
@@ -357,6 +357,10 @@ class Curves(WithResults):
         np.testing.assert_allclose([curve.y for curve in curves.energies(self.results).curves], [[2, 4], [1.5, 3], [0.5, 1]])
         np.testing.assert_allclose([curve.y for curve in curves.states(self.results).curves], [[6, 6]] * 3)
 
+    def test_materials_have_the_names_of_the_model_file(self):
+        self.results.summary["model"]["materials"] = [{"name": "rock"}, {"name": "concrete"}]
+        self.assertEqual([meshes.name_of_material(self.results, number) for number in (1, 2, 3)], ["rock", "concrete", "material 3"])
+
     def test_hysteresis_is_tangential_force_against_mean_slip(self):
         bend, seat = curves.hysteresis(self.results).curves
         np.testing.assert_allclose(bend.x, [0.008, 0.016])
@@ -373,6 +377,9 @@ class Curves(WithResults):
         table["slip"][:] = 1e-17
         self.assertIsNone(curves.hysteresis(self.results))
         self.assertEqual(len([axis for axis in plot.history(self.results).axes if axis.get_visible()]), 4)
+        for entry in entries[:2]:  # without contacts: beside what the elastic energy needs, 6 over a displacement below 1
+            entry.update(contacts={}, reactions={"ground": [1e-12, 0.0]})
+        self.assertEqual(curves.reactions(self.results).curves, [])
 
     def test_load_against_the_largest_displacement(self):
         panel = curves.load_displacement(self.results)

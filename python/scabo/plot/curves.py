@@ -212,6 +212,21 @@ def reaction_of(results, name, factor):
     return Curve(f"{short_name(name)}, {'xy'[k]}", factor, force[:, k])
 
 
+def least_load(results):
+    """A force that the loads of the model together exceed: its elastic energy is at most half of their sum times the largest displacement.
+    0 where no fields tell."""
+    try:
+        numbers = [number for number in results.field_numbers() if number <= results.count]
+        displacement = results.fields(numbers[-1]).point_data.get("displacement") if numbers else None
+    except ResultsError:  # a file that is damaged or missing; pictures that need it say so
+        displacement = None
+    if displacement is None:
+        return 0.0
+    largest = np.hypot(*displacement[:, :2].T).max()
+    elastic = results.increments[numbers[-1] - 1]["energy"]["elastic"] or 0.0
+    return 2.0 * elastic / largest if largest > 0.0 else 0.0
+
+
 def reactions(results):
     """Components of the reactions; of many supports the largest ones."""
     sizes = {}
@@ -220,7 +235,7 @@ def reactions(results):
             for k in range(2):
                 sizes[name, k] = max(sizes.get((name, k), 0.0), abs(force[k] or 0.0))
     pressed = [abs(contact["normal_force"] or 0.0) for entry in results.increments for contact in entry["contacts"].values()]
-    largest = max([*sizes.values(), *pressed], default=0.0)
+    largest = max([*sizes.values(), *pressed, least_load(results)], default=0.0)
     kept = [key for key in sizes if sizes[key] > 1e-9 * largest]  # others are rounding beside the forces of the model
     kept = [key for key in kept if key in sorted(kept, key=sizes.get, reverse=True)[:4]]
     curves = [Curve(f"{short_name(name)}, {'xy'[k]}", results.times(),

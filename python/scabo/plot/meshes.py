@@ -4,6 +4,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Patch
 
 from . import fields, geometry, style, vtu
+from .curves import short_name
 from .results import NothingToDraw
 from .units import Units
 
@@ -25,7 +26,9 @@ def mesh(results, units=None, window=None):
     finite = grid.cell_data["finite_element"][is_cell]
     counts = [counted(number, noun) for number, noun in ((int((finite == 0).sum()), "super-element"), (int(finite.sum()), "finite element"))
               if number]
-    legend = [(Patch(facecolor=tints[kind], edgecolor="0.3", linewidth=0.6), f"material {kind}") for kind in kinds] if len(kinds) > 1 else []
+    legend = [(Patch(facecolor=tints[kind], edgecolor="0.3", linewidth=0.6), name_of_material(results, kind)) for kind in kinds]
+    if len(kinds) == 1:
+        legend = []
     low, high = (grid.points.min(axis=0), grid.points.max(axis=0)) if window is None else (window[::2], window[1::2])
     width, height = style.map_size(low, high)
     model = results.summary["model"]
@@ -43,6 +46,12 @@ def mesh(results, units=None, window=None):
         axis.plot(*points[np.unique(grid.connectivity)].T, ".", color="black", markersize=2.5, markeredgewidth=0)
     finish_mesh(axis, results, place, window, height)
     return figure
+
+
+def name_of_material(results, number):
+    """As in the model file; cells.vtu has its number, from 1."""
+    materials = results.summary["model"].get("materials", [])
+    return short_name(materials[int(number) - 1]["name"]) if 1 <= number <= len(materials) else f"material {int(number)}"
 
 
 def mesh_of_fields(results, units, window):
