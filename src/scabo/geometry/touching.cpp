@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <vector>
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
@@ -12,13 +13,35 @@ namespace {
 
 constexpr double rounding = 1e-6;        // of the length of an edge
 constexpr double facing_cosine = -0.95;  // of the two outward normals
-/// Points at which an edge is looked at; a shared part shorter than their distance is seen from the shorter edge.
-constexpr int samples = 16;
+constexpr double least_share = 1e-3;     // of the shorter edge; less is the rounding of coordinates
+constexpr int samples = 16;              // along an edge, for curves that come close to each other somewhere
+
+/// Positions along `a` at which it may lie opposite `b`: the part between the feet of the ends of `b`, in its middle
+/// and near its ends; points along all of `a`; and, where edges apart may be in contact, the point of an arc that is
+/// nearest.
+std::vector<double> positions_to_look_at(const Edge& a, const Edge& b, double reach) {
+  std::vector<double> positions;
+  for (int k = 0; k < samples; ++k) positions.push_back((k + 0.5) / samples);
+  const auto start = foot_on(a, b.start), end = foot_on(a, b.end);
+  if (start && end) {
+    const auto [low, high] = std::minmax({std::clamp(start->t, 0.0, 1.0), std::clamp(end->t, 0.0, 1.0)});
+    if ((high - low) * a.length() > least_share * std::min(a.length(), b.length()))
+      for (const double s : {1e-3, 0.5, 1.0 - 1e-3}) positions.push_back(low + s * (high - low));
+  }
+  if (!a.arc || reach <= rounding * a.length()) return positions;
+  if (const auto nearest = foot_on(b, a.arc->centre)) {
+    const Vec2 ray = nearest->point - a.arc->centre;
+    for (const double side : {1.0, -1.0})
+      if (const auto own = foot_on(a, a.arc->centre + side * ray)) positions.push_back(own->t);
+  }
+  return positions;
+}
 
 /// Whether some point of `a` lies opposite a point of `b`, not at its ends.
 bool lies_on(const Edge& a, const Edge& b, double reach) {
-  for (int k = 0; k < samples; ++k) {
-    const Vec2 point = a.at((k + 0.5) / samples);
+  for (const double t : positions_to_look_at(a, b, reach)) {
+    if (t < 0.0 || t > 1.0) continue;
+    const Vec2 point = a.at(t);
     const auto foot = foot_on(b, point), own = foot_on(a, point);
     if (!foot || !own || foot->t <= rounding || foot->t >= 1.0 - rounding) continue;
     if ((foot->point - point).norm() <= reach && own->normal.dot(foot->normal) < facing_cosine) return true;

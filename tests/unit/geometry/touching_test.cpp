@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace scabo::geometry {
@@ -59,6 +60,29 @@ TEST(TouchingEdges, WithinReach) {
   EXPECT_TRUE(touching(apart).empty());
   EXPECT_EQ(touching(apart, 0.02).size(), 1u);
   EXPECT_TRUE(touching({rectangle({0, 0}, {1, 1}), rectangle({1.01, 1.01}, {1, 1})}, 0.02).empty());
+}
+
+TEST(TouchingEdges, AShortPartIsSeenAndRoundingIsNot) {
+  for (const double part : {0.5, 0.1, 0.03, 0.01, 2e-3})
+    for (const double turned : {0.0, 1.0}) {
+      const double x = turned == 0.0 ? 1.0 - part : part - 1.0;
+      EXPECT_EQ(touching({rectangle({0, 0}, {1, 1}), rectangle({x, 1}, {1, 1})}).size(), 1u) << part << ' ' << turned;
+    }
+  EXPECT_TRUE(touching({rectangle({0, 0}, {1, 1}), rectangle({0.9995, 1}, {1, 1})}).empty());
+}
+
+TEST(TouchingEdges, RoundEdgesWithinReach) {
+  for (const double turn : {0.0, 0.1, 0.2, 0.3, 1.0, 2.0}) {
+    const Vec2 direction(std::cos(turn), std::sin(turn));
+    Outline other = circle(1.0, false);
+    other.edges[0].start += 2.005 * direction, other.edges[0].end += 2.005 * direction;
+    other.edges[0].arc->centre += 2.005 * direction;
+    EXPECT_EQ(touching({circle(1.0, false), other}, 0.01).size(), 1u) << turn;
+    EXPECT_TRUE(touching({circle(1.0, false), other}, 0.004).empty()) << turn;
+    EXPECT_TRUE(touching({circle(1.0, false), other}).empty()) << turn;
+  }
+  for (const double x : {-0.7, 0.0, 0.013, 0.4})
+    EXPECT_EQ(touching({circle(1.0, false), rectangle({x - 1.0, -2.001}, {2, 1})}, 0.002).size(), 1u) << x;
 }
 
 TEST(TouchingEdges, ADiscInAHole) {
