@@ -31,7 +31,7 @@ def picture(options, summary, history):
     drawn = pictures.draw(left, mesh, pictures.values_of(mesh, "stress_xx", 1e-3), pictures.signed_levels(16, bands=4),
                           factor=1e3, unit="mm")
     pictures.colour_bar(figure, drawn, left, "stress along the track (kPa)", location="bottom", shrink=0.9)
-    left.axhline(0, color=pictures.GREY, lw=3, zorder=0)
+    left.axhspan(-6, 0, facecolor="0.85", hatch="///", edgecolor="0.6", lw=0, zorder=0)  # the track, rigid
     left.annotate("", (80.5, 10), (96, 10), arrowprops={"arrowstyle": "-|>", "color": "black"})
     left.text(97, 10, "13 N", va="center", fontsize=8)
     left.set(xlim=(-5, 110), ylim=(-6, 28), title="pushed back, just before it slides")
