@@ -54,9 +54,11 @@ std::string clean_text(std::string_view text) {
   std::string clean;
   clean.reserve(text.size());
   Position at;
+  bool indents = true;  // nothing but spaces in this line so far
   while (!text.empty()) {
     std::size_t plain = 0;  // characters of one byte that are kept: nearly all
     while (plain < text.size() && text[plain] >= 0x20 && text[plain] < 0x7f) ++plain;
+    indents = indents && text.substr(0, plain).find_first_not_of(' ') == std::string_view::npos;
     clean.append(text.substr(0, plain));
     text.remove_prefix(plain);
     at.column += static_cast<int>(plain);
@@ -68,7 +70,11 @@ std::string clean_text(std::string_view text) {
       throw Diagnostic{{at.line, at.column, ""},
                        fmt::format("byte 0x{:02x} is not text: a model file must be YAML in UTF-8", byte)};
     }
-    if (byte == '\n' || byte == '\r') {
+    if (indents && text.starts_with("\xc2\xa0"))
+      throw Diagnostic{{at.line, at.column, ""},
+                       "a no-break space indents this line, as in text from a web page: use spaces"};
+    indents = byte == '\n' || byte == '\r';
+    if (indents) {
       const bool pair = byte == '\r' && text.size() > 1 && text[1] == '\n';
       text.remove_prefix(pair ? 2 : 1);
       clean += '\n';
