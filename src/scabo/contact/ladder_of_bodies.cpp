@@ -145,7 +145,7 @@ NewtonEnd Ladder::arrived(PathEnd end) {
 /// these take up to 45, but also thousands of changes of state: 10 s in a wall of 24 x 24 blocks, and up to 80 s in one
 /// of 40 x 40, where interior points take 10 to 28 s.
 bool Ladder::may_cross_over() const {
-  constexpr int most_pairs = 8000;
+  constexpr int most_pairs = 16000;
   return problem_.pairs() <= most_pairs && has_many_motions(problem_) && may_follow_path(problem_);
 }
 
@@ -196,7 +196,7 @@ PathEnd Ladder::along_path(const PathStart& start, bool held) {
   }
   if (held) {
     options.hold = 1e-6;
-    options.changes = 1500;
+    options.changes = problem_.pairs() > 8000 ? 2000 : 1500;
     options.together = most_together;
   }
   options.on_factorisation = [&](const Vector& p, const Vector& a) {

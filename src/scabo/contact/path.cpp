@@ -25,71 +25,113 @@ class Path {
 
  public:
   Path(const Problem& problem, const PathStart& start, const PathOptions& options)
-      : options_(options), at_(problem, start, options), together_(std::min(first_together, options.together)) {}
+      : options_(options), at_(problem, start, options), held_(options.hold > 0.0 ? 1.0 : 0.0), together_(std::min(first_together, options.together)) {}
 
   PathEnd run() {
+    if (!factorise()) return finish(PathEnd::How::broken);
+    PathEnd::How how = follow();
+    while (how != PathEnd::How::arrived && may_loosen_less()) {
+      loosen_less();
+      how = factorise() ? follow() : PathEnd::How::broken;
+    }
+    return finish(how);
+  }
+
+ private:
+  /// Until the last round arrives or a path ends before.
+  PathEnd::How follow() {
     const int most = options_.most > 0 ? options_.most : static_cast<int>(4 * at_.pairs()) + 100;
     const int patience = options_.patience > 0 ? options_.patience : most / 8;
-    double error_before = HUGE_VAL;
-    if (!factorise()) return finish(PathEnd::How::broken);
     while (true) {
       if (passed_) {
-        if (!renew()) return finish(PathEnd::How::broken);
+        if (!renew()) return PathEnd::How::broken;
         interruption_point();
         options_.deadline.spend(solves_of_a_change * at_.operations_of_solve());
         change(*passed_);
       }
-      if (!find_direction()) return finish(PathEnd::How::broken);
+      if (!find_direction()) return PathEnd::How::broken;
       const Next next = nearest_limit();
       endless_ = std::abs(at_.dt()) < 1e-9;
       if (may_change_together() && change_together(next)) {
         passed_.reset();
         note_least();
-        if (!renew()) return finish(PathEnd::How::broken);
-        if (end_.changes >= most || options_.deadline.passed()) return finish(PathEnd::How::broken);
+        if (!renew()) return PathEnd::How::broken;
+        if (end_.changes >= most || options_.deadline.passed()) return PathEnd::How::broken;
+        if (stands_still()) return PathEnd::How::turned_back;
         continue;
       }
       const double to_end = at_.dt() < 0.0 && !endless_ ? at_.t() / -at_.dt() : HUGE_VAL;
       if (to_end <= next.step && to_end < HUGE_VAL) {
         at_.advance(to_end);
         if (round_ > 0 && options_.hold == 0.0 && has_gone_astray())
-          return finish(PathEnd::How::broken);  // the point before counts
-        arrived_ = at_.z();
-        const double error = at_.take_softness_back(round_ == 0 ? loosened : 1.0);
-        const bool rests = error <= rounding && error > gain * error_before;  // of forces that are not unique
-        if (error <= settled || rests || ++round_ > options_.rounds) {
-          polish();
-          return finish(PathEnd::How::arrived);
-        }
-        error_before = error;
-        least_ = begun_at_ = 1.0;
-        least_at_ = end_.changes;
-        passed_.reset();
-        const bool loosens = round_ == 1 && options_.hold > 0.0;  // another matrix
-        if (!(loosens ? factorise() : at_.place())) return finish(PathEnd::How::broken);
+          return PathEnd::How::broken;  // the point before counts
+        if (ends_round()) return PathEnd::How::arrived;
+        if (!(loosened_by_ < 1.0 ? factorise() : at_.place())) return PathEnd::How::broken;
         continue;
       }
       const bool falls = !(next.step < (endless_ ? most_of_motion : HUGE_VAL));
       if (falls || (begun_at_ * at_.t() <= end_.left && round_ == 0))
         end_.motion = at_.dz().tail(at_.dz().size() - 2 * at_.pairs()).normalized();
-      if (falls) return finish(PathEnd::How::endless);
+      if (falls) return PathEnd::How::endless;
       at_.advance(next.step);
       ++end_.changes;
       note_least();
-      if (options_.deadline.passed()) return finish(PathEnd::How::broken);
+      if (options_.deadline.passed()) return PathEnd::How::broken;
       const bool back = end_.changes - least_at_ >= patience;
       if (end_.changes >= most || begun_at_ * at_.t() > far || (options_.patience > 0 && back))
-        return finish(back ? PathEnd::How::turned_back : PathEnd::How::broken);
+        return back ? PathEnd::How::turned_back : PathEnd::How::broken;
+      if (stands_still()) return PathEnd::How::turned_back;
       passed_ = next;
     }
   }
 
- private:
+  /// At t = 0: whether that was the last round; else the next one begins, with the softness taken back and the bodies
+  /// held less.
+  bool ends_round() {
+    arrived_ = at_.z();
+    arrived_at_ = at_.point();
+    loosened_by_ = held_ > 2.0 * least_hold ? least_hold / held_ : 1.0;
+    held_ *= loosened_by_;
+    const double error = at_.take_softness_back(loosened_by_);
+    const bool rests = error <= rounding && error > gain * error_before_;  // of forces that are not unique
+    ++round_;
+    if (error <= settled || rests || (loosened_by_ == 1.0 && ++rounds_ > options_.rounds)) {
+      polish();
+      return true;
+    }
+    error_before_ = error;
+    begins_round();
+    return false;
+  }
+
+  void begins_round() {
+    least_ = begun_at_ = 1.0;
+    still_from_ = 1.0;
+    least_at_ = still_at_ = end_.changes;
+    passed_.reset();
+    endless_ = false;
+  }
+
+  /// Whether the path that lets the bodies go has ended before t = 0, and may once more do so by less at a time.
+  bool may_loosen_less() const {
+    return arrived_.size() > 0 && loosened_by_ < little && !options_.deadline.passed();
+  }
+
+  void loosen_less() {
+    held_ *= little / loosened_by_;
+    at_.begin_at(arrived_at_, little / loosened_by_);
+    loosened_by_ = little;
+    begins_round();
+  }
+
   static constexpr double far = 2.0;                    // t: the path runs away from the problem
   static constexpr double settled = 1e-14;              // of the largest force: what rounding leaves of the softness
   static constexpr double rounding = 1e-9, gain = 0.1;  // up to which what is left of it may no longer fall
-  static constexpr double loosened = 1e-4;              // of the hold, once t was 0
+  // Of the hold: what is left of it in the end, and of the one before where it cannot be taken back at once.
+  static constexpr double least_hold = 1e-4, little = 0.1;
   static constexpr double solves_of_a_change = 3.0;     // about
+  // A path of bodies that are held stands still where so many changes, and for each pair, do not take this part of t.
+  static constexpr double still_changes = 1000.0, still_changes_of_pairs = 0.25, part_of_t = 0.05;
   static constexpr int least_replaced = 200;     // rows, before a matrix that gives inexact directions is given up
   static constexpr int between_places = 250;     // changes of state, from piece to piece by sums
   static constexpr double most_of_motion = 1e6;  // of all forces and motions so far
@@ -145,6 +187,14 @@ class Path {
     const Index forces = 2 * at_.pairs(), motions = at_.z().size() - forces;
     return changed(at_.z().head(forces), arrived_.head(forces)) ||
            changed(at_.z().tail(motions), arrived_.tail(motions));
+  }
+
+  /// Paths that arrive lead away from their start soon; others pass thousands of limits beside it.
+  bool stands_still() {
+    if (options_.hold == 0.0) return false;
+    const double t = begun_at_ * least_;
+    if (t <= (1.0 - part_of_t) * still_from_) still_from_ = t, still_at_ = end_.changes;
+    return end_.changes - still_at_ > still_changes + still_changes_of_pairs * static_cast<double>(at_.pairs());
   }
 
   bool factorise() {
@@ -382,11 +432,15 @@ class Path {
   PathSystem at_;
   PathEnd end_;
   Vector arrived_;              // z where t was 0, the softness not yet or only in part taken back; empty before
+  PathSystem::Point arrived_at_;
   std::optional<Next> passed_;  // the limit that the path has just come from
   bool endless_ = false;        // t stands still while the bodies move
   double begun_at_ = 1.0;       // what t = 1 of the path at hand was of the first one
   double least_ = 1.0;          // t, of the round
-  int round_ = 0, least_at_ = 0, side_before_ = 0, place_at_ = between_places;
+  double still_from_ = 1.0;     // of begun_at_ * least_, at still_at_
+  double held_ = 0.0;           // what holds the bodies, over that of the first round
+  double loosened_by_ = 1.0, error_before_ = HUGE_VAL;
+  int round_ = 0, rounds_ = 0, least_at_ = 0, still_at_ = 0, side_before_ = 0, place_at_ = between_places;
   int together_, together_at_ = 0, pause_ = least_pause, successes_ = 0;
 };
 

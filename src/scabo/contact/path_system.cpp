@@ -98,10 +98,21 @@ void PathSystem::begin_again(double margin, double pressure) {
       u_t = now.side * (std::max(now.side * u_t, 0.0) + length * part);
     }
   }
+  find_what_is_missing();
+  if (!base_.empty()) find_slope();
+}
+
+void PathSystem::find_what_is_missing() {
   t_ = 1.0;
   dq_ = motion_ - (q_ + W_ * z_.head(2 * N_) + G_ * z_.tail(m_));
   df_ = hold_.cwiseProduct(z_.tail(m_)) - f_ - G_.transpose() * z_.head(2 * N_);
-  if (!base_.empty()) find_slope();
+}
+
+void PathSystem::begin_at(const Point& point, double hold) {
+  go_to(point);
+  hold_ *= hold;
+  f_ = problem_.f + hold_.cwiseProduct(centre_a_);
+  find_what_is_missing();
 }
 
 double PathSystem::take_softness_back(double loosened) {

@@ -95,6 +95,9 @@ class PathSystem {
   };
   Point point() const { return {states_, z_, motion_, t_}; }
   void go_to(const Point& point);
+  /// This point, of a problem without softness that the point at hand has come from, with what holds the bodies times
+  /// `hold`; t is 1 again, what is missing are dq and df.
+  void begin_at(const Point& point, double hold);
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
@@ -107,6 +110,7 @@ class PathSystem {
   double right_of(const std::vector<PathState>& states, Eigen::Index row) const;
   Vector left_of(const Vector& z, const Vector& motion, const Vector& balance) const;
   Vector left_of_point() const;
+  void find_what_is_missing();
   void find_slope();
   void find_motion();
   void find_d_motion();
