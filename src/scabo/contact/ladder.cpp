@@ -61,9 +61,15 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
 
 NewtonEnd Ladder::climb(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                         const std::function<bool()>& hopeless) {
+  touching_ = &touching;
   return options_.judge == Judge::natural_map && problem_.G.cols() == 0 && may_sweep()
              ? climb_rank_deficient(p, hopeless)
              : climb_elastic(p, a, touching, hopeless);
+}
+
+const std::optional<BondedStart>& Ladder::held_together() {
+  if (!held_together_) held_together_ = may_bond(problem_) ? bonded_start(problem_, *touching_) : std::nullopt;
+  return *held_together_;
 }
 
 NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vector<bool>& touching,
@@ -99,23 +105,23 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
     if (better(held ? newton_or_kept_states(p, a, how) : newton_of_many(p, a, how))) return best;
   }
   if (!cold && paths && better(along_loads(p, a))) return best;
-  const std::optional<BondedStart> held_together = many ? bonded_start(problem_, touching) : std::nullopt;
-  if (held_together && better(bonded(*held_together))) return best;
+  if (held_together() && better(bonded(*held_together()))) return best;
   if (hopeless && hopeless()) return best;
   // Newton's method may end beside the solution, of whose states some are wrong: |H| of 1e-6 of the largest force.
   constexpr double beside = 1e-3, start_beside = 1e-6;
-  if (cold && inner && !paths_first && best.residual <= beside * best.p.lpNorm<Eigen::Infinity>() &&
-      better(inside_near(best.p, best.a, start_beside)))
-    return best;
-  if (inner && !paths_first && held_together)
+  if (cold && inner && !paths_first && best.residual <= beside * best.p.lpNorm<Eigen::Infinity>()) {
+    if (may_cross_over() && better(crossed_over({{best.p, best.a}}))) return best;
+    if (better(inside_near(best.p, best.a, start_beside))) return best;
+  }
+  if (inner && !paths_first && held_together())
     for (const double start : {1.0, 0.05})
-      if (better(inside_near(held_together->p, held_together->a, start))) return best;
-  if (paths && held_together) {
-    if (better(along_paths(*held_together, touching))) return best;
+      if (better(inside_near(held_together()->p, held_together()->a, start))) return best;
+  if (paths && held_together()) {
+    if (better(along_paths(*held_together(), touching))) return best;
     // Where Newton's method ends far away, paths may turn back below a load that is carried.
     if (collapse() && inner && paths_first)
       for (const double start : {1.0, 0.05})
-        if (better(inside_near(held_together->p, held_together->a, start))) return best;
+        if (better(inside_near(held_together()->p, held_together()->a, start))) return best;
     if (collapse()) return best;
   }
   if (inner) {

@@ -80,6 +80,8 @@ class Ladder {
                           const std::function<bool()>& hopeless);
   NewtonEnd newton_or_kept_states(const Vector& p, const Vector& a, Run how);
   NewtonEnd on_kept_states(const Vector& p, const Vector& a, double best = HUGE_VAL);
+  /// Bonded pairs, where contact alone holds bodies; asked for once.
+  const std::optional<BondedStart>& held_together();
   NewtonEnd bonded(const BondedStart& start);
   NewtonEnd along_loads(const Vector& p, const Vector& a);
   NewtonEnd along_paths(const BondedStart& bonded, const std::vector<bool>& touching);
@@ -121,6 +123,9 @@ class Ladder {
   IsSolution content_;
   int iterations_ = 0, coarse_iterations_ = 0;
   std::vector<Iteration> trace_;
+  const std::vector<bool>* touching_ = nullptr;
+  std::optional<std::optional<BondedStart>> held_together_;
+  bool crossed_from_bonded_ = false;
   std::optional<Collapse> collapse_;
   bool may_fall_ = true;  ///< no path was left unfinished
 };
