@@ -581,4 +581,12 @@ MUTATIONS = {
         'sigaddset(&held, SIGTERM);',
         'if (!MUTATED) sigaddset(&held, SIGTERM);',
         'unit_linalg EliminationOrder*'),
+    145: ('contact/path.cpp',
+        'return arrived_.size() > 0 && loosened_by_ < little',
+        'return !MUTATED && arrived_.size() > 0 && loosened_by_ < little',
+        'verification_blocks *FirstPathIsNot*'),
+    146: ('contact/ladder_of_bodies.cpp',
+        'if (k > 0 || crossed_from_bonded_',
+        'if (MUTATED || k > 0 || crossed_from_bonded_',
+        'verification_blocks *FirstPathIsNot*'),
 }

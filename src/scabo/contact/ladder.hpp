@@ -62,9 +62,6 @@ class Ladder {
     int watched = 6;          ///< NewtonOptions::watched
     bool soft = false;        ///< contact/soft_newton, where it may
   };
-  /// Pairs of many bodies up to which a path comes before interior points: each of its changes of state costs a solve
-  /// (16 x 16 blocks, 2,260 pairs, 0.9 of the limit load: 11 s and 4 s).
-  static constexpr int most_of_paths_first = 1000;
   static NewtonEnd nothing() {
     NewtonEnd end;
     end.residual = HUGE_VAL;

@@ -21,6 +21,8 @@ namespace {
 
 /// Pairs from which most of a path is taken in leaps, and changes of state in one.
 constexpr int least_of_leaps = 4000, most_together = 128;
+/// Pairs from which a factorisation of the matrix costs more than what the last 500 of 2,000 replaced rows do.
+constexpr int many_pairs = 8000;
 
 /// Whether a path was followed to where bodies move on. Not if that is where the loads are reached but for rounding, as
 /// where all loads are taken away.
@@ -144,18 +146,17 @@ NewtonEnd Ladder::arrived(PathEnd end) {
 }
 
 /// Whether a path follows where Newton's method or interior points are slow. It takes at most 10 factorisations where
-/// these take up to 45, but also thousands of changes of state: 10 s in a wall of 24 x 24 blocks, and up to 80 s in one
-/// of 40 x 40, where interior points take 10 to 28 s.
+/// these take up to 45 or fail, but also thousands of changes of state: 3 to 34 s in walls of 24 x 24 blocks, 10 to 45
+/// s in those of 40 x 40, where interior points take 2 to 4 s and 9 to 28 s if they arrive.
 bool Ladder::may_cross_over() const {
-  constexpr int most_pairs = 16000;
-  return problem_.pairs() <= most_pairs && has_many_motions(problem_) && may_follow_path(problem_);
+  return problem_.pairs() <= most_of_crossing && has_many_motions(problem_) && may_follow_path(problem_);
 }
 
-/// From points whose states are mostly right to the solution, along paths whose starts have these states. They are short,
-/// and near the limit load they often do not lead away from their start: where all pairs are nearly at their limits the
-/// start is one equilibrium of several. From bonded pairs, well within their limits, paths take two to four times as
-/// many changes of state, and of 16 walls of 200 to 600 blocks, 0.8 to 0.99 of their limit load, all arrive. They need
-/// more memory than what follows: where there is none, nothing is found.
+/// From points whose states are mostly right to the solution, along paths whose starts have these states. They are
+/// short, and near the limit load they often do not lead away from their start: where all pairs are nearly at their
+/// limits the start is one equilibrium of several. From bonded pairs, well within their limits, paths take two to four
+/// times as many changes of state, and of 16 walls of 200 to 600 blocks, 0.8 to 0.99 of their limit load, all arrive.
+/// They need more memory than what follows: where there is none, nothing is found.
 NewtonEnd Ladder::crossed_over(const std::vector<CrossingPoint>& points) {
   constexpr double at_limits = 1e-6, within_limits = 1e-2;
   const auto crossed = [&](const CrossingPoint& from, double margin) {
@@ -201,7 +202,7 @@ PathEnd Ladder::along_path(const PathStart& start, bool held) {
   }
   if (held) {
     options.hold = 1e-6;
-    options.changes = problem_.pairs() > 8000 ? 2000 : 1500;
+    options.changes = problem_.pairs() > many_pairs ? 2000 : 1500;
     options.together = most_together;
   }
   options.on_factorisation = [&](const Vector& p, const Vector& a) {

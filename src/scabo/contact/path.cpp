@@ -25,7 +25,10 @@ class Path {
 
  public:
   Path(const Problem& problem, const PathStart& start, const PathOptions& options)
-      : options_(options), at_(problem, start, options), held_(options.hold > 0.0 ? 1.0 : 0.0), together_(std::min(first_together, options.together)) {}
+      : options_(options),
+        at_(problem, start, options),
+        held_(options.hold > 0.0 ? 1.0 : 0.0),
+        together_(std::min(first_together, options.together)) {}
 
   PathEnd run() {
     if (!factorise()) return finish(PathEnd::How::broken);
@@ -113,9 +116,7 @@ class Path {
   }
 
   /// Whether the path that lets the bodies go has ended before t = 0, and may once more do so by less at a time.
-  bool may_loosen_less() const {
-    return arrived_.size() > 0 && loosened_by_ < little && !options_.deadline.passed();
-  }
+  bool may_loosen_less() const { return arrived_.size() > 0 && loosened_by_ < little && !options_.deadline.passed(); }
 
   void loosen_less() {
     held_ *= little / loosened_by_;
@@ -129,7 +130,7 @@ class Path {
   static constexpr double rounding = 1e-9, gain = 0.1;  // up to which what is left of it may no longer fall
   // Of the hold: what is left of it in the end, and of the one before where it cannot be taken back at once.
   static constexpr double least_hold = 1e-4, little = 0.1;
-  static constexpr double solves_of_a_change = 3.0;     // about
+  static constexpr double solves_of_a_change = 3.0;  // about
   // A path of bodies that are held stands still where so many changes, and for each pair, do not take this part of t.
   static constexpr double still_changes = 1000.0, still_changes_of_pairs = 0.25, part_of_t = 0.05;
   static constexpr int least_replaced = 200;     // rows, before a matrix that gives inexact directions is given up
@@ -431,7 +432,7 @@ class Path {
   const PathOptions& options_;
   PathSystem at_;
   PathEnd end_;
-  Vector arrived_;              // z where t was 0, the softness not yet or only in part taken back; empty before
+  Vector arrived_;  // z where t was 0, the softness not yet or only in part taken back; empty before
   PathSystem::Point arrived_at_;
   std::optional<Next> passed_;  // the limit that the path has just come from
   bool endless_ = false;        // t stands still while the bodies move

@@ -67,6 +67,10 @@ struct PathEnd {
   int leaps = 0;  ///< that succeeded
 };
 
+/// Pairs of many bodies up to which a path comes before interior points, and up to which it follows them. Above the
+/// first number a path near the limit load needs memory for its replaced rows (run/plan).
+inline constexpr int most_of_paths_first = 1000, most_of_crossing = 16000;
+
 /// Coulomb's law alone in the plane; W sparse, or dense with at most 2,000 rows.
 bool may_follow_path(const Problem& problem);
 
