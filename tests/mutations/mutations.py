@@ -589,4 +589,8 @@ MUTATIONS = {
         'if (k > 0 || crossed_from_bonded_',
         'if (MUTATED || k > 0 || crossed_from_bonded_',
         'verification_blocks *FirstPathIsNot*'),
+    147: ('contact/path.cpp',
+        'if (same_ == most_same)',
+        'if (!MUTATED && same_ == most_same)',
+        'unit_contact_parts Path*'),
 }

@@ -62,9 +62,12 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
 NewtonEnd Ladder::climb(const Vector& p, const Vector& a, const std::vector<bool>& touching,
                         const std::function<bool()>& hopeless) {
   touching_ = &touching;
-  return options_.judge == Judge::natural_map && problem_.G.cols() == 0 && may_sweep()
-             ? climb_rank_deficient(p, hopeless)
-             : climb_elastic(p, a, touching, hopeless);
+  if (options_.judge == Judge::natural_map && problem_.G.cols() == 0 && may_sweep())
+    return climb_rank_deficient(p, hopeless);
+  NewtonEnd end = climb_elastic(p, a, touching, hopeless);
+  if (end.converged || late() || collapse() || judges_all()) return end;
+  NewtonEnd last = with_bodies_held();
+  return last.converged || last.residual < end.residual ? last : end;
 }
 
 const std::optional<BondedStart>& Ladder::held_together() {
@@ -80,7 +83,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   best.a = a;
   const auto better = [&](NewtonEnd end) {
     if (end.converged || end.residual < best.residual) best = std::move(end);
-    return best.converged || late();
+    return best.converged || late() || bodies_fall();
   };
   // From the last increment Newton converges in a few iterations or creeps from kink to kink, while a strategy below
   // needs less than ten (a culvert of 340 pairs under traffic: 50 and 7).

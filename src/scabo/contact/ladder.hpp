@@ -82,12 +82,14 @@ class Ladder {
   NewtonEnd bonded(const BondedStart& start);
   NewtonEnd along_loads(const Vector& p, const Vector& a);
   NewtonEnd along_paths(const BondedStart& bonded, const std::vector<bool>& touching);
+  NewtonEnd with_bodies_held();
   NewtonEnd arrived(PathEnd end);
   bool may_cross_over() const;
   struct CrossingPoint {
     Vector p, a;
   };
   NewtonEnd crossed_over(const std::vector<CrossingPoint>& points);
+  NewtonEnd crossed(const CrossingPoint& from, double margin);
   PathStart crossing_start(const CrossingPoint& from, double margin) const;
   PathEnd along_path(const PathStart& start, bool held = false);
   NewtonEnd confirmed(NewtonEnd found, int few, const std::string& name);
@@ -113,6 +115,7 @@ class Ladder {
   /// Whether `content` decides on every point: problems of others. Newton on elastic bodies ends by |H|.
   bool judges_all() const { return options_.judge == Judge::natural_map; }
   bool late() const { return options_.deadline.passed(); }
+  bool bodies_fall() const { return falls_ > 1; }
 
   const Problem& problem_;
   const SolverOptions& options_;
@@ -123,6 +126,7 @@ class Ladder {
   const std::vector<bool>* touching_ = nullptr;
   std::optional<std::optional<BondedStart>> held_together_;
   bool crossed_from_bonded_ = false;
+  int falls_ = 0;  ///< paths on which bodies that were held fall when they are let go
   std::optional<Collapse> collapse_;
   bool may_fall_ = true;  ///< no path was left unfinished
 };

@@ -68,7 +68,7 @@ class Path {
         at_.advance(to_end);
         if (round_ > 0 && options_.hold == 0.0 && has_gone_astray())
           return PathEnd::How::broken;  // the point before counts
-        if (ends_round()) return PathEnd::How::arrived;
+        if (ends_round()) return falls_ ? PathEnd::How::endless : PathEnd::How::arrived;
         if (!(loosened_by_ < 1.0 ? factorise() : at_.place())) return PathEnd::How::broken;
         continue;
       }
@@ -91,13 +91,21 @@ class Path {
   /// At t = 0: whether that was the last round; else the next one begins, with the softness taken back and the bodies
   /// held less.
   bool ends_round() {
-    arrived_ = at_.z();
+    const Vector before = std::exchange(arrived_, at_.z());
     arrived_at_ = at_.point();
     loosened_by_ = held_ > 2.0 * least_hold ? least_hold / held_ : 1.0;
     held_ *= loosened_by_;
     const double error = at_.take_softness_back(loosened_by_);
     const bool rests = error <= rounding && error > gain * error_before_;  // of forces that are not unique
     ++round_;
+    const bool same = held_ > 0.0 && loosened_by_ == 1.0 && error > rounding && error > steady * error_before_;
+    same_ = same ? same_ + 1 : 0;
+    if (same_ == most_same) {
+      falls_ = true;
+      end_.motion = (arrived_ - before).tail(before.size() - 2 * at_.pairs()).normalized();
+      end_.left = error;
+      return true;
+    }
     if (error <= settled || rests || (loosened_by_ == 1.0 && ++rounds_ > options_.rounds)) {
       polish();
       return true;
@@ -130,6 +138,9 @@ class Path {
   static constexpr double rounding = 1e-9, gain = 0.1;  // up to which what is left of it may no longer fall
   // Of the hold: what is left of it in the end, and of the one before where it cannot be taken back at once.
   static constexpr double least_hold = 1e-4, little = 0.1;
+  // Bodies fall where what holds them is still this part of what it was in the round before, so many times.
+  static constexpr double steady = 0.999;
+  static constexpr int most_same = 3;
   static constexpr double solves_of_a_change = 3.0;  // about
   // A path of bodies that are held stands still where so many changes, and for each pair, do not take this part of t.
   static constexpr double still_changes = 1000.0, still_changes_of_pairs = 0.25, part_of_t = 0.05;
@@ -145,7 +156,7 @@ class Path {
 
   /// The way on which the softness is taken back is as short as rounding; where it ends early, the point before counts.
   PathEnd finish(PathEnd::How how) {
-    if (arrived_.size() > 0) how = PathEnd::How::arrived;
+    if (arrived_.size() > 0 && !falls_) how = PathEnd::How::arrived;
     const Vector& z = arrived_.size() > 0 ? arrived_ : at_.z();
     end_.how = how;
     end_.p = z.head(2 * at_.pairs());
@@ -441,7 +452,8 @@ class Path {
   double still_from_ = 1.0;     // of begun_at_ * least_, at still_at_
   double held_ = 0.0;           // what holds the bodies, over that of the first round
   double loosened_by_ = 1.0, error_before_ = HUGE_VAL;
-  int round_ = 0, rounds_ = 0, least_at_ = 0, still_at_ = 0, side_before_ = 0, place_at_ = between_places;
+  bool falls_ = false;
+  int same_ = 0, round_ = 0, rounds_ = 0, least_at_ = 0, still_at_ = 0, side_before_ = 0, place_at_ = between_places;
   int together_, together_at_ = 0, pause_ = least_pause, successes_ = 0;
 };
 

@@ -57,11 +57,13 @@ struct PathOptions {
 };
 
 struct PathEnd {
-  /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on without end. turned_back: t has grown
+  /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on without end; of bodies that are held,
+  /// what holds them stays the same however far they move. turned_back: t has grown
   /// again and `patience` changes, or more, do not lead below its least. broken: rounding, `most`, or the deadline.
   enum class How { arrived, endless, turned_back, broken } how = How::broken;
   Vector p, a;        ///< where the path ends
-  double left = 1.0;  ///< the least t met
+  double left = 1.0;  ///< the least t met; of bodies that fall when they are let go, what held them (each motion over
+                      ///< the norm of what it moves pairs by) over the largest force
   Vector motion;      ///< rigid motions where t was least, or of the endless piece, of length 1; empty if arrived
   int factorisations = 0, changes = 0;
   int leaps = 0;  ///< that succeeded

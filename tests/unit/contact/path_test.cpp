@@ -142,6 +142,21 @@ TEST(Path, TakesBackWhatHoldsABodyThatSlides) {
   }
 }
 
+// Pushed by 1.5 times what friction carries, from bonded pairs with the block held: what holds it in the end is half of
+// that, however far it has moved.
+TEST(Path, OfAHeldBlockThatIsLetGoEndsInSliding) {
+  const Scaled pushed = scaled(pushed_block(1.5 * friction * weight));
+  PathOptions options;
+  options.hold = 1e-6;
+  const PathEnd end = path_from_bonded(pushed, ContactState::stick, 1e-2, 0.0, options);
+  ASSERT_EQ(end.how, PathEnd::How::endless);
+  const double for_each_pair = 1.0 / std::sqrt(static_cast<double>(pushed.problem.pairs()));  // of the push
+  EXPECT_NEAR(end.left * end.p.lpNorm<Eigen::Infinity>(), 0.5 * friction * weight * for_each_pair, 1e-6 * weight);
+  ASSERT_EQ(end.motion.size(), 3);
+  EXPECT_NEAR(end.motion[0], 1.0, 1e-6);
+  EXPECT_NEAR(end.motion.tail(2).norm(), 0.0, 1e-6);
+}
+
 // Where bodies are held a leap that leads away leaves a point that another path begins with.
 TEST(Path, BeginsAgainWhereALeapLeadsAway) {
   std::mt19937 random(12);
