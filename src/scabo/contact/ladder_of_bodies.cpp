@@ -24,7 +24,9 @@ constexpr int least_of_leaps = 4000, most_together = 128;
 /// Of the mean force: how far pairs are within their limits at the start of a path that crosses over, from points whose
 /// states are mostly right and from bonded pairs.
 constexpr double at_limits = 1e-6, within_limits = 1e-2;
-/// Pairs from which a factorisation of the matrix costs more than what the last 500 of 2,000 replaced rows do.
+/// Pairs above which a path replaces up to 2,000 rows before the matrix is factorised anew, which takes fewer
+/// iterations; below, 1,500, because near a singular matrix the system of the replaced rows is factorised again and
+/// again.
 constexpr int many_pairs = 8000;
 
 /// Whether a path was followed to where bodies move on. Not if that is where the loads are reached but for rounding, as
@@ -143,7 +145,8 @@ NewtonEnd Ladder::along_paths(const BondedStart& bonded, const std::vector<bool>
 /// The last of all, where no path was followed to its end: from bonded pairs with all bodies held, and then let go.
 /// They come to rest or fall: nine stones over a gap fall with 0.14 of the largest force missing, at any friction.
 NewtonEnd Ladder::with_bodies_held() {
-  if (crossed_from_bonded_ || !may_follow_path(problem_) || !held_together()) return nothing();
+  const bool may = problem_.pairs() <= most_of_crossing && may_follow_path(problem_);
+  if (crossed_from_bonded_ || !may || !held_together()) return nothing();
   return crossed({held_together()->p, held_together()->a}, within_limits);
 }
 
@@ -166,25 +169,27 @@ bool Ladder::may_cross_over() const {
 /// short, and near the limit load they often do not lead away from their start: where all pairs are nearly at their
 /// limits the start is one equilibrium of several. From bonded pairs, well within their limits, paths take two to four
 /// times as many changes of state, and of 16 walls of 200 to 600 blocks, 0.8 to 0.99 of their limit load, all arrive.
-/// They need more memory than what follows: where there is none, nothing is found. Where bodies fall on both, when they
-/// are let go, nothing that follows was seen to succeed.
+/// Where bodies fall on two paths when they are let go, nothing that follows was seen to succeed.
 NewtonEnd Ladder::crossed_over(const std::vector<CrossingPoint>& points) {
-  try {
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      if (NewtonEnd end = crossed(points[k], at_limits); end.converged || late() || bodies_fall()) return end;
-      if (k > 0 || crossed_from_bonded_ || !held_together()) continue;
-      crossed_from_bonded_ = true;
-      NewtonEnd end = crossed({held_together()->p, held_together()->a}, within_limits);
-      if (end.converged || late() || bodies_fall()) return end;
-    }
-  } catch (const std::bad_alloc&) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (NewtonEnd end = crossed(points[k], at_limits); end.converged || late() || bodies_fall()) return end;
+    if (k > 0 || crossed_from_bonded_ || !held_together()) continue;
+    crossed_from_bonded_ = true;
+    NewtonEnd end = crossed({held_together()->p, held_together()->a}, within_limits);
+    if (end.converged || late() || bodies_fall()) return end;
   }
   return nothing();
 }
 
-/// The path from there with all bodies held, which are let go in the end.
+/// The path from there with all bodies held, which are let go in the end. It needs more memory than what follows: where
+/// there is none, nothing is found.
 NewtonEnd Ladder::crossed(const CrossingPoint& from, double margin) {
-  PathEnd end = along_path(crossing_start(from, margin), true);
+  PathEnd end;
+  try {
+    end = along_path(crossing_start(from, margin), true);
+  } catch (const std::bad_alloc&) {
+    return nothing();
+  }
   if (end.how == PathEnd::How::arrived) return arrived(std::move(end));
   if (end.how == PathEnd::How::endless) {
     may_fall_ = true;

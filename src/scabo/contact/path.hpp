@@ -18,7 +18,7 @@
 // One matrix is factorised for up to `changes` changes of state; each replaces a row (linalg/replaced_rows). To the
 // diagonal of W `softness` times itself is added (of its mean where it is zero), because pairs of three bodies that
 // meet in a point are redundant. Where no pair of a body sticks at the start, the matrix is singular unless the rows of
-// balance are held as well (`hold`). Both are taken back at the end.
+// balance are held as well (`hold`). Both are taken back at the end, the hold in tenths where that fails at once.
 //
 // Of thousands of pairs most of the way can be taken in leaps: past many limits at once, and at the t reached Newton's
 // method with the factors at hand, where rows of all pairs beyond their limits are replaced together. Two or three
@@ -58,8 +58,8 @@ struct PathOptions {
 
 struct PathEnd {
   /// arrived: t = 0. endless: no pair comes to a limit any more, bodies move on without end; of bodies that are held,
-  /// what holds them stays the same however far they move. turned_back: t has grown
-  /// again and `patience` changes, or more, do not lead below its least. broken: rounding, `most`, or the deadline.
+  /// what holds them stays the same however far they move. turned_back: t has grown again and `patience` changes, or
+  /// more, do not lead below its least. broken: rounding, `most`, or the deadline.
   enum class How { arrived, endless, turned_back, broken } how = How::broken;
   Vector p, a;        ///< where the path ends
   double left = 1.0;  ///< the least t met; of bodies that fall when they are let go, what held them (each motion over

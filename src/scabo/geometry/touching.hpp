@@ -14,9 +14,8 @@ struct TouchingEdges {
 
 /// All pairs of edges of different outlines that face each other along a part of their length at a distance of at most
 /// `reach` (length, >= 0; distances of up to 1e-6 of an edge's length are rounding). Ordered by bodies, then edges.
-/// Edges that touch in a point only, or share
-/// less than a thousandth of the shorter one, are left out; with `reach` also arcs whose nearest points are within it
-/// are found. `outlines`: null for a body that takes no part.
+/// Edges that touch in a point only, or share less than a thousandth of the shorter one, are left out; with `reach`
+/// also arcs whose nearest points are within it are found. `outlines`: null for a body that takes no part.
 std::vector<TouchingEdges> touching_edges(const std::vector<const Outline*>& outlines, double reach);
 
 }  // namespace scabo::geometry

@@ -61,8 +61,8 @@ struct CostConstants {
   double contact_bytes = 50.0;              ///< for k^2 of each body: W and matrices of Newton's method
   double contact_seconds = 6.5e-8;          ///< for (2N)^2 and one increment
   double wall_seconds = 1e-6;               ///< for 2N k of many bodies and one iteration, k of an average body
-  double wall_first_iterations = 8.0;       ///< of the first increment: 4 to 19
-  double wall_iterations = 6.0;             ///< of each one after it: 4 under small loads, 35 near the collapse load
+  double wall_first_iterations = 8.0;       ///< of the first increment: 2 to 10
+  double wall_iterations = 6.0;             ///< of each one after it: 4 under small loads, 10 near the collapse load
   double crossing_bytes = 1.2e4;      ///< for 2N of 1,000 to 16,000 pairs of many bodies: half of what the replaced
                                       ///< rows of a path near the limit load need
   double wall_bytes = 300.0;          ///< for 2N k of many bodies: their saddle matrix and its factor
