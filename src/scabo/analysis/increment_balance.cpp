@@ -147,11 +147,19 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
     const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)],
                                &after = to.history[static_cast<std::size_t>(i)];
-    // Where the strength fell at once, the slip took place under what was left of it; friction never gives energy back.
     const bool fell = before.broken != after.broken || before.slipped != after.slipped;
-    const double slip = to.slip[i] - from.slip[i], at_end = -to.p[2 * i + 1] * slip;
-    const double mean = 0.5 * (at_end - from.p[2 * i + 1] * slip);
-    energy.friction += fell || mean < 0.0 ? std::max(at_end, 0.0) : mean;
+    const double slip = to.slip[i] - from.slip[i];
+    const double at_start = -from.p[2 * i + 1] * slip, at_end = -to.p[2 * i + 1] * slip;
+    // Where the strength fell at once, the slip took place under what was left of it.
+    if (fell) {
+      energy.friction += std::max(at_end, 0.0);
+      continue;
+    }
+    // A force along the slip turned before the slip began, and what moved the pair worked against it as well: friction
+    // never gives energy back.
+    const double turned = std::max(-at_start, 0.0);
+    energy.friction += 0.5 * (at_start + at_end) + turned;
+    energy.external += turned;
   }
   return energy;
 }
