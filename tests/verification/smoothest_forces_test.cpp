@@ -233,5 +233,47 @@ TEST(SmoothestForces, OfARigidBlockThatSlidesAreAlongALine) {
   }
 }
 
+// Nine blocks that stick to each other with tensile strength, under their weight: where four of them meet, some joints
+// pull by all their strength. The forces of a symmetric wall are symmetric, whichever of them the solver has found.
+TEST(SmoothestForces, OfBlocksThatPullAreSymmetric) {
+  std::string bodies, contacts;
+  const auto name = [](int column, int course) { return fmt::format("b{}{}", column, course); };
+  const char* const law = "friction: 0.3, cohesion: 1e4, tension: 1e3";
+  for (int z = 0; z < 3; ++z)
+    for (int x = 0; x < 3; ++x) {
+      bodies += fmt::format(
+          "  {}: {{material: s, mesh: {{size: 0.25}}, shape: {{rectangle: {{corner: [{}, {}], size: [1, 0.5]}}}}}}\n",
+          name(x, z), x, 0.5 * z);
+      contacts += fmt::format("  v{}{}: {{between: [{}.top, {}.bottom], {}}}\n", x, z, z > 0 ? name(x, z - 1) : "floor",
+                              name(x, z), law);
+      if (x > 0)
+        contacts +=
+            fmt::format("  h{}{}: {{between: [{}.right, {}.left], {}}}\n", x, z, name(x - 1, z), name(x, z), law);
+    }
+  const analysis::StaticSolution solution = run(
+      fmt::format("scabo: 1\nanalysis: {{plane: strain}}\n"
+                  "materials: {{s: {{young: 3e9, poisson: 0.2, density: 2500}}}}\nbodies:\n"
+                  "  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [6, 1]}}}}}}\n{}"
+                  "supports: [{{on: floor, fix: [x, y]}}]\nloads: {{weight: {{gravity: [0, -9.81]}}}}\ncontacts:\n{}",
+                  bodies, contacts));
+  const analysis::IncrementResult& end = last(solution);
+  const auto of = [&](const std::string& contact) -> const analysis::ContactResult& {
+    for (std::size_t c = 0; c < solution.model.contacts.size(); ++c)
+      if (solution.model.contacts[c].name == contact) return contact_of(end, c);
+    throw std::runtime_error("no contact " + contact);
+  };
+  double least = 0.0;
+  for (int z = 0; z < 3; ++z) {
+    const analysis::ContactResult &left = of(fmt::format("v0{}", z)), &right = of(fmt::format("v2{}", z));
+    EXPECT_NEAR(left.normal_force, right.normal_force, 1e-6) << z;
+    EXPECT_NEAR(left.tangential_force, -right.tangential_force, 1e-6) << z;
+    const analysis::ContactResult &one = of(fmt::format("h1{}", z)), &other = of(fmt::format("h2{}", z));
+    EXPECT_NEAR(one.normal_force, other.normal_force, 1e-6) << z;
+    EXPECT_NEAR(one.tangential_force, -other.tangential_force, 1e-6) << z;
+    for (const analysis::PairResult& pair : one.pairs) least = std::min(least, pair.pressure);
+  }
+  EXPECT_LT(least, -100.0) << "the test is meant to have joints that pull";
+}
+
 }  // namespace
 }  // namespace scabo::verification

@@ -32,21 +32,22 @@ struct Freedom {
   std::vector<Limit> limits;
 };
 
-/// Adds the limits p_n >= 0 (or -tension <= p_n <= 0, of a pair that is pulled) and those of friction to a pair that
-/// does not slip.
+/// Adds the limits of strength and friction to a pair. What a pair with tensile strength may carry is not convex where
+/// it changes from pull to pressure: of one that sticks and has no more shear than its cohesion, the part taken is that
+/// with no more shear than its cohesion, -tension <= p_n; of any other, that on its side, p_n >= 0 or
+/// -tension <= p_n <= 0 (`pulled`).
 void add_limits(const Problem& problem, Index i, double p_n, double p_t, bool sticks, bool pulled, Freedom& freedom) {
   const double tension = problem.tension_of(i), cohesion = problem.cohesion_of(i);
   const auto add = [&](const Vec2& of_force, double least) {
     freedom.limits.push_back({freedom.C.transpose() * of_force, least - of_force[0] * p_n - of_force[1] * p_t});
   };
-  if (!std::isinf(tension)) add({1.0, 0.0}, pulled ? -tension : 0.0);
   const bool bound_by_friction = sticks && !std::isinf(cohesion);
-  if (pulled && (bound_by_friction || !sticks)) add({-1.0, 0.0}, 0.0);  // beyond, the bound grows with mu
+  const bool by_cohesion = pulled || (tension > 0.0 && std::abs(p_t) <= cohesion);
+  if (!std::isinf(tension)) add({1.0, 0.0}, pulled || (bound_by_friction && by_cohesion) ? -tension : 0.0);
+  if (pulled && !sticks) add({-1.0, 0.0}, 0.0);  // beyond, the bound grows with mu
   if (!bound_by_friction) return;
-  const double forward = pulled ? 0.0 : problem.mu_against(i, -1.0),
-               backward = pulled ? 0.0 : problem.mu_against(i, 1.0);
-  add({forward, 1.0}, -cohesion);
-  add({backward, -1.0}, -cohesion);
+  add({by_cohesion ? 0.0 : problem.mu_against(i, -1.0), 1.0}, -cohesion);
+  add({by_cohesion ? 0.0 : problem.mu_against(i, 1.0), -1.0}, -cohesion);
 }
 
 /// `still`: motions of the pair's two components up to which it does not move.
@@ -54,9 +55,8 @@ Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, co
   const double p_n = solution.p[2 * i], p_t = solution.p[2 * i + 1], slip = solution.slip_increment[i];
   const bool moves = std::abs(slip) > still[1];
   const ContactState state = solution.states[static_cast<std::size_t>(i)];
-  const bool has_strength = problem.tension_of(i) > 0.0 || problem.cohesion_of(i) > 0.0;
   Freedom freedom;
-  if (state == ContactState::open && (has_strength || solution.gap[i] > still[0])) return freedom;
+  if (state == ContactState::open && solution.gap[i] > still[0]) return freedom;
   const bool bonded = std::isinf(problem.tension_of(i));
   const bool slips = moves && state != ContactState::stick;
   const bool frictionless = !bonded && problem.largest_mu(i) == 0.0 && problem.cohesion_of(i) == 0.0;

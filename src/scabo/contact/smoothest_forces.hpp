@@ -6,6 +6,7 @@
 //
 //     open         none                                 slip     p_n >= 0,  p_t = -+ (c + mu p_n)
 //     stick, touch p_n >= 0,  |p_t| <= c + mu p_n       bonded   any
+//     with tensile strength T, of these the part that is convex: p_n >= -T, |p_t| <= c
 //
 // those are chosen whose tractions p / a are nearest to those of one stress s in each point x that several of these
 // pairs share, and next to that the shortest ones (a: tributary area of the pair, n: its normal, E = 1e-10):
