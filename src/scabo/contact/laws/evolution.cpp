@@ -13,6 +13,9 @@ namespace {
 
 /// Motions that need less than this fraction of the strength of the pair are rounding.
 constexpr double noticeable = 1e-9;
+/// A force this close to its limit, as a fraction of the strength, has reached it: a solution is within the tolerance
+/// of the limits, not within rounding, and what moves a pair by more than rounding is at one of them.
+constexpr double at_limit = 1e-6;
 
 struct Ends {
   std::vector<PairEnd> of_pair;
@@ -28,17 +31,23 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
   for (Eigen::Index i = 0; i < N; ++i) {
     const ContactState state = solution.states[static_cast<std::size_t>(i)];
     const double slip = solution.slip_increment.segment((d - 1) * i, d - 1).norm();
-    const double strength = problem.friction_bound(i, solution.p[d * i], solution.p[d * i + 1]) + problem.tension_of(i);
+    const double p_n = solution.p[d * i], tension = problem.tension_of(i);
+    const double bound = problem.friction_bound(i, p_n, solution.p[d * i + 1]), strength = bound + tension;
     const double opening = force(std::max(solution.gap[i], 0.0), diagonal[d * i]);
     const double sliding = force(slip, diagonal.segment(d * i + 1, d - 1).mean());
     if (std::isinf(strength)) continue;
-    const double rounding = noticeable * (largest > 0.0 ? std::clamp(strength, 1e-3 * largest, largest) : strength);
+    const double size = largest > 0.0 ? std::clamp(strength, 1e-3 * largest, largest) : strength;
+    const double rounding = noticeable * size, near = at_limit * size;
+    const bool pulls_all = state == ContactState::open || (tension > 0.0 && p_n + tension <= near);
+    const bool shears_all =
+        state == ContactState::slip ||
+        (state == ContactState::stick && bound - solution.p.segment(d * i + 1, d - 1).norm() <= near);
     PairEnd& end = ends.of_pair[static_cast<std::size_t>(i)];
-    end.opened = state == ContactState::open && opening > rounding;
-    end.slid = state == ContactState::slip && sliding > rounding;
+    end.opened = pulls_all && opening > rounding;
+    end.slid = shears_all && sliding > rounding;
     // An open pair without tension can still slide if it has cohesion.
     if (state == ContactState::open && problem.cohesion_of(i) > 0.0 && sliding > rounding) end.slid = true;
-    end.slip = end.slid && state == ContactState::slip ? slip : 0.0;
+    end.slip = end.slid && state != ContactState::open ? slip : 0.0;
     ends.overload[i] = ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
   }
   return ends;
