@@ -202,5 +202,35 @@ TEST(Uniqueness, IsReportedWhereAskedFor) {
   EXPECT_FALSE(last(run(moved_block(1e-4, -1e-3, "friction: 0.1"))).uniqueness.has_value());
 }
 
+// A block that is glued to a floor is heated: its joint fails from both ends, and which pairs fall first does not
+// depend on where W holds the body, which contact alone holds.
+TEST(Laws, AJointThatFailsFromBothEndsStaysSymmetric) {
+  for (const double heat : {2.0, 5.0, -5.0}) {
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{s: {{young: 10e9, poisson: 0.2, density: 2500, expansion: 1e-5}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-3, -1], size: [6, 1]}}}}}}
+  block: {{material: s, shape: {{rectangle: {{corner: [-1, 0], size: [2, 1]}}}}, mesh: {{size: 0.25}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+loads:
+  weight: {{gravity: [0, -9.81]}}
+  heat: {{on: block, temperature: {{constant: {}}}}}
+  press: {{on: block.top, pressure: 1e5}}
+contacts: {{joint: {{between: [floor.top, block.bottom], friction: 0.3, cohesion: 5e4}}}}
+)",
+                                          heat));
+    const std::vector<analysis::PairResult>& pairs = contact_of(last(solution)).pairs;
+    ASSERT_EQ(pairs.size(), 17u);
+    EXPECT_GT(contact_of(last(solution)).broken.value_or(0), 2) << "the test is meant to have joints that fail";
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const analysis::PairResult& other = pairs[pairs.size() - 1 - i];
+      EXPECT_NEAR(pairs[i].normal_force, other.normal_force, 1e-6) << heat << ", pair " << i;
+      EXPECT_NEAR(pairs[i].tangential_force, -other.tangential_force, 1e-6) << heat << ", pair " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification

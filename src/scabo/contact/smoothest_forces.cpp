@@ -239,22 +239,22 @@ Matrix tractions_of_stresses(const std::vector<int>& group, const std::vector<in
   return T;
 }
 
-/// min |v - wanted| subject to B v >= h, where v = 0 is admissible (Lawson and Hanson 1974, chapter 23: least distance
+/// min |v - aim| subject to B v >= h, where v = 0 is admissible (Lawson and Hanson 1974, chapter 23: least distance
 /// programming); a point on the way from 0 to it where rounding leaves it outside.
-Vector nearest_within(const Matrix& B, const Vector& h, const Vector& wanted) {
-  const double size = wanted.norm(), allowed = 1e-13 * size;
+Vector nearest_within(const Matrix& B, const Vector& h, const Vector& aim) {
+  const double size = aim.norm(), allowed = 1e-13 * size;
   const auto inside = [&](const Vector& v) { return (B * v - h).minCoeff() >= -allowed; };
-  if (size == 0.0 || B.rows() == 0 || inside(wanted)) return wanted;
+  if (size == 0.0 || B.rows() == 0 || inside(aim)) return aim;
   Matrix E(B.cols() + 1, B.rows());
-  E << B.transpose(), ((h - B * wanted) / size).transpose();
+  E << B.transpose(), ((h - B * aim) / size).transpose();
   const Vector multipliers = linalg::nonnegative_least_squares(E, Vector::Unit(E.rows(), E.rows() - 1));
   std::vector<Index> active;
   for (Index i = 0; i < multipliers.size(); ++i)
     if (multipliers[i] > 0.0) active.push_back(i);
-  Vector v = wanted;
+  Vector v = aim;
   if (!active.empty()) {
     const Matrix held = B(active, Eigen::all);
-    v += held.completeOrthogonalDecomposition().solve(h(active) - held * wanted);
+    v += held.completeOrthogonalDecomposition().solve(h(active) - held * aim);
   }
   if (inside(v)) return v;
   double part = 1.0;
@@ -329,7 +329,7 @@ Vector change_of(const std::vector<int>& group, Index columns, const Network& ne
   }
   const Eigen::HouseholderQR<Matrix> qr(all);
   const Matrix R = qr.matrixQR().topRows(Z.cols()).triangularView<Eigen::Upper>();
-  const Vector wanted = (qr.householderQ().transpose() * right).head(Z.cols());
+  const Vector aim = (qr.householderQ().transpose() * right).head(Z.cols());
   Matrix B(static_cast<Index>(limits.size()), Z.cols());
   Vector h(B.rows());
   for (Index l = 0; l < B.rows(); ++l) {
@@ -347,7 +347,7 @@ Vector change_of(const std::vector<int>& group, Index columns, const Network& ne
       B.row(l) /= size;
       h[l] /= size;
     }
-  const Vector y = R.triangularView<Eigen::Upper>().solve(nearest_within(B, h, wanted));
+  const Vector y = R.triangularView<Eigen::Upper>().solve(nearest_within(B, h, aim));
   return CZ * within(limits_of_y, bounds_of_y, y);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scabo/base/error.hpp"
+#include "scabo/contact/laws/compliance.hpp"
 #include "scabo/contact/rigid_motions.hpp"
 
 namespace scabo::contact {
@@ -17,24 +18,32 @@ constexpr double noticeable = 1e-9;
 /// of the limits, not within rounding, and what moves a pair by more than rounding is at one of them.
 constexpr double at_limit = 1e-6;
 
+/// How every pair ends, and its motions beyond its strength.
 struct Ends {
   std::vector<PairEnd> of_pair;
-  Vector overload;  // N
+  Vector opening, sliding;  ///< N, lengths, 0 where they do not count
+  Vector strength;          ///< N, at least what counts as rounding
 };
+
+/// The force equivalent to a motion of components that give way by W each, `mean` on the average.
+double equivalent_force(double motion, double W, double mean) {
+  return motion == 0.0 ? 0.0 : motion / (W > 1e-14 * mean ? W : mean);
+}
+
+double mean_of(const Vector& diagonal) { return diagonal.size() > 0 ? diagonal.mean() : 1.0; }
 
 Ends ends_of(const Problem& problem, const Solution& solution, const Vector& diagonal) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
-  Ends ends{std::vector<PairEnd>(static_cast<std::size_t>(N)), Vector::Zero(N)};
-  const double mean = N > 0 ? diagonal.mean() : 1.0;
+  Ends ends{std::vector<PairEnd>(static_cast<std::size_t>(N)), Vector::Zero(N), Vector::Zero(N), Vector::Ones(N)};
+  const double mean = mean_of(diagonal);
   const double largest = solution.p.size() > 0 ? solution.p.lpNorm<Eigen::Infinity>() : 0.0;
-  const auto force = [&](double motion, double W) { return motion / (W > 1e-14 * mean ? W : mean); };
   for (Eigen::Index i = 0; i < N; ++i) {
     const ContactState state = solution.states[static_cast<std::size_t>(i)];
     const double slip = solution.slip_increment.segment((d - 1) * i, d - 1).norm();
     const double p_n = solution.p[d * i], tension = problem.tension_of(i);
     const double bound = problem.friction_bound(i, p_n, solution.p[d * i + 1]), strength = bound + tension;
-    const double opening = force(std::max(solution.gap[i], 0.0), diagonal[d * i]);
-    const double sliding = force(slip, diagonal.segment(d * i + 1, d - 1).mean());
+    const double gap = std::max(solution.gap[i], 0.0), opening = equivalent_force(gap, diagonal[d * i], mean);
+    const double sliding = equivalent_force(slip, diagonal.segment(d * i + 1, d - 1).mean(), mean);
     if (std::isinf(strength)) continue;
     const double size = largest > 0.0 ? std::clamp(strength, 1e-3 * largest, largest) : strength;
     const double rounding = noticeable * size, near = at_limit * size;
@@ -48,30 +57,39 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
     // An open pair without tension can still slide if it has cohesion.
     if (state == ContactState::open && problem.cohesion_of(i) > 0.0 && sliding > rounding) end.slid = true;
     end.slip = end.slid && state != ContactState::open ? slip : 0.0;
-    ends.overload[i] = ((end.opened ? opening : 0.0) + (end.slid ? sliding : 0.0)) / std::max(strength, rounding);
+    ends.opening[i] = end.opened ? gap : 0.0;
+    ends.sliding[i] = end.slid ? slip : 0.0;
+    ends.strength[i] = std::max(strength, rounding);
   }
   return ends;
 }
 
 /// Updates the flags of the most overloaded pairs among those whose flags the solution changes. Returns whether there
 /// were any.
-bool let_fall(const JointLaws& laws, const Ends& ends, History& trial) {
+bool let_fall(const JointLaws& laws, const Ends& ends, int dimension, Compliance& compliance, History& trial) {
   History next = trial;
-  double largest = -1.0;
-  const auto falls = [&](std::size_t i) {
-    return next[i].broken != trial[i].broken || next[i].slipped != trial[i].slipped;
-  };
+  std::vector<std::size_t> fallen;
   for (std::size_t i = 0; i < trial.size(); ++i) {
     next[i] = laws.of_pair[i]->after(trial[i], ends.of_pair[i]);
-    if (falls(i)) largest = std::max(largest, ends.overload[static_cast<Eigen::Index>(i)]);
+    if (next[i].broken != trial[i].broken || next[i].slipped != trial[i].slipped) fallen.push_back(i);
   }
-  if (largest < 0.0) return false;
-  for (std::size_t i = 0; i < trial.size(); ++i)
-    if (falls(i) && ends.overload[static_cast<Eigen::Index>(i)] >= (1.0 - 1e-6) * largest) {
-      trial[i].broken = next[i].broken;
-      trial[i].slipped = next[i].slipped;
+  const double mean = mean_of(compliance.diagonal());
+  std::vector<double> overload(fallen.size(), 0.0);
+  for (std::size_t k = 0; k < fallen.size() && fallen.size() > 1; ++k) {
+    const auto i = static_cast<Eigen::Index>(fallen[k]), first = dimension * i;
+    double along = 0.0;
+    for (Eigen::Index t = 1; t < dimension; ++t) along += compliance.of(first + t) / (dimension - 1);
+    overload[k] = (equivalent_force(ends.opening[i], compliance.of(first), mean) +
+                   equivalent_force(ends.sliding[i], along, mean)) /
+                  ends.strength[i];
+  }
+  const double largest = fallen.empty() ? 0.0 : *std::max_element(overload.begin(), overload.end());
+  for (std::size_t k = 0; k < fallen.size(); ++k)
+    if (overload[k] >= (1.0 - 1e-6) * largest - noticeable) {
+      trial[fallen[k]].broken = next[fallen[k]].broken;
+      trial[fallen[k]].slipped = next[fallen[k]].slipped;
     }
-  return true;
+  return !fallen.empty();
 }
 
 /// Coefficients that depend on slip: Aitken's extrapolation of the slip of each pair from three rounds.
@@ -180,7 +198,8 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   ensure(laws.of_pair.size() == from.size(), "laws and histories of contact pairs differ in number");
   constexpr int gradual = 200;  // rounds in which no strength drops at once
   const bool with_memory = remembers(laws);
-  const Vector diagonal = problem.W.diagonal();
+  Compliance compliance(problem);
+  const Vector& diagonal = compliance.diagonal();
   Evolution result;
   History trial = from;
   Following following;
@@ -202,7 +221,7 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
     const bool solved = result.solution.status == Status::solved;
     const Ends ends = solved ? ends_of(problem, result.solution, diagonal) : Ends{};
     const bool again = solved && with_memory && [&] {
-      if (let_fall(laws, ends, trial)) {
+      if (let_fall(laws, ends, problem.dimension, compliance, trial)) {
         following.forget();
         quiet = 0;
         return true;

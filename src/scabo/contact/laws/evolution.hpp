@@ -8,10 +8,11 @@
 //
 //     overload = ((g)+ / W_nn + |ds| / W_tt) / (c A + tau_t A + mu (p_n)+)
 //
-// where the motions are those beyond the strength, which is kept meanwhile; pairs within 1e-6 of the largest overload
-// fail together (to preserve symmetry). A drop is permanent within the increment. Coefficients that decrease gradually
-// follow the slip of the solution by fixed-point iteration with Aitken's extrapolation. The number of rounds is limited
-// by the number of strengths that can drop; beyond that the increment has not converged.
+// with W under forces in balance (compliance.hpp), where the motions are those beyond the strength, which is kept
+// meanwhile; pairs within 1e-6 of the largest overload fail together (to preserve symmetry). A drop is permanent within
+// the increment. Coefficients that decrease gradually follow the slip of the solution by fixed-point iteration with
+// Aitken's extrapolation. The number of rounds is limited by the number of strengths that can drop; beyond that the
+// increment has not converged.
 #pragma once
 
 #include <memory>
