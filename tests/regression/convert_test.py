@@ -326,6 +326,18 @@ class Messages(Converting):
         self.assertIn("is released in step 2 by OP=NEW", run.stderr)
         self.assertIn("the support begins in step 2", run.stderr)
 
+    def test_new_loads_of_one_keyword_take_back_those_of_the_other(self):
+        """CalculiX takes both back, Abaqus those of the same keyword: a deck that means the latter is told."""
+        weight = STATIC + "*DLOAD\nBODY, GRAV, 9.81, 0., -1.\n" + END
+        for later, noted in (("*DSLOAD, OP=NEW\nBODY_RIGHT, P, 1e6\n", True), ("*DSLOAD\nBODY_RIGHT, P, 1e6\n", False),
+                             ("*DLOAD, OP=NEW\nBODY, GRAV, 5., 0., -1.\n", False),
+                             ("*DSLOAD, OP=NEW\nBODY_RIGHT, P, 1e6\n*DLOAD, OP=NEW\nBODY, GRAV, 9.81, 0., -1.\n", False)):
+            with self.subTest(later=later):
+                run = self.convert(SQUARE + HELD + weight + STATIC + later + END)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual("OP=NEW takes back the loads that *DLOAD of earlier steps" in run.stderr, noted, run.stderr)
+        self.assertIn("gravity: 1", (self.directory / "part.yaml").read_text())
+
     def test_nothing_to_analyse(self):
         run = self.convert(SQUARE + HELD)
         self.assertEqual(run.returncode, 1)

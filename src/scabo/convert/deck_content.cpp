@@ -160,6 +160,22 @@ class ContentReader {
     growing.touched = growing.fresh = false;
   }
 
+  /// What the step has of one of the keywords of distributed loads.
+  struct DistributedLoads {
+    bool before = false, here = false;       // given in an earlier step, in this one
+    std::optional<files::DeckPlace> new_at;  // OP=NEW in this step
+  };
+
+  /// OP=NEW of one keyword takes back the loads of both in CalculiX, those of its own in Abaqus.
+  void note_what_is_removed(const DistributedLoads& loads, const DistributedLoads& others, std::string_view keyword) {
+    if (loads.new_at && others.before && !others.new_at)
+      remarks_.note(
+          *loads.new_at,
+          fmt::format("OP=NEW takes back the loads that {} of earlier steps has given as well, as in CalculiX; "
+                      "Abaqus keeps them: there, give them again in this step",
+                      keyword));
+  }
+
   void end_step() {
     const DeckStep& step = content_.steps.back();
     if (!has_procedure_)
@@ -178,6 +194,9 @@ class ContentReader {
       finish(load.x, new_pressures_);
       finish(load.y, new_pressures_);
     }
+    note_what_is_removed(dload_, dsload_, "*DSLOAD");
+    note_what_is_removed(dsload_, dload_, "*DLOAD");
+    for (DistributedLoads* loads : {&dload_, &dsload_}) *loads = {loads->before || loads->here, false, {}};
     total_time_ += step.period;
     in_step_ = false;
   }
@@ -315,8 +334,13 @@ class ContentReader {
   void dload(const DeckBlock& block) {
     const auto amplitude = amplitude_of(block);
     if (!amplitude || !needs_step(block)) return;
-    if (is_new(block)) new_pressures_ = true;
     const bool of_surface = block.name == "DSLOAD";
+    DistributedLoads& loads = of_surface ? dsload_ : dload_;
+    loads.here = true;
+    if (is_new(block)) {
+      new_pressures_ = true;
+      loads.new_at = block.at;
+    }
     for (const DeckLine& line : block.lines) {
       if (line.fields.empty()) continue;
       const std::string label = line.fields.size() > 1 ? upper(line.fields[1]) : "";
@@ -420,6 +444,7 @@ class ContentReader {
   ContactReader contacts_{content_, remarks_};
   bool in_step_ = false, has_procedure_ = false;
   bool new_displacements_ = false, new_forces_ = false, new_pressures_ = false;  // OP=NEW in this step
+  DistributedLoads dload_, dsload_;
   double total_time_ = 0.0;
 };
 
