@@ -389,5 +389,47 @@ steps: [{{loads: {{bed: 1, roof: 1}}}}, {{loads: {{bed: 0.5, roof: 0.5}}}}]
   }
 }
 
+/// A block on a floor, pressed and pushed, with a spring of stiffness k along x and y at its corner, or none.
+std::string block_with_a_spring(double k) {
+  const std::string spring =
+      k > 0.0 ? fmt::format("springs: [{{on: block.top_right, k_x: {0}, k_y: {0}}}]\n", k) : std::string();
+  return fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{s: {{young: 10e9, poisson: 0.2, density: 2500}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-3, -1], size: [6, 1]}}}}}}
+  block: {{material: s, shape: {{rectangle: {{corner: [-1, 0], size: [2, 1]}}}}, mesh: {{kind: fem, size: 0.25}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+{}loads:
+  weight: {{gravity: [0, -9.81]}}
+  press: {{on: block.top, pressure: 1e5}}
+  push: {{on: block.left, traction: [1e4, 0]}}
+contacts: {{base: {{between: [floor.top, block.bottom], friction: 0.3}}}}
+)",
+                     spring);
+}
+
+// The spring takes what it should, k times its displacement, and the rest stays as it is without: contact takes away
+// nearly all of the way that the loads would move the block on its spring alone, 25 m with 10 kN/m.
+TEST(Springs, SoftOnesBesideAContactTakeNoDigits) {
+  const double alone = last(run(block_with_a_spring(0.0))).energy.external;
+  for (const double k : {1e6, 1e5, 1e4, 1e3, 1e2}) {
+    const auto solution = run(block_with_a_spring(k));
+    const analysis::Energy& energy = last(solution).energy;
+    EXPECT_NEAR(energy.external, alone, (1e-10 * k + 1e-6) * alone) << k;
+    EXPECT_NEAR(energy.external, energy.elastic + energy.friction, 1e-6 * energy.elastic) << k;
+  }
+}
+
+// Where no digits are left, the run is not solved and says why.
+TEST(Springs, ThatAreTooSoftBesideAContactAreNotSolved) {
+  for (const double k : {1.0, 1e-2, 1e-6}) {
+    const auto solution = run(block_with_a_spring(k));
+    EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged) << k;
+    EXPECT_NE(solution.reason.find("the springs of body 'block' are so soft"), std::string::npos) << solution.reason;
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification

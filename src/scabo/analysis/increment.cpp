@@ -9,6 +9,7 @@
 #include "scabo/analysis/branch.hpp"
 #include "scabo/analysis/increment_balance.hpp"
 #include "scabo/analysis/increment_loads.hpp"
+#include "scabo/analysis/soft_springs.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
 
 namespace scabo::analysis {
@@ -51,6 +52,7 @@ FreeMotion free_motion(const Prepared& prepared, const State& state) {
 struct Posed {
   contact::Problem problem;
   Vector motion_of_held;  ///< 2N, of pairs that supports hold
+  Vector drawn;           ///< 2N, motions of the pairs where no body is displaced
 };
 
 /// From `from` to `factors`; loads and supports of `to` are set.
@@ -79,6 +81,7 @@ Posed pose(const Prepared& prepared, const State& from, const Factors& factors, 
   }
   if (from.offset.size() > 0) problem.q += from.offset;
   if (from.replaced.offset.size() > 0) problem.q += from.replaced.offset;
+  posed.drawn = problem.q;
   FreeMotion free = free_motion(prepared, to);
   problem.q += free.pairs;
   for (std::size_t p = 0; p < parts.size(); ++p)
@@ -191,6 +194,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   if (result.accepted) result.beyond = slid_beyond_sides(prepared, to);
+  if (result.accepted && result.beyond.empty())
+    result.beyond = lost_on_soft_springs(prepared, to, result.solution, posed.drawn);
   result.accepted = result.accepted && result.beyond.empty();
   return result;
 }

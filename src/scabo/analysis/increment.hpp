@@ -116,7 +116,8 @@ struct Attempt {
   contact::Solution solution;
   contact::Certificate certificate;
   double rounding = 0.0;  ///< possible share of rounding of the displacements in equilibrium and rigid balance
-  std::string beyond;     ///< why a solution contradicts small displacements (beyond_sides.hpp); else empty
+  std::string beyond;     ///< why a solution contradicts small displacements (beyond_sides.hpp) or the displacements of
+                          ///< its bodies (soft_springs.hpp); else empty
   bool accepted = false;
   contact::Problem problem;  ///< the problem solved, from `start`; W is shared, not copied
   contact::Start start;

@@ -1,0 +1,50 @@
+#include "scabo/analysis/soft_springs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Of the largest displacement, by which motions may differ: forces are wrong by 1 % at three times this.
+constexpr double allowed = 1e-6;
+constexpr double good = 1e-8;  // what stiffer springs should reach; the difference falls with their stiffness
+
+}  // namespace
+
+std::string lost_on_soft_springs(const Prepared& prepared, const State& to, const contact::Solution& solution,
+                                 const Vector& drawn) {
+  const auto& parts = prepared.structure.parts;
+  if (std::none_of(parts.begin(), parts.end(), [](const auto& part) { return part->has_springs(); })) return {};
+  Vector motion = drawn;
+  double largest = 0.0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (prepared.is_absent(p) || to.u[p].size() == 0) continue;
+    motion.noalias() += prepared.contact.motion[p] * to.u[p];
+    largest = std::max(largest, to.u[p].lpNorm<Eigen::Infinity>());
+  }
+  double most = 0.0;
+  int body = -1;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const model::Contact& contact =
+        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
+    const bool on_springs_a = part_of(prepared, contact.a.body).has_springs();
+    if (!on_springs_a && !part_of(prepared, contact.b.body).has_springs()) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    const double apart =
+        std::max(std::abs(motion[2 * k] - solution.gap[k]), std::abs(motion[2 * k + 1] - solution.slip_increment[k]));
+    if (apart > most) most = apart, body = on_springs_a ? contact.a.body : contact.b.body;
+  }
+  if (!(most > allowed * largest)) return {};
+  return fmt::format(
+      "the springs of body '{}' are so soft that its contact forces are lost in the rounding of how far the loads "
+      "would "
+      "move it without contact: leave these springs out, if contact holds the body, or make them {:.0e} times as stiff",
+      prepared.model.bodies[static_cast<std::size_t>(body)].name,
+      std::pow(10.0, std::ceil(std::log10(most / (good * largest)))));
+}
+
+}  // namespace scabo::analysis
