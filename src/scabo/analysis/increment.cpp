@@ -195,7 +195,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   if (result.accepted) result.beyond = slid_beyond_sides(prepared, to);
   if (result.accepted && result.beyond.empty())
-    result.beyond = lost_on_soft_springs(prepared, to, result.solution, posed.drawn);
+    result.beyond = lost_on_soft_springs(prepared, to, result.problem, result.solution, posed.drawn);
   result.accepted = result.accepted && result.beyond.empty();
   return result;
 }

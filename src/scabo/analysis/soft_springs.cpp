@@ -9,14 +9,22 @@ namespace scabo::analysis {
 
 namespace {
 
-/// Of the largest displacement, by which motions may differ: forces are wrong by 1 % at three times this.
-constexpr double allowed = 1e-6;
-constexpr double good = 1e-8;  // what stiffer springs should reach; the difference falls with their stiffness
+constexpr double allowed = 3e-5;  // of the largest displacement: what motions of pairs may be wrong by
+constexpr double good = 1e-7;     // what stiffer springs should reach; the difference falls with their stiffness
+
+/// By how much a pair moves against its law: into the other side, where it sticks, or along its friction.
+double against_the_law(const contact::Problem& problem, const contact::Solution& solution, Eigen::Index i) {
+  const contact::ContactState state = solution.states[static_cast<std::size_t>(i)];
+  const double gap = solution.gap[i], slip = solution.slip_increment[i];
+  const bool slips_wrongly = state == contact::ContactState::stick ||
+                             (state == contact::ContactState::slip && solution.p[2 * i + 1] * slip > 0.0);
+  return std::max(std::isinf(problem.tension_of(i)) ? 0.0 : -gap, slips_wrongly ? std::abs(slip) : 0.0);
+}
 
 }  // namespace
 
-std::string lost_on_soft_springs(const Prepared& prepared, const State& to, const contact::Solution& solution,
-                                 const Vector& drawn) {
+std::string lost_on_soft_springs(const Prepared& prepared, const State& to, const contact::Problem& problem,
+                                 const contact::Solution& solution, const Vector& drawn) {
   const auto& parts = prepared.structure.parts;
   if (std::none_of(parts.begin(), parts.end(), [](const auto& part) { return part->has_springs(); })) return {};
   Vector motion = drawn;
@@ -34,9 +42,10 @@ std::string lost_on_soft_springs(const Prepared& prepared, const State& to, cons
     const bool on_springs_a = part_of(prepared, contact.a.body).has_springs();
     if (!on_springs_a && !part_of(prepared, contact.b.body).has_springs()) continue;
     const auto k = static_cast<Eigen::Index>(i);
-    const double apart =
-        std::max(std::abs(motion[2 * k] - solution.gap[k]), std::abs(motion[2 * k + 1] - solution.slip_increment[k]));
-    if (apart > most) most = apart, body = on_springs_a ? contact.a.body : contact.b.body;
+    const double wrong =
+        std::max({std::abs(motion[2 * k] - solution.gap[k]), std::abs(motion[2 * k + 1] - solution.slip_increment[k]),
+                  against_the_law(problem, solution, k)});
+    if (wrong > most) most = wrong, body = on_springs_a ? contact.a.body : contact.b.body;
   }
   if (!(most > allowed * largest)) return {};
   return fmt::format(
