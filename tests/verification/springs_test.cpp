@@ -431,5 +431,25 @@ TEST(Springs, ThatAreTooSoftBesideAContactAreNotSolved) {
   }
 }
 
+// Ground at rest under its initial stress on a spring: displacements are rounding, and what they say of pairs is
+// nothing.
+TEST(Springs, UnderBodiesAtRestLoseNothing) {
+  const auto solution = run(R"(
+scabo: 1
+analysis: {plane: strain}
+materials: {s: {young: 1e9, poisson: 0.25}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-3, -1], size: [6, 1]}}}
+  block: {material: s, shape: {rectangle: {corner: [-1, 0], size: [2, 1]}}, mesh: {kind: polygons, size: 0.3}}
+supports: [{on: floor, fix: [x, y]}]
+springs: [{on: block.right, k_n: 1e5, k_t: 1e5}]
+loads:
+  before: {on: block, field: {stress: [0, -1e6, 0]}}
+  press: {on: block.top, pressure: 1e6}
+contacts: {base: {between: [floor.top, block.bottom], friction: 0.3}}
+)");
+  EXPECT_NEAR(contact_of(last(solution)).normal_force, 2e6, 1.0);
+}
+
 }  // namespace
 }  // namespace scabo::verification

@@ -28,12 +28,15 @@ std::string lost_on_soft_springs(const Prepared& prepared, const State& to, cons
   const auto& parts = prepared.structure.parts;
   if (std::none_of(parts.begin(), parts.end(), [](const auto& part) { return part->has_springs(); })) return {};
   Vector motion = drawn;
-  double largest = 0.0;
+  double largest = 0.0, stiffest = 0.0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (prepared.is_absent(p) || to.u[p].size() == 0) continue;
     motion.noalias() += prepared.contact.motion[p] * to.u[p];
     largest = std::max(largest, to.u[p].lpNorm<Eigen::Infinity>());
+    stiffest = std::max(stiffest, parts[p]->stiff_force(Vector::Ones(to.u[p].size())));
   }
+  // Bodies may rest under large forces: a force then stands for the displacement that it would cause at one node.
+  if (stiffest > 0.0) largest = std::max(largest, solution.p.lpNorm<Eigen::Infinity>() / stiffest);
   double most = 0.0;
   int body = -1;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
