@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/near_collapse.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/quantities.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
@@ -36,7 +37,8 @@ Rounded most_rounded_part(const Prepared& prepared, const State& state) {
 }  // namespace
 
 void add_warnings(const Prepared& prepared, const Reached& reached, const IncrementResult& at,
-                  std::vector<Warning>& warnings) {
+                  StaticSolution& solution) {
+  std::vector<Warning>& warnings = solution.warnings;
   const auto add = [&](WarningKind kind, const std::string& subject, const std::string& sentence) {
     for (const Warning& warning : warnings)
       if (warning.kind == kind && warning.subject == subject) return;
@@ -76,6 +78,9 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   }
   if (const std::string large = too_large(prepared, reached.state); !large.empty())
     add(WarningKind::large_displacement, "", large);
+  if (const std::string close = near_collapse(prepared, reached.state, solution, static_cast<std::size_t>(at.step) - 1);
+      !close.empty())
+    add(WarningKind::near_collapse, "", close);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
     add(WarningKind::no_reference, "", relative);
   for (const Warning& warning : crack_warnings(at.cracks)) add(warning.kind, warning.subject, warning.text);

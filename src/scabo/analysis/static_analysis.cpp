@@ -193,7 +193,7 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
     result.increment = k;
     result.reached = reached.part == 1.0 ? end : begin + reached.part * (end - begin);
     result.pairs_found = found;
-    if (there) add_warnings(prepared, reached, result, solution.warnings);
+    if (there) add_warnings(prepared, reached, result, solution);
     if (there && large) add_slid_off(*large, reached.state, result, solution);
     solution.increments.push_back(std::move(result));
     if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);

@@ -32,6 +32,8 @@ const char* name_of(WarningKind kind) {
       return "slender";
     case WarningKind::large_displacement:
       return "large_displacement";
+    case WarningKind::near_collapse:
+      return "near_collapse";
     case WarningKind::no_reference:
       return "no_reference";
     case WarningKind::crack:

@@ -21,6 +21,7 @@ enum class WarningKind {
   rounding,  ///< of the stiffness of a slender body or of stiff springs, or of a load far larger than another
   slender,   ///< a slender super-element whose sides are too long for its order to bend
   large_displacement,
+  near_collapse,  ///< friction dissipates more than bodies store that only contact holds
   no_reference,  ///< an unbounded body under a resultant, without a reference point
   crack,         ///< stress intensity factors that are undefined or not resolved; overlapping faces
   infinite_stress,

@@ -91,8 +91,7 @@ class Path {
   /// At t = 0: whether that was the last round; else the next one begins, with the softness taken back and the bodies
   /// held less.
   bool ends_round() {
-    const Vector before = std::exchange(arrived_, at_.z());
-    arrived_at_ = at_.point();
+    const std::optional<PathSystem::Point> before = std::exchange(arrived_, at_.point());
     loosened_by_ = held_ > 2.0 * least_hold ? least_hold / held_ : 1.0;
     held_ *= loosened_by_;
     const double error = at_.take_softness_back(loosened_by_);
@@ -102,7 +101,7 @@ class Path {
     same_ = same ? same_ + 1 : 0;
     if (same_ == most_same) {
       falls_ = true;
-      end_.motion = (arrived_ - before).tail(before.size() - 2 * at_.pairs()).normalized();
+      end_.motion = (arrived_->z - before->z).tail(before->z.size() - 2 * at_.pairs()).normalized();
       end_.left = error;
       return true;
     }
@@ -124,11 +123,11 @@ class Path {
   }
 
   /// Whether the path that lets the bodies go has ended before t = 0, and may once more do so by less at a time.
-  bool may_loosen_less() const { return arrived_.size() > 0 && loosened_by_ < little && !options_.deadline.passed(); }
+  bool may_loosen_less() const { return arrived_ && loosened_by_ < little && !options_.deadline.passed(); }
 
   void loosen_less() {
     held_ *= little / loosened_by_;
-    at_.begin_at(arrived_at_, little / loosened_by_);
+    at_.begin_at(*arrived_, little / loosened_by_);
     loosened_by_ = little;
     begins_round();
   }
@@ -156,8 +155,8 @@ class Path {
 
   /// The way on which the softness is taken back is as short as rounding; where it ends early, the point before counts.
   PathEnd finish(PathEnd::How how) {
-    if (arrived_.size() > 0 && !falls_) how = PathEnd::How::arrived;
-    const Vector& z = arrived_.size() > 0 ? arrived_ : at_.z();
+    if (arrived_ && !falls_) how = PathEnd::How::arrived;
+    const Vector& z = arrived_ ? arrived_->z : at_.z();
     end_.how = how;
     end_.p = z.head(2 * at_.pairs());
     end_.a = z.tail(z.size() - end_.p.size());
@@ -173,7 +172,7 @@ class Path {
   void polish() {
     std::size_t before = static_cast<std::size_t>(at_.pairs());
     while (at_.place() && !has_gone_astray()) {
-      arrived_ = at_.z();
+      arrived_ = at_.point();
       const std::vector<PathSystem::Change> changes = impossible_states(beyond_at_end);
       const bool room = at_.replaced_rows() + 2 * static_cast<int>(changes.size()) <= at_.capacity();
       if (changes.empty() || changes.size() >= before || !room) return;
@@ -197,8 +196,8 @@ class Path {
              !((now - before).cwiseAbs().maxCoeff() <= most * before.cwiseAbs().maxCoeff() + least);
     };
     const Index forces = 2 * at_.pairs(), motions = at_.z().size() - forces;
-    return changed(at_.z().head(forces), arrived_.head(forces)) ||
-           changed(at_.z().tail(motions), arrived_.tail(motions));
+    return changed(at_.z().head(forces), arrived_->z.head(forces)) ||
+           changed(at_.z().tail(motions), arrived_->z.tail(motions));
   }
 
   /// Paths that arrive lead away from their start soon; others pass thousands of limits beside it.
@@ -443,8 +442,7 @@ class Path {
   const PathOptions& options_;
   PathSystem at_;
   PathEnd end_;
-  Vector arrived_;  // z where t was 0, the softness not yet or only in part taken back; empty before
-  PathSystem::Point arrived_at_;
+  std::optional<PathSystem::Point> arrived_;  // where t was 0, the softness not yet or only in part taken back
   std::optional<Next> passed_;  // the limit that the path has just come from
   bool endless_ = false;        // t stands still while the bodies move
   double begun_at_ = 1.0;       // what t = 1 of the path at hand was of the first one
