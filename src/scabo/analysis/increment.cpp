@@ -9,7 +9,7 @@
 #include "scabo/analysis/branch.hpp"
 #include "scabo/analysis/increment_balance.hpp"
 #include "scabo/analysis/increment_loads.hpp"
-#include "scabo/analysis/soft_springs.hpp"
+#include "scabo/analysis/softly_held.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
 
 namespace scabo::analysis {
@@ -195,7 +195,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   if (result.accepted) result.beyond = slid_beyond_sides(prepared, to);
   if (result.accepted && result.beyond.empty())
-    result.beyond = lost_on_soft_springs(prepared, to, result.problem, result.solution, posed.drawn);
+    result.beyond = lost_where_softly_held(prepared, to, result.problem, result.solution, posed.drawn);
   result.accepted = result.accepted && result.beyond.empty();
   return result;
 }

@@ -117,7 +117,7 @@ struct Attempt {
   contact::Certificate certificate;
   double rounding = 0.0;  ///< possible share of rounding of the displacements in equilibrium and rigid balance
   std::string beyond;     ///< why a solution contradicts small displacements (beyond_sides.hpp) or the displacements of
-                          ///< its bodies (soft_springs.hpp); else empty
+                          ///< its bodies (softly_held.hpp); else empty
   bool accepted = false;
   contact::Problem problem;  ///< the problem solved, from `start`; W is shared, not copied
   contact::Start start;

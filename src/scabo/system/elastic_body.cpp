@@ -171,9 +171,9 @@ Matrix ElasticBody::flexibility_along(const std::vector<int>& dofs, bool refines
     A = Matrix::Zero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
     A(at, at) = of_solved;
   }
-  // The factor alone gives it to about this condition times the unit of rounding; on soft springs, contact takes most
-  // of it away again.
-  const double condition = has_springs() ? 1e4 : 1e7;
+  // The factor alone gives it to about its condition times the unit of rounding. Where soft springs or soft parts hold a
+  // body, contact takes most of it away again, and the error grows with the square.
+  const double condition = has_springs() ? 1e4 : 1e5;
   constexpr double most_entries = 1e9;  // some seconds
   const double entries = stiffness().entries() * static_cast<double>(at.size());
   if (refines && !at.empty() && factored_->largest_diagonal * A.diagonal().maxCoeff() > condition &&
