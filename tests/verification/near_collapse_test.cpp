@@ -74,6 +74,14 @@ TEST(NearCollapse, IsNotToldOfABlockThatASupportMoves) {
   EXPECT_GT(last(driven).energy.friction, 10.0 * last(driven).energy.elastic);
 }
 
+TEST(NearCollapse, IsNotToldOfABlockThatExpands) {
+  const analysis::StaticSolution heated =
+      run(block("", "", "  heat: {on: block, temperature: 60}\n", "", "loads: {weight: 1, push: 1, heat: 1}"),
+          {"materials.stone.expansion=1e-5"});
+  EXPECT_EQ(told(heated), "");
+  EXPECT_GT(last(heated).energy.friction, 10.0 * last(heated).energy.elastic);
+}
+
 TEST(NearCollapse, IsNotToldOfABlockThatSlidesAgainstASpring) {
   const analysis::StaticSolution sprung =
       run(block("", "springs:\n  - {on: block.right, k_n: 1e4}\n", "", "", "loads: {weight: 1, push: 2.1e4}"));

@@ -24,7 +24,15 @@ double friction_before(const Prepared& prepared, const StaticSolution& solution,
   return prepared.model.restart ? state_of_restart(prepared).energy.friction : 0.0;
 }
 
-/// Whether nothing but loads that grow steadily moves the bodies in a step.
+/// Whether temperatures change in a step: bodies that expand slide as far as they like.
+bool is_heated(const model::Model& model, const Factors& before, const Factors& now) {
+  for (std::size_t load = 0; load < model.loads.size(); ++load)
+    if (std::holds_alternative<model::Temperature>(model.loads[load].kind) && before.loads[load] != now.loads[load])
+      return true;
+  return false;
+}
+
+/// Whether nothing but forces that grow steadily moves the bodies in a step.
 bool only_loads_grow(const Prepared& prepared, const State& state, std::size_t index) {
   const model::Model& model = prepared.model;
   const model::Step& step = model.steps[index];
@@ -32,8 +40,9 @@ bool only_loads_grow(const Prepared& prepared, const State& state, std::size_t i
   if (!model.springs.empty() || !step.load_curves.empty() || !step.support_curves.empty() ||
       std::any_of(model.contacts.begin(), model.contacts.end(), slides_far))
     return false;
-  return prescribed_values(prepared, factors_in(model, index, 0.0).supports, {}) ==
-         prescribed_values(prepared, state.factors.supports, {});
+  const Factors before = factors_in(model, index, 0.0);
+  return !is_heated(model, before, state.factors) &&
+         prescribed_values(prepared, before.supports, {}) == prescribed_values(prepared, state.factors.supports, {});
 }
 
 /// Whether pairs that did not touch as the bodies are drawn do now.

@@ -17,29 +17,41 @@ Compliance::Compliance(const Problem& problem) : problem_(problem), diagonal_(pr
 Compliance::~Compliance() = default;
 
 double Compliance::of(Eigen::Index k) {
+  if (problem_.G.cols() == 0) return diagonal_[k];
+  const auto [at, is_new] = known_.try_emplace(k, 0.0);
+  if (is_new) at->second = std::max(in_balance(k), 0.0);
+  return at->second;
+}
+
+double Compliance::in_balance(Eigen::Index k) {
   const RigidMap::Sparse& G = problem_.G.sparse();
-  if (G.cols() == 0) return diagonal_[k];
-  const auto [at, is_new] = known_.try_emplace(k, diagonal_[k]);
-  if (!is_new) return at->second;
-  Vector v = Vector::Unit(G.rows(), k);
+  Vector v = Vector::Unit(G.rows(), k), a = Vector::Zero(G.cols());  // v = e_k - G a
   Vector resultants = G.transpose() * v;
-  if (resultants.isZero(0.0)) return at->second;
-  if (!rigid_) {
-    Eigen::SparseMatrix<double> B = G.transpose() * G;
-    length_ = Vector(B.diagonal()).cwiseSqrt().cwiseMax(1e-300);
-    const Vector inverse = length_.cwiseInverse();
-    B = inverse.asDiagonal() * B * inverse.asDiagonal();
-    Eigen::SparseMatrix<double> identity(B.rows(), B.cols());
-    identity.setIdentity();
-    B += softness * identity;
-    rigid_ = std::make_unique<linalg::SymmetricPositiveSolver>(B);
-  }
+  if (resultants.isZero(0.0)) return diagonal_[k];
+  if (!rigid_) factorise();
   for (int round = 0; round < 3; ++round) {
-    const Vector y = rigid_->solve(Matrix(resultants.cwiseQuotient(length_))).col(0);
-    v -= G * y.cwiseQuotient(length_);
+    a += rigid_->solve(Matrix(resultants.cwiseQuotient(length_))).col(0).cwiseQuotient(length_);
+    v = Vector::Unit(G.rows(), k) - G * a;
     resultants = G.transpose() * v;
   }
-  return at->second = std::max(v.dot(problem_.W.times(v)), 0.0);
+  if (problem_.W.is_sparse()) return v.dot(problem_.W.times(v));
+  if (of_motions_.size() == 0) {  // few bodies: a product for each motion, not for each pair
+    of_motions_ = problem_.W.times(Matrix(G));
+    between_motions_ = G.transpose() * of_motions_;
+  }
+  return diagonal_[k] - 2.0 * of_motions_.row(k).dot(a) + a.dot(between_motions_ * a);
+}
+
+void Compliance::factorise() {
+  const RigidMap::Sparse& G = problem_.G.sparse();
+  Eigen::SparseMatrix<double> B = G.transpose() * G;
+  length_ = Vector(B.diagonal()).cwiseSqrt().cwiseMax(1e-300);
+  const Vector inverse = length_.cwiseInverse();
+  B = inverse.asDiagonal() * B * inverse.asDiagonal();
+  Eigen::SparseMatrix<double> identity(B.rows(), B.cols());
+  identity.setIdentity();
+  B += softness * identity;
+  rigid_ = std::make_unique<linalg::SymmetricPositiveSolver>(B);
 }
 
 }  // namespace scabo::contact

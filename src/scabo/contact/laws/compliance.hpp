@@ -31,10 +31,14 @@ class Compliance {
   double of(Eigen::Index k);
 
  private:
+  double in_balance(Eigen::Index k);
+  void factorise();
+
   const Problem& problem_;
   Vector diagonal_;
   std::unique_ptr<linalg::SymmetricPositiveSolver> rigid_;  // of G'G, columns of length 1
   Vector length_;                                           // of the columns of G
+  Matrix of_motions_, between_motions_;                     // W G and G'W G, where W is not sparse
   std::map<Eigen::Index, double> known_;
 };
 
