@@ -610,7 +610,7 @@ MUTATIONS = {
         'if (!MUTATED) energy.external += turned;',
         'verification_histories Cycles*'),
     152: ('contact/laws/evolution.cpp',
-        'equivalent_force(ends.opening[i], compliance.of(first), mean)',
-        'equivalent_force(ends.opening[i], MUTATED ? compliance.diagonal()[first] : compliance.of(first), mean)',
+        'along += compliance.of(first + t) / (dimension - 1);',
+        'along += (MUTATED ? compliance.diagonal()[first + t] : compliance.of(first + t)) / (dimension - 1);',
         'verification_tests Laws*'),
 }
