@@ -13,7 +13,7 @@ as in run.py, peak memory, iterations, certificate.
 import argparse
 import pathlib
 
-import increments
+import measure
 
 HEAD = """scabo: 1
 analysis: {{plane: strain}}
@@ -64,13 +64,11 @@ def main():
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for kind in options.kinds:
         for pairs in options.pairs.split(","):
-            seconds, summary = increments.user_seconds(options.scabo, model_of(kind, int(pairs), options.friction))
-            of, increment = summary["of"], summary["increments"][0]
-            joint = increment["contacts"]["joint"]
-            worst = max(v for v in increment["certificate"].values() if isinstance(v, float))
-            print(f"| {kind} | {summary['model']['dofs']} | {summary['model']['contact_pairs']} | {of['factorise']:.2f} | {of['condense']:.2f} | "
-                  f"{of['newton']:.2f} | {seconds:.1f} | {summary['peak_memory_bytes'] / 1e9:.2f} | {joint['open']}, {joint['stick']}, {joint['slip']} | "
-                  f"{increment['newton_iterations']} ({increment.get('coarse_iterations', 0)}) | {worst:.1e} |", flush=True)
+            result = measure.run(options.scabo, model_of(kind, int(pairs), options.friction), seconds=1000.0)
+            of, model = result["processor_of"], result["model"]
+            print(f"| {kind} | {model['dofs']} | {model['contact_pairs']} | {of['factorise']:.2f} | {of['condense']:.2f} | {of['newton']:.2f} | "
+                  f"{result['processor']:.1f} | {result['peak'] / 1e9:.2f} | {', '.join(map(str, result['states']['joint']))} | "
+                  f"{result['iterations'][0]} ({result['coarse_iterations'][0]}) | {result['certificate']:.1e} |", flush=True)
 
 
 if __name__ == "__main__":

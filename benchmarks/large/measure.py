@@ -142,6 +142,8 @@ def run(scabo, text, threads=1, seconds=300.0, gigabytes=10.0, words=()):
                 "files": sum(file.stat().st_size for file in results.rglob("*") if file.is_file()),
                 "iterations": [increment["newton_iterations"] for increment in summary["increments"]],
                 "coarse_iterations": [increment["coarse_iterations"] for increment in summary["increments"]],
+                "states": {name: tuple(contact[state] for state in ("open", "stick", "slip"))
+                           for name, contact in summary["increments"][-1]["contacts"].items()},
                 "certificate": max(event["certificate"] or 0.0 for _, _, event in watch.events if event["event"] == "increment_end"),
                 "plan": next(event for _, _, event in watch.events if event["event"] == "plan"),
                 "threads": threads, "load": os.getloadavg()[0]}

@@ -91,6 +91,16 @@ Posed pose(const Prepared& prepared, const State& from, const Factors& factors, 
   return posed;
 }
 
+/// What of a state follows from the solution of its contact problem without further solves.
+void take(const State& from, const contact::Solution& solution, contact::History history, State& to) {
+  to.history = std::move(history);
+  to.p = solution.p;
+  to.a = solution.a;
+  to.gap = solution.gap;
+  to.slip = from.slip + solution.slip_increment;
+  to.states = solution.states;
+}
+
 /// Supports on both sides may hold a pair; they must not press its points into each other. `motion`: of these pairs.
 void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
@@ -172,19 +182,26 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.start = {from.p, from.a, touching_pairs(prepared)};
   result.force_scale = options.force_scale;
   const contact::JointLaws laws = laws_at(prepared, factors);
-  contact::Evolution evolution = contact::evolve(problem, laws, from.history, result.start, options);
-  if (prepared.model.solver.uniqueness && N > 0)
-    result.uniqueness = follow_history(problem, laws, from.history, result.start, options, evolution);
-  result.solution = std::move(evolution.solution);
-  result.problem = std::move(evolution.problem);
-  give_smoothest_forces(prepared, result.problem, result.start, options, result.solution);
-  to.history = std::move(evolution.history);
-  to.p = result.solution.p;
-  to.a = result.solution.a;
-  to.gap = result.solution.gap;
-  to.slip = from.slip + result.solution.slip_increment;
-  to.states = result.solution.states;
-  std::vector<Balance> balances = add_displacements(prepared, nullptr, to);
+  std::vector<Balance> balances;
+  std::optional<SoftlyHeld> soft;
+  constexpr int most_corrections = 3;
+  for (int round = 0;; ++round) {
+    const int iterations = result.solution.iterations;
+    contact::Evolution evolution = contact::evolve(problem, laws, from.history, result.start, options);
+    if (prepared.model.solver.uniqueness && N > 0)
+      result.uniqueness = follow_history(problem, laws, from.history, result.start, options, evolution);
+    result.solution = std::move(evolution.solution);
+    result.solution.iterations += iterations;
+    result.problem = std::move(evolution.problem);
+    give_smoothest_forces(prepared, result.problem, result.start, options, result.solution);
+    take(from, result.solution, std::move(evolution.history), to);
+    balances = add_displacements(prepared, nullptr, to);
+    if (result.solution.status != contact::Status::solved) break;
+    soft = softly_held(prepared, to, result.problem, result.solution, posed.drawn);
+    if (!soft || !(soft->wrong > SoftlyHeld::good) || round == most_corrections) break;
+    problem.q += soft->difference;
+    result.start = {result.solution.p, result.solution.a, result.start.touching};
+  }
   to.energy = energy_between(prepared, from, to, balances);
   result.certificate = result.solution.certificate;
   to.largest_force = std::max(from.largest_force, largest_force(to));
@@ -194,8 +211,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.accepted = result.solution.status == contact::Status::solved &&
                     result.certificate.worst() <= prepared.model.solver.tolerance;
   if (result.accepted) result.beyond = slid_beyond_sides(prepared, to);
-  if (result.accepted && result.beyond.empty())
-    result.beyond = lost_where_softly_held(prepared, to, result.problem, result.solution, posed.drawn);
+  result.lost = result.accepted && result.beyond.empty() && soft && soft->wrong > SoftlyHeld::allowed;
+  if (result.lost) result.beyond = lost_where_softly_held(prepared, *soft);
   result.accepted = result.accepted && result.beyond.empty();
   return result;
 }

@@ -118,6 +118,7 @@ struct Attempt {
   double rounding = 0.0;  ///< possible share of rounding of the displacements in equilibrium and rigid balance
   std::string beyond;     ///< why a solution contradicts small displacements (beyond_sides.hpp) or the displacements of
                           ///< its bodies (softly_held.hpp); else empty
+  bool lost = false;      ///< in rounding, whatever part of the loads acts (softly_held.hpp)
   bool accepted = false;
   contact::Problem problem;  ///< the problem solved, from `start`; W is shared, not copied
   contact::Start start;

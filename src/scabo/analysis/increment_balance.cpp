@@ -54,6 +54,8 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
   const auto& parts = prepared.structure.parts;
   const system::Balanced wanted = wanted_balance(prepared, to);
   std::vector<Balance> balances(parts.size());
+  to.u.clear();
+  to.reactions.clear();
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (prepared.is_absent(p)) {
       to.u.push_back(Vector::Zero(parts[p]->size()));
@@ -81,8 +83,6 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
 void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions) {
   state.forces = applied_forces(prepared, state.factors, state.released);
   state.prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
-  state.u.clear();
-  state.reactions.clear();
   add_displacements(prepared, without_motions, state);
 }
 

@@ -226,8 +226,8 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       if (reached.pairs_are_due) break;
       continue;
     }
-    const bool smaller_steps_may_help =
-        tried.solution.status != contact::Status::mechanism && tried.solution.status != contact::Status::collapse;
+    const bool smaller_steps_may_help = tried.solution.status != contact::Status::mechanism &&
+                                        tried.solution.status != contact::Status::collapse && !tried.lost;
     reached.stopped = smaller_steps_may_help && options.stop && *options.stop;
     if (reached.stopped) return reached;
     const bool in_vain = smaller_steps_may_help && may_halve && !large && is_far_from_solved(prepared, tried) &&

@@ -9,9 +9,7 @@ namespace scabo::analysis {
 
 namespace {
 
-constexpr double allowed = 3e-5;  // of the largest displacement: what motions of pairs may be wrong by
-constexpr double good = 1e-7;     // what stiffer parts should reach; the difference falls with their stiffness
-constexpr double soft = 1e6;      // flexibility of a pair times the stiffness of a body: held softly
+constexpr double soft = 1e4;  // flexibility of a pair times the stiffness of a body: held softly
 
 /// By how much a pair moves against its law: into the other side, where it sticks, or along its friction.
 double against_the_law(const contact::Problem& problem, const contact::Solution& solution, Eigen::Index i) {
@@ -22,66 +20,82 @@ double against_the_law(const contact::Problem& problem, const contact::Solution&
   return std::max(std::isinf(problem.tension_of(i)) ? 0.0 : -gap, slips_wrongly ? std::abs(slip) : 0.0);
 }
 
-std::string sentence(const Prepared& prepared, int body, double stiffer) {
-  const std::string& name = prepared.model.bodies[static_cast<std::size_t>(body)].name;
-  const char* lost =
-      "that its contact forces are lost in the rounding of how far the loads would move it without contact";
-  if (part_of(prepared, body).has_springs())
-    return fmt::format(
-        "the springs of body '{}' are so soft {}: leave these springs out, if contact holds the body, or make them "
-        "{:.0e} times as stiff",
-        name, lost, stiffer);
-  return fmt::format(
-      "body '{}' is held by parts so soft {}: leave the soft parts out, if contact holds the body, or make them {:.0e} "
-      "times as stiff",
-      name, lost, stiffer);
+/// Largest stiffness of a node, of every part; 0 of those that are absent or rigid.
+std::vector<double> stiffnesses(const Prepared& prepared, const State& state) {
+  const auto& parts = prepared.structure.parts;
+  std::vector<double> stiffness(parts.size(), 0.0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (!prepared.is_absent(p) && state.u[p].size() > 0)
+      stiffness[p] = parts[p]->stiff_force(Vector::Ones(state.u[p].size()));
+  return stiffness;
+}
+
+/// A pair and its body that is held softly.
+struct SoftPair {
+  Eigen::Index pair = 0;
+  int body = 0;
+};
+std::vector<SoftPair> soft_pairs(const Prepared& prepared, const contact::Problem& problem,
+                                 const std::vector<double>& stiffness) {
+  const Vector flexibility = problem.W.diagonal();
+  const auto is_soft = [&](int body, Eigen::Index pair) {
+    const std::size_t p = prepared.structure.dofs.part_of(body);
+    return prepared.structure.parts[p]->has_springs() ||
+           flexibility.segment<2>(2 * pair).maxCoeff() * stiffness[p] > soft;
+  };
+  std::vector<SoftPair> found;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const model::Contact& contact =
+        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
+    const auto pair = static_cast<Eigen::Index>(i);
+    if (is_soft(contact.a.body, pair))
+      found.push_back({pair, contact.a.body});
+    else if (is_soft(contact.b.body, pair))
+      found.push_back({pair, contact.b.body});
+  }
+  return found;
 }
 
 }  // namespace
 
-std::string lost_where_softly_held(const Prepared& prepared, const State& to, const contact::Problem& problem,
-                                   const contact::Solution& solution, const Vector& drawn) {
-  const auto& parts = prepared.structure.parts;
-  std::vector<double> stiffness(parts.size(), 0.0);
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    if (!prepared.is_absent(p) && to.u[p].size() > 0)
-      stiffness[p] = parts[p]->stiff_force(Vector::Ones(to.u[p].size()));
-  const Vector flexibility = problem.W.diagonal();
-  const auto held_softly = [&](int body, Eigen::Index pair) {
-    const std::size_t p = prepared.structure.dofs.part_of(body);
-    return parts[p]->has_springs() || flexibility.segment<2>(2 * pair).maxCoeff() * stiffness[p] > soft;
-  };
-  std::vector<std::pair<Eigen::Index, int>> judged;  // pairs, and the body that is held softly
-  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
-    const model::Contact& contact =
-        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
-    for (const int body : {contact.a.body, contact.b.body})
-      if (held_softly(body, static_cast<Eigen::Index>(i))) {
-        judged.emplace_back(i, body);
-        break;
-      }
-  }
-  if (judged.empty()) return {};
-  Vector motion = drawn;
+std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to, const contact::Problem& problem,
+                                      const contact::Solution& solution, const Vector& drawn) {
+  const std::vector<double> stiffness = stiffnesses(prepared, to);
+  const std::vector<SoftPair> pairs = soft_pairs(prepared, problem, stiffness);
+  if (pairs.empty()) return {};
+  SoftlyHeld held;
+  held.difference = drawn;
   double largest = 0.0;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  for (std::size_t p = 0; p < to.u.size(); ++p) {
     if (prepared.is_absent(p) || to.u[p].size() == 0) continue;
-    motion.noalias() += prepared.contact.motion[p] * to.u[p];
+    held.difference.noalias() += prepared.contact.motion[p] * to.u[p];
     largest = std::max(largest, to.u[p].lpNorm<Eigen::Infinity>());
   }
+  for (Eigen::Index i = 0; i < solution.gap.size(); ++i)
+    held.difference.segment<2>(2 * i) -= Vec2(solution.gap[i], solution.slip_increment[i]);
   // Bodies may rest under large forces: a force then stands for the displacement that it would cause at one node.
   const double stiffest = *std::max_element(stiffness.begin(), stiffness.end());
   if (stiffest > 0.0) largest = std::max(largest, solution.p.lpNorm<Eigen::Infinity>() / stiffest);
-  double most = 0.0;
-  int worst = 0;
-  for (const auto& [i, body] : judged) {
-    const double wrong =
-        std::max({std::abs(motion[2 * i] - solution.gap[i]), std::abs(motion[2 * i + 1] - solution.slip_increment[i]),
-                  against_the_law(problem, solution, i)});
-    if (wrong > most) most = wrong, worst = body;
+  for (const SoftPair& at : pairs) {
+    const double wrong = std::max(held.difference.segment<2>(2 * at.pair).lpNorm<Eigen::Infinity>(),
+                                  against_the_law(problem, solution, at.pair));
+    if (wrong > held.wrong * largest) held.wrong = wrong / largest, held.body = at.body;
   }
-  if (!(most > allowed * largest)) return {};
-  return sentence(prepared, worst, std::pow(10.0, std::ceil(std::log10(most / (good * largest)))));
+  return held;
+}
+
+std::string lost_where_softly_held(const Prepared& prepared, const SoftlyHeld& held) {
+  const model::Body& body = prepared.model.bodies[static_cast<std::size_t>(held.body)];
+  const char* lost = "its contact forces are lost in the rounding of how far the loads would move it without contact";
+  if (part_of(prepared, held.body).has_springs())
+    return fmt::format(
+        "the springs of body '{}' are so soft that {}: leave these springs out, if contact holds the body, or make "
+        "them stiffer",
+        body.name, lost);
+  return fmt::format(
+      "body '{}' is so slender, or held by parts so soft, that {}: leave soft parts out, if contact holds the body, or "
+      "make them stiffer; give a slender body fewer elements",
+      body.name, lost);
 }
 
 }  // namespace scabo::analysis

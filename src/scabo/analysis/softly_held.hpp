@@ -1,21 +1,38 @@
 // Contact forces that are lost in the rounding of how far a body would move without contact.
 //
-// Where soft springs, or parts that are far softer, alone hold a body, W p and q are each the way that contact forces
-// and loads would move it on them, which is many orders of magnitude more than it moves in contact. Their sum keeps the
-// digits that are left. The displaced bodies, found from the contact forces, tell how many: the motions of the pairs
-// that follow from them must be those of the contact problem. Its certificate measures gaps and slips by the way that
-// loads would move bodies without contact; here they are measured by the displacements.
+// A slender body that contact alone holds, or one that only soft springs or far softer parts hold, would move without
+// contact by many orders of magnitude more than it does: W p and q are each that large, and their sum keeps the digits
+// that are left. The displaced bodies, found from the contact forces, tell how many: the motions of the pairs that
+// follow from them must be those of the contact problem. Where they are not, the difference is added to q and the
+// problem solved again. Its certificate measures gaps and slips by the way that loads would move bodies without
+// contact; here they are measured by the displacements.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "scabo/analysis/increment.hpp"
 
 namespace scabo::analysis {
 
-/// Why the forces of a solution are not those of the displaced bodies `to`; empty where they are, and where no body in
-/// contact is held softly. `drawn`: 2N, motions of the pairs where no body is displaced.
-std::string lost_where_softly_held(const Prepared& prepared, const State& to, const contact::Problem& problem,
-                                   const contact::Solution& solution, const Vector& drawn);
+/// Of a solution with a body in contact that is held softly.
+struct SoftlyHeld {
+  Vector difference;  ///< 2N: motions of the pairs by the displaced bodies less those of the contact problem
+  /// The largest difference, or motion against the law, of pairs of bodies that are held softly, over the largest
+  /// displacement.
+  double wrong = 0.0;
+  int body = -1;  ///< the body where it is
+
+  static constexpr double good = 1e-6;     ///< of `wrong`: not worth another solve
+  static constexpr double allowed = 3e-5;  ///< of `wrong`: forces are lost beyond
+};
+
+/// Nothing where no body in contact is held softly. `to`: with its displacements; `drawn`: 2N, motions of the pairs
+/// where no body is displaced.
+std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to, const contact::Problem& problem,
+                                      const contact::Solution& solution, const Vector& drawn);
+
+/// Why the forces of a solution are lost.
+std::string lost_where_softly_held(const Prepared& prepared, const SoftlyHeld& held);
 
 }  // namespace scabo::analysis
