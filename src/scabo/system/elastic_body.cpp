@@ -174,9 +174,8 @@ Matrix ElasticBody::flexibility_along(const std::vector<int>& dofs, bool refines
   // The factor alone gives it to about its condition times the unit of rounding. Where soft springs or soft parts hold
   // a body, contact takes most of it away again, and the error grows with the square.
   const double condition = has_springs() ? 1e4 : 1e5;
-  constexpr double dire = 3e6;  // beyond, correcting the contact problem (analysis/softly_held) does not converge
+  constexpr double most_entries = 1e9;  // some seconds; above, analysis/softly_held corrects what it can
   const double here = at.empty() ? 0.0 : factored_->largest_diagonal * A.diagonal().maxCoeff();
-  const double most_entries = here > dire ? 1e10 : 1e9;  // half a minute, some seconds
   const double entries = stiffness().entries() * static_cast<double>(at.size());
   if (refines && here > condition && entries < most_entries) {
     const Vector none = Vector::Zero(size());
