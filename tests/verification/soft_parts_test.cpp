@@ -79,6 +79,8 @@ loads:
                                                               size));
     const analysis::IncrementResult& increment = last(solution);
     const analysis::Energy& energy = increment.energy;
+    EXPECT_EQ(increment.attempts.back().iterations.back().iteration,  // all rounds are in the history
+              increment.newton_iterations + increment.coarse_iterations);
     EXPECT_NEAR(energy.external, energy.elastic + energy.friction, 1e-6 * energy.elastic);
     // Thin layers that cannot widen: p^2 t / (2 M) and tau^2 t / (2 G) over their length, 481.1 and 26.7 J
     EXPECT_NEAR(energy.elastic, 507.8, 3.0);

@@ -101,6 +101,18 @@ void take(const State& from, const contact::Solution& solution, contact::History
   to.states = solution.states;
 }
 
+/// A solution with the iterations of those before it, which led to it.
+contact::Solution following(contact::Solution before, contact::Solution solution) {
+  for (contact::Iteration& iteration : solution.trace) {
+    iteration.iteration += before.iterations + before.coarse_iterations;
+    before.trace.push_back(std::move(iteration));
+  }
+  solution.trace = std::move(before.trace);
+  solution.iterations += before.iterations;
+  solution.coarse_iterations += before.coarse_iterations;
+  return solution;
+}
+
 /// Supports on both sides may hold a pair; they must not press its points into each other. `motion`: of these pairs.
 void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
@@ -186,12 +198,10 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   std::optional<SoftlyHeld> soft;
   constexpr int most_corrections = 3;
   for (int round = 0;; ++round) {
-    const int iterations = result.solution.iterations;
     contact::Evolution evolution = contact::evolve(problem, laws, from.history, result.start, options);
     if (prepared.model.solver.uniqueness && N > 0)
       result.uniqueness = follow_history(problem, laws, from.history, result.start, options, evolution);
-    result.solution = std::move(evolution.solution);
-    result.solution.iterations += iterations;
+    result.solution = following(std::move(result.solution), std::move(evolution.solution));
     result.problem = std::move(evolution.problem);
     give_smoothest_forces(prepared, result.problem, result.start, options, result.solution);
     take(from, result.solution, std::move(evolution.history), to);
