@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <random>
 #include <vector>
@@ -20,18 +21,19 @@ namespace {
 class Inverse {
  public:
   using Scalar = double;
-  Inverse(const Operator& inverse, Eigen::Index n) : inverse_(inverse), n_(n) {}
+  Inverse(const Operator& inverse, Eigen::Index n, double factor) : inverse_(inverse), n_(n), factor_(factor) {}
   Eigen::Index rows() const { return n_; }
   Eigen::Index cols() const { return n_; }
   void set_shift(double) {}
   void perform_op(const double* x, double* y) const {
     interruption_point();
-    Eigen::Map<Vector>(y, n_) = inverse_(Eigen::Map<const Vector>(x, n_));
+    Eigen::Map<Vector>(y, n_) = factor_ * inverse_(Eigen::Map<const Vector>(x, n_));
   }
 
  private:
   const Operator& inverse_;
   Eigen::Index n_;
+  double factor_;
 };
 
 class Product {
@@ -47,6 +49,13 @@ class Product {
  private:
   const Eigen::SparseMatrix<double>& B_;
 };
+
+/// A power of four near x > 0: scaling by it and by its root changes no digit.
+double power_of_four(double x) {
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return std::ldexp(1.0, 2 * (exponent / 2));
+}
 
 }  // namespace
 
@@ -70,19 +79,26 @@ EigenPairs largest_by_lanczos(const Operator& inverse, const Eigen::SparseMatrix
                               unsigned start) {
   const auto n = static_cast<int>(B.rows());
   ensure(count > 0 && count < n, "largest_by_lanczos: needs fewer eigenvalues than there are");
-  Inverse op(inverse, n);
-  Product product(B);
-  const int basis = std::min(n, std::max(2 * count + 1, count + 20));
-  Spectra::SymGEigsShiftSolver<Inverse, Product, Spectra::GEigsMode::ShiftInvert> solver(op, product, count, basis,
-                                                                                         0.0);
   std::mt19937 random(start + 1);
   Vector residual(n);
   for (double& value : residual) value = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
   residual = inverse(B * residual);  // no part outside the range of `inverse`
+  const auto size_of = [&](const Vector& x) { return std::sqrt(x.dot(B * x)); };
+  const double size = size_of(residual), next = size_of(inverse(B * residual));
+  ensure(size > 0.0 && next > 0.0, "largest_by_lanczos: the operator is not positive");
+  // Spectra compares eigenvalues and entries of vectors with fixed numbers. Here both are near 1 in all units.
+  const double values = power_of_four(next / size), masses = power_of_four(B.diagonal().mean());
+  const Eigen::SparseMatrix<double> scaled = B / masses;
+  Inverse op(inverse, n, masses / values);
+  Product product(scaled);
+  const int basis = std::min(n, std::max(2 * count + 1, count + 20));
+  Spectra::SymGEigsShiftSolver<Inverse, Product, Spectra::GEigsMode::ShiftInvert> solver(op, product, count, basis,
+                                                                                         0.0);
+  residual *= std::sqrt(masses) / size;
   solver.init(residual.data());
   solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-12, Spectra::SortRule::SmallestAlge);
   const Vector eigenvalues = solver.eigenvalues();
-  return {eigenvalues.cwiseInverse(), solver.eigenvectors()};
+  return {values * eigenvalues.cwiseInverse(), solver.eigenvectors() / std::sqrt(masses)};
 }
 
 int eigenvalues_below(const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatrix<double>& B, double shift) {

@@ -103,6 +103,23 @@ TEST(NaturalModes, LanczosFindsWhatTheDenseSolverFinds) {
   }
 }
 
+// Bodies of a millimetre in m, or in units of their own: the eigenvalues of Lanczos are 1e-12 or 1e15 then.
+TEST(NaturalModes, LanczosFindsThemInAllUnits) {
+  const mesh::BodyMesh square = grid(8, 8);
+  const auto constraints = held(square, true);
+  const Pair matrices = sparse(square);
+  const NaturalModes first = natural_modes(matrices.K, matrices.M, square.nodes, constraints, 25);
+  for (const auto& [stiffness, mass] : {std::pair(1e12, 1.0), {1e-15, 1.0}, {1.0, 1e-20}, {1e3, 1e40}, {1e-30, 1e-9}}) {
+    Pair other = sparse(square);
+    other.K.sparse *= stiffness;
+    other.M.sparse *= mass;
+    const NaturalModes modes = natural_modes(other.K, other.M, square.nodes, constraints, 25);
+    for (Eigen::Index k = 0; k < 25; ++k)
+      EXPECT_NEAR(modes.eigenvalues[k] / first.eigenvalues[k] * mass / stiffness, 1.0, 1e-10) << k;
+    EXPECT_LT(modes.residuals.maxCoeff(), 1e-12);
+  }
+}
+
 TEST(NaturalModes, RigidMotionsHaveNoStiffnessToRounding) {
   const element::Ring ring = polygon_ring(rectangle(6, 1.5), {16, 4, 16, 4}, 2);
   const auto solution = element::solve_super_element(ring, elasticity(1.0, 0.3), 1.0);
