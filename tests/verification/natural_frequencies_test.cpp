@@ -151,6 +151,7 @@ TEST_P(FirstFrequency, OfOneSuperElementIsTooHighByWhatIsSaidOfIt) {
 const double shear_speed = std::sqrt(210e9 / 2.6 / 7800.0), plane_stress_speed = std::sqrt(210e9 / 0.91 / 7800.0),
              plane_strain_speed = std::sqrt(210e9 * 0.7 / (1.3 * 0.4) / 7800.0);
 const std::string left = "{on: plate.left, fix: [x, y]}", right = "{on: plate.right, fix: [x, y]}",
+                  bottom = "{on: plate.bottom, fix: [x, y]}", top = "{on: plate.top, fix: [x, y]}",
                   roll_left = "{on: plate.left, fix: [x]}", roll_right = "{on: plate.right, fix: [x]}",
                   roll_bottom = "{on: plate.bottom, fix: [y]}", roll_top = "{on: plate.top, fix: [y]}";
 const std::vector<std::string> all_edges = {roll_left, roll_right, roll_bottom, roll_top};
@@ -169,7 +170,9 @@ INSTANTIATE_TEST_SUITE_P(
         Held{"square_rollers_all_around", "[1, 1]", all_edges, shear_speed / std::numbers::sqrt2, 16.69},
         Held{"rectangle_rollers_all_around", "[2, 1]", all_edges, plane_stress_speed / 4.0, 20.95},
         Held{"rectangle_rollers_all_around_plane_strain", "[2, 1]", all_edges, plane_strain_speed / 4.0, 23.92,
-             "strain"}),
+             "strain"},
+        Held{"rectangle_between_built_in_long_edges", "[2, 1]", {bottom, top}, 1535.41, 25.79},
+        Held{"square_built_in_and_rollers", "[1, 1]", {left, right, roll_bottom, roll_top}, 2719.64, 32.56}),
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(NaturalFrequencies, OfASlenderBeamTendToEulersBeam) {
