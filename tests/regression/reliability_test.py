@@ -1,4 +1,5 @@
 """What a run does when the machine denies it something: memory, streams, a directory, the disk; and when it is told to end."""
+import importlib.util
 import os
 import resource
 import signal
@@ -22,6 +23,10 @@ def limited(kind, value):
 def run(*arguments, before=None, **options):
     return subprocess.run([support.SCABO, *map(str, arguments)], preexec_fn=before, stdin=subprocess.DEVNULL, text=True,
                           timeout=LONG, **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
+
+
+def has_matplotlib():
+    return importlib.util.find_spec("matplotlib") is not None
 
 
 @unittest.skipIf("SCABO_SANITIZED" in os.environ, "the address sanitizer reserves terabytes of address space")
@@ -60,6 +65,19 @@ class Memory(support.InTemporaryDirectory):
         ended = run("run", wall, "-q", "-o", self.directory / "out", before=limited(resource.RLIMIT_AS, 370_000 * 1024),
                     env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
         self.assertEqual(ended.returncode, SOLVED, ended.stderr)
+
+
+    @unittest.skipUnless(has_matplotlib(), "needs Matplotlib")
+    def test_pictures_end_with_a_sentence(self):
+        # NumPy's OpenBLAS waited for ever for the buffer that its first product needs.
+        results = self.directory / "out"
+        run("run", BEAM, "-q", "-o", results)
+        for kilobytes in (240_000, 247_000, 254_000, 261_000, 268_000):
+            with self.subTest(kilobytes=kilobytes):
+                ended = run("plot", results, "--what", "stress", before=limited(resource.RLIMIT_AS, kilobytes * 1024))
+                self.assertIn(ended.returncode, (SOLVED, FAILURE), ended.stderr)
+                if ended.returncode == FAILURE:
+                    self.assertRegex(ended.stderr, r"^scabo( plot)?: not enough memory.*\n$")
 
 
 class Streams(support.InTemporaryDirectory):

@@ -7,7 +7,10 @@ import pathlib
 import sys
 import warnings
 
+from . import memory
+
 KINDS = ("stress", "contact", "convergence", "mesh", "history", "mechanism")
+NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
 FORMATS = (".png", ".svg", ".pdf")
 APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress", "mechanism"),
            "window": ("stress", "mesh", "mechanism"), "units": ("stress", "contact", "mesh", "history", "mechanism")}  # options that mean something for few kinds
@@ -51,7 +54,12 @@ def main(words=None):
         from . import style
         from .results import ResultsError
         from .units import UnitsError
+        memory.take_blas_buffer()
+    except MemoryError:
+        return complain(NO_MEMORY, 3)
     except ImportError as error:
+        if memory.is_shortage(error):
+            return complain(NO_MEMORY, 3)
         return complain(f"{error}: install NumPy and Matplotlib (apt install python3-matplotlib), or name another interpreter with "
                         "SCABO_PYTHON", 3)
     warnings.filterwarnings("ignore", message="Glyph .* missing")
@@ -63,6 +71,8 @@ def main(words=None):
         return complain(error, 1)
     except OSError as error:
         return complain(f"cannot write {error.filename or 'the picture'}: {error.strerror}", 3)
+    except MemoryError:
+        return complain(NO_MEMORY, 3)
     except KeyboardInterrupt:
         return 130
 
