@@ -1,6 +1,7 @@
 """What a run does when the machine denies it something: memory, streams, a directory, the disk; and when it is told to end."""
 import importlib.util
 import os
+import pathlib
 import resource
 import signal
 import subprocess
@@ -99,6 +100,20 @@ class Streams(support.InTemporaryDirectory):
                 self.assertEqual(ended.returncode, SOLVED, ended.stderr)
                 self.assertEqual(self.files("out"), self.files("whole"))
                 self.assertEqual(summary_of(self.directory / "out")["status"], "solved")
+
+    @unittest.skipUnless(has_matplotlib(), "needs Matplotlib")
+    def test_pictures_and_pages_are_files(self):
+        self.shell('"$SCABO" run "$BEAM" -q -o out')
+        page = (pathlib.Path(support.SCABO).resolve().parents[1] / "share/scabo/report_template.html").exists()
+        for command in ("plot out -o out.png --what contact", *(["report out -o out.html"] if page else [])):
+            file = self.directory / command.split()[3]
+            for streams in (">&-", ">/dev/full", ">&- 2>&-", ">/dev/full 2>/dev/full", "| true", "2>&1 | true"):
+                with self.subTest(command=command, streams=streams):
+                    file.unlink(missing_ok=True)
+                    ended = self.shell(f'"$SCABO" {command} {streams}')
+                    self.assertEqual(ended.returncode, SOLVED, ended.stderr)
+                    self.assertRegex(ended.stderr, r"^(scabo \w+: warning: cannot write to standard output: .* complete\n)?$")
+                    self.assertGreater(file.stat().st_size, 1000)
 
     def test_a_text_that_is_the_answer_must_be_written(self):
         for command in ('schema', 'check "$BEAM"', 'exponents "$BEAM"', '--version', '--help', 'run --help'):

@@ -7,7 +7,7 @@ import pathlib
 import sys
 import warnings
 
-from . import memory
+from . import memory, screen
 
 KINDS = ("stress", "contact", "convergence", "mesh", "history", "mechanism")
 NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
@@ -38,8 +38,12 @@ def parser():
 
 
 def complain(message, status):
-    print(f"scabo plot: {message}", file=sys.stderr)
+    screen.complain("scabo plot", message)
     return status
+
+
+def show(path):
+    screen.show("scabo plot", path, "the pictures are")
 
 
 def main(words=None):
@@ -147,7 +151,7 @@ def write(options):
         except NothingToDraw as error:
             if options.what == kind or options.contact and kind == "contact":
                 raise
-            print(f"no picture of {kind}: {error}", file=sys.stderr)
+            screen.write(sys.stderr, f"no picture of {kind}: {error}")
     if not drawn:
         raise NothingToDraw(f"{options.directory}: has nothing to draw")
     for figure in drawn.values():
@@ -182,7 +186,7 @@ def write_sweep(options):
     directory = options.directory.resolve()
     path = options.output or options.directory.parent / f"{directory.name.removesuffix('.sweep')}.sweep.png"
     figure.savefig(path)
-    print(path)
+    show(path)
     return 0
 
 
@@ -198,7 +202,7 @@ def save(drawn, options):
         with PdfPages(output) as pages:
             for figure in drawn.values():
                 pages.savefig(figure)
-        print(output)
+        show(output)
         return
     for kind, figure in drawn.items():
         if output is None:
@@ -209,4 +213,4 @@ def save(drawn, options):
         else:
             path = output if options.what != "all" else output.with_name(f"{output.stem}.{kind}{output.suffix}")
         figure.savefig(path)
-        print(path)
+        show(path)

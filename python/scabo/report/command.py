@@ -1,6 +1,7 @@
 """The command line of reports, `scabo report`. Exit status 0: the page was written; 1: the command line or the directory is wrong;
 3: the page cannot be written."""
 import argparse
+import contextlib
 import pathlib
 import sys
 
@@ -22,7 +23,8 @@ def parser():
 
 
 def complain(message, status):
-    print(f"scabo report: {message}", file=sys.stderr)
+    with contextlib.suppress(OSError):  # where standard error cannot be written the status remains
+        print(f"scabo report: {message}", file=sys.stderr, flush=True)
     return status
 
 
@@ -33,7 +35,7 @@ def main(words=None):
         return end.code
     try:
         from . import page
-        from .reading import ResultsError, UnitsError
+        from .reading import ResultsError, UnitsError, screen
     except ImportError as error:
         return complain(f"{error}: install NumPy (apt install python3-numpy), or name another interpreter with SCABO_PYTHON", 3)
     try:
@@ -47,5 +49,5 @@ def main(words=None):
     except KeyboardInterrupt:
         return 130
     if not options.quiet:
-        print(path)
+        screen.show("scabo report", path, "the page is")
     return 0
