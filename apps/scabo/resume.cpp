@@ -3,6 +3,7 @@
 
 #include "cluster.hpp"
 #include "commands.hpp"
+#include "scabo/base/impossible_path.hpp"
 #include "scabo/input/settings.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/version.hpp"
@@ -54,6 +55,7 @@ ExitStatus resume(const ResumeOptions& options, Cluster* cluster, Events& events
   const auto start = std::chrono::steady_clock::now();
   const std::string name = options.directory.string();
   std::error_code error;
+  if (const std::string why = impossible_path(options.directory); !why.empty()) refuse(name, why);
   if (!fs::is_directory(options.directory, error))
     refuse(name, fs::exists(options.directory, error)
                      ? "is a file, not a directory: name the results directory of a run"

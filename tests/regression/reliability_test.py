@@ -261,6 +261,16 @@ class Places(support.InTemporaryDirectory):
                 self.assertEqual(len(ended.stderr.splitlines()), 1, ended.stderr)
         self.assertEqual((self.directory / "file").read_text(), "mine")
 
+    def test_files_that_cannot_be_read(self):
+        (self.directory / "loop").symlink_to("loop")
+        for path, text in (("loop", "form a loop"), ("loop/part", "form a loop"), ("n" * 300, "the name is too long")):
+            for command in ("run", "check", "exponents", "resume", "contact", "convert", "report",
+                            *(["plot"] if has_matplotlib() else [])):
+                with self.subTest(command=command, path=path[:10]):
+                    ended = scabo(command, path, cwd=self.directory)
+                    self.assertEqual((ended.returncode, ended.stdout), (WRONG_INPUT, ""), ended.stderr)
+                    self.assertRegex(ended.stderr, rf"^(scabo \w+: )?{path}:.* {text}\n$")
+
     def test_model_files_that_cannot_be(self):
         (self.directory / "loop.yaml").symlink_to("loop.yaml")
         for name, text in (("loop.yaml", "form a loop"), ("n" * 300 + ".yaml", "name is too long")):

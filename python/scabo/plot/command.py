@@ -124,10 +124,11 @@ def figures(options, results, increment):
 
 
 def write(options):
-    from .results import NothingToDraw, Results, ResultsError
+    from .results import NothingToDraw, Results, ResultsError, refuse_impossible
     from .sweeps import Sweep
     if options.output is not None and options.output.suffix.lower() not in FORMATS:
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
+    refuse_impossible(options.directory)
     if options.what == "all" and options.component is not None and not Sweep.is_in(options.directory):
         raise ResultsError(f"--component {options.component}: say of what, as in --what stress")
     if options.scale is not None and not 0 <= options.scale < math.inf:

@@ -1,5 +1,6 @@
 """A results directory as arrays (docs/results.md). Nothing is computed here that the program has not written."""
 import csv
+import errno
 import functools
 import json
 import pathlib
@@ -20,6 +21,17 @@ class NothingToDraw(ResultsError):
     """The results are sound, but have nothing of this kind."""
 
 
+def refuse_impossible(directory):
+    """Where nothing can be, whatever is written or read there."""
+    try:
+        directory.stat()
+    except OSError as error:
+        if error.errno == errno.ELOOP:
+            raise ResultsError(f"{directory}: the symbolic links in its path form a loop") from None
+        if error.errno == errno.ENAMETOOLONG:
+            raise ResultsError(f"{directory}: the name is too long") from None
+
+
 class Results:
     """The results in `directory`; files are read when they are needed."""
 
@@ -31,6 +43,7 @@ class Results:
 
     def _summary(self):
         path = self.directory / "summary.json"
+        refuse_impossible(self.directory)
         if not self.directory.exists():
             hint = ": `scabo run model.yaml` writes model.results"
             raise ResultsError(f"{self.directory}: there is no such directory{hint}")

@@ -10,7 +10,7 @@ from .content import content_of
 from .fields import add_fields
 from .packing import Arrays
 from .pairs import add_pairs
-from .reading import Results, ResultsError, Units
+from .reading import Results, ResultsError, Units, refuse_impossible
 
 MEGABYTES = 25.0  # of a page, unless the values of a single increment need more
 TITLE, CONTENT, ARRAYS = "<!--scabo:title-->", "<!--scabo:content-->", "<!--scabo:arrays-->"
@@ -102,6 +102,7 @@ def default_name(directory):
 def write(directory, output=None, units=None, megabytes=MEGABYTES):
     """Writes the page and returns its path; `output` None: `model.report.html` beside `model.results`. A page that is there is
     replaced when the new one is complete. Raises ResultsError and UnitsError, and OSError where it cannot be written."""
+    refuse_impossible(pathlib.Path(directory))
     path = default_name(directory) if output is None else pathlib.Path(output)
     if path.is_dir():
         raise ResultsError(f"-o {path}: is a directory: name a file, as in -o {path / 'report.html'}")

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "scabo/base/impossible_path.hpp"
 #include "scabo/files/abaqus.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/bytes_of_file.hpp"
@@ -32,6 +33,13 @@ std::string_view readable(std::string_view bytes, const std::string& path) {
   if (end != std::string_view::npos && end + 1 < text.size() && text.find('\n') == std::string_view::npos)
     fail_in_file(path, 0, 0, "its lines end with a carriage return alone; save it with line feeds");
   return bytes;
+}
+
+std::string bytes_at(const std::string& path) {
+  if (const std::string why = impossible_path(path); !why.empty()) fail_in_file(path, 0, 0, why);
+  std::optional<std::string> bytes = bytes_of_file(path);
+  if (!bytes) fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
+  return std::move(*bytes);
 }
 
 std::optional<IncludedFile> read_beside(const std::string& name, const std::string& from) {
@@ -77,15 +85,9 @@ ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
 }
 
 AbaqusDeck read_deck_file(const std::string& path) {
-  const std::optional<std::string> bytes = bytes_of_file(path);
-  if (!bytes) fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
-  return parse_abaqus_deck(readable(*bytes, path), path, read_beside);
+  return parse_abaqus_deck(readable(bytes_at(path), path), path, read_beside);
 }
 
-ImportedMesh read_mesh_file(const std::string& path) {
-  const std::optional<std::string> bytes = bytes_of_file(path);
-  if (!bytes) fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
-  return parse_mesh(*bytes, path);
-}
+ImportedMesh read_mesh_file(const std::string& path) { return parse_mesh(bytes_at(path), path); }
 
 }  // namespace scabo::files

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "scabo/base/impossible_path.hpp"
+
 namespace scabo::input {
 
 void refuse_file(const std::string& file, std::string message) {
@@ -21,8 +23,7 @@ std::string read_text_file(const std::string& file, const YamlLimits& limits) {
   const auto fail = [&](const std::string& message) { refuse_file(file, message); };
   std::error_code code;
   const auto status = std::filesystem::status(file, code);
-  if (code == std::errc::too_many_symbolic_link_levels) fail("the symbolic links in its path form a loop");
-  if (code == std::errc::filename_too_long) fail("no such file: the name is too long");
+  if (const std::string why = impossible_path(file); !why.empty()) fail(why);
   if (!std::filesystem::exists(status) && code && code != std::errc::no_such_file_or_directory &&
       code != std::errc::not_a_directory)
     fail(fmt::format("cannot be read: {}", code.message()));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scabo/base/impossible_path.hpp"
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/contact/files/hdf5_file.hpp"
 #include "scabo/contact/files/text_problem.hpp"
@@ -32,7 +33,8 @@ void check_magnitudes(const std::string& file, const Problem& problem) {
 
 SavedProblem read_problem_file(const std::string& file) {
   namespace fs = std::filesystem;
-  const auto refuse = [&](const char* why) { throw InputError(file, {{{}, why}}); };
+  const auto refuse = [&](const std::string& why) { throw InputError(file, {{{}, why}}); };
+  if (const std::string why = impossible_path(file); !why.empty()) refuse(why);
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) refuse("no such file");
