@@ -81,6 +81,12 @@ TEST(Warnings, OfADeepOverlapWithItsPressure) {
                                 HasSubstr("presses with 2.1e+10"))));
 }
 
+TEST(Warnings, OfAnOverlapOfMoreThanOnePerCent) {
+  EXPECT_THAT(texts_of(solve(stack(0.012)).warnings),
+              ElementsAre(HasSubstr("overlap at the start by up to 0.012, 1.2 %")));
+  EXPECT_THAT(texts_of(solve(stack(0.009)).warnings), IsEmpty());
+}
+
 TEST(Warnings, OfPressureThatTheTheoryDoesNotCover) {
   const StaticSolution solution = solve(stack(0.0, "steps: [{loads: {roller: 2e8}}]\n"));  // 0.2 m as well
   EXPECT_THAT(texts_of(solution.warnings),
@@ -93,10 +99,12 @@ TEST(Warnings, OfAContactThatNeverCloses) {
               ElementsAre(HasSubstr("contact 'joint' never closes: the smallest gap is 0.001")));
 }
 
-TEST(Warnings, OfAContactZoneOfThreePairs) {
+TEST(Warnings, OfAContactZoneOfLessThanFivePairs) {
   EXPECT_THAT(
       texts_of(solve(stack(1e-4, "", "2")).warnings),
       ElementsAre(HasSubstr("contact 'joint': only 3 pairs are in contact at the end, too few for a reliable")));
+  EXPECT_THAT(texts_of(solve(stack(1e-4, "", "2, order: 3")).warnings),
+              ElementsAre(HasSubstr("contact 'joint': only 4 pairs are in contact at the end")));
   EXPECT_THAT(texts_of(solve(stack(1e-4, "", "1")).warnings), IsEmpty());  // five pairs
 }
 
