@@ -7,6 +7,7 @@ import os
 import pathlib
 import re
 import runpy
+import signal
 import subprocess
 import sys
 import tempfile
@@ -140,6 +141,14 @@ def check_pictures(test, folder, directory):
         test.assertIn(f"figures/{name}", readme)
 
 
+def heed_signals():
+    """Programs in the background (`nohup make test &`) inherit that they ignore SIGINT and SIGHUP, as the runs that the tests
+    stop by a signal would."""
+    for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+        if signal.getsignal(number) == signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+
+
 def main():
     """Runs the tests of the calling script; its first argument is the program."""
     global SCABO
@@ -149,4 +158,5 @@ def main():
         SCABO = os.environ.get("SCABO")
     if not SCABO or not os.access(SCABO, os.X_OK):
         sys.exit(f"usage: {sys.argv[0]} SCABO_BINARY [unittest options]")
+    heed_signals()
     unittest.main(module="__main__")
