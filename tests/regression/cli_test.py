@@ -85,7 +85,7 @@ class CommandLine(support.InTemporaryDirectory):
         self.assertIn("cannot write to standard output", run.stderr)
 
 
-class Output(support.InTemporaryDirectory):
+class Rounding(support.InTemporaryDirectory):
     def test_forces_that_are_rounding_are_shown_as_zero(self):
         """A disc that its support moves without stress."""
         (self.directory / "disc.yaml").write_text("""

@@ -290,6 +290,15 @@ TEST(Outside, BlockAndContactAreShownRelativeToTheReferencePointToo) {
   EXPECT_LE((shown - block.at(node)->displacement).norm(), 1e-8 * largest);
 }
 
+// Springs hold the ground: its displacements are those under which they carry their forces, not relative to the point.
+TEST(Outside, DisplacementsOfGroundOnSpringsAreThoseOfTheSprings) {
+  const auto solution = run(loaded_hole, {"springs=[{on: ground.vertex_1, k_x: 1e9, k_y: 2e9}]"});
+  const Vec2 force = last(solution).springs.front(),
+             moved = result::Probe(solution, last(solution).fields, 0).at({1.0, 0.0})->displacement;
+  EXPECT_GT(force.norm(), 1e5);
+  EXPECT_LE((Vec2(-1e9 * moved.x(), -2e9 * moved.y()) - force).norm(), 1e-9 * force.norm());
+}
+
 // A pressure p in a round hole has no resultant. A soft spring at its rim, which moves by p R (1 + nu) / E, has: that
 // is what the ground far away must balance, and what the warning names.
 TEST(Outside, TheForceOfASpringAloneNeedsAReferencePoint) {

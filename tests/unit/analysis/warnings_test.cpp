@@ -99,6 +99,23 @@ TEST(Warnings, OfAContactThatNeverCloses) {
               ElementsAre(HasSubstr("contact 'joint' never closes: the smallest gap is 0.001")));
 }
 
+// A crack may well stay open.
+TEST(Warnings, NoneOfACrackThatNeverCloses) {
+  EXPECT_THAT(texts_of(solve("scabo: 1\n"
+                             "materials: {steel: {young: 210e9, poisson: 0.3}}\n"
+                             "bodies:\n"
+                             "  plate:\n"
+                             "    material: steel\n"
+                             "    shape: {rectangle: {corner: [0, 0], size: [2, 2]}}\n"
+                             "    mesh: {kind: polygons, size: 0.4, order: 4}\n"
+                             "    cracks: [{path: [[0, 1], [1, 1]], name: slit}]\n"
+                             "supports: [{on: plate.bottom, fix: [x, y]}]\n"
+                             "loads: {pull: {on: plate.top, traction: [0, 1e6]}}\n"
+                             "contacts: {slit: {between: [plate.slit.left, plate.slit.right], friction: 0.3}}\n")
+                           .warnings),
+              IsEmpty());
+}
+
 TEST(Warnings, OfAContactZoneOfLessThanFivePairs) {
   EXPECT_THAT(
       texts_of(solve(stack(1e-4, "", "2")).warnings),
