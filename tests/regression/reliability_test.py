@@ -189,6 +189,20 @@ class LongRuns(support.InTemporaryDirectory):
         self.assert_readable()
         self.assertEqual(summary_of(self.directory / "out")["status"], "running")
 
+    def test_the_summary_is_there_while_an_earlier_run_is_removed(self):
+        out = self.directory / "out"
+        self.assertEqual(run("run", BEAM, "-q", "-o", out).returncode, SOLVED)
+        fields = (out / "fields_0001.vtu").read_bytes()[:5000]
+        for number in range(2, 4000):
+            (out / f"fields_{number:04}.vtu").write_bytes(fields)
+        process = subprocess.Popen([support.SCABO, "run", str(BEAM), "-q", "-o", str(out)], stdin=subprocess.DEVNULL)
+        states = set()
+        while process.poll() is None:
+            states.add(summary_of(out)["status"])
+        self.assertEqual(process.returncode, SOLVED)
+        self.assertLessEqual(states, {"solved", "running"})
+        self.assertEqual(len(list(out.glob("fields_*.vtu"))), 1)
+
     def test_the_second_run_in_a_directory_is_told(self):
         self.start()
         second = scabo("run", BEAM, "-o", self.directory / "out")

@@ -119,8 +119,18 @@ void add_old_problems(const fs::path& path, std::vector<fs::path>& old) {
   if (error) throw WriteError("cannot read the directory", path, error.message());
 }
 
+/// Whether the file was there and is now this one. Not on a full disk: what is removed then makes room for it.
+bool replaced(const fs::path& file, std::string_view content) try {
+  std::error_code error;
+  if (content.empty() || !fs::exists(file, error)) return false;
+  replace_file(file, content);
+  return true;
+} catch (const WriteError&) {
+  return false;
+}
+
 /// Removes the results of an earlier run. All files are checked first, so that an error leaves the directory unchanged.
-void remove_old_results(const fs::path& path) {
+void remove_old_results(const fs::path& path, std::string_view summary) {
   std::error_code error;
   std::vector<fs::path> old;
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
@@ -134,6 +144,7 @@ void remove_old_results(const fs::path& path) {
   }
   if (error) throw WriteError("cannot read the directory", path, error.message());
   add_old_problems(path / problems_name, old);
+  if (replaced(path / "summary.json", summary)) std::erase(old, path / "summary.json");
   for (const fs::path& file : old) {
     fs::remove(file, error);
     if (error) throw WriteError("cannot remove", file, error.message());
@@ -143,10 +154,10 @@ void remove_old_results(const fs::path& path) {
 
 }  // namespace
 
-DirectoryLock prepare_directory(const fs::path& path) {
+DirectoryLock prepare_directory(const fs::path& path, std::string_view summary) {
   create(path);
   DirectoryLock lock(path);
-  remove_old_results(path);
+  remove_old_results(path, summary);
   return lock;
 }
 

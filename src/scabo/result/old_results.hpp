@@ -19,7 +19,8 @@ bool is_vtu_name(const std::string& name, std::string_view begin);
 
 /// Creates the directory, or removes the results of an earlier run from it. Only files written by Scabo are removed; a
 /// file of another origin in the place of a result is an error, and so is another run that writes there. The directory
-/// is locked for the caller as long as the lock exists. Throws WriteError.
-[[nodiscard]] DirectoryLock prepare_directory(const std::filesystem::path& path);
+/// is locked for the caller as long as the lock exists. `summary`, where it is given, takes the place of an earlier
+/// summary.json before anything is removed: there is one at every moment. Throws WriteError.
+[[nodiscard]] DirectoryLock prepare_directory(const std::filesystem::path& path, std::string_view summary = "");
 
 }  // namespace scabo::result

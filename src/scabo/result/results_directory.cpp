@@ -93,10 +93,10 @@ ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mes
         {{model.restart->source, fmt::format("{} is also the directory that this run writes to: choose another one by "
                                              "-o",
                                              path_.string())}});
-  lock_.emplace(prepare_directory(path_));
   analysis::StaticSolution start;
   start.model = model;
   start.mesh = std::move(mesh);
+  lock_.emplace(prepare_directory(path_, summary_content(start, {}, true, history_.extremes())));
   write_running_summary(start);
   open_files(model, nullptr);
 }

@@ -24,8 +24,9 @@ analysis::ModalResult solve(const ModalRun& run) {
   analysis::ModalResult begun;
   begun.structure.mesh = analysis::check(run.model);
   begun.structure.model = run.model;
-  const result::DirectoryLock lock = result::prepare_directory(*run.output);
-  result::replace_file(*run.output / "summary.json", result::modal_summary_content(begun, true));
+  const std::string summary = result::modal_summary_content(begun, true);
+  const result::DirectoryLock lock = result::prepare_directory(*run.output, summary);
+  result::replace_file(*run.output / "summary.json", summary);
   return marking_failures(*run.output, [&] {
     analysis::ModalResult solved = analysis::solve_modal(run.model, options);
     if (run.on_stage) run.on_stage("shapes");
