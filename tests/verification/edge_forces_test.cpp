@@ -152,8 +152,8 @@ output:
   EXPECT_NEAR(values.at("top.force_y"), 0.0, near);
 }
 
-// Blocks placed one by one: the load of a block grows over its step, and the edge below carries what acts of it then; an
-// absent body transmits nothing.
+// Blocks placed one by one: the load of a block grows over its step, and the edge below carries what acts of it then;
+// an absent body transmits nothing.
 TEST(EdgeForces, OfABodyThatIsPlacedGrowWithItsLoads) {
   const analysis::StaticSolution solution = run(R"(scabo: 1
 materials: {stone: {young: 1e9, poisson: 0.2, density: 2000}}
@@ -175,6 +175,47 @@ output: {history: {base: {edge: low.bottom}, joint: {edge: high.bottom}, sides: 
     EXPECT_NEAR(edges[0].force.y(), weight * (1.0 + placed), 1e-8 * weight) << k;
     EXPECT_NEAR(edges[1].force.y(), weight * placed, 1e-8 * weight) << k;
     EXPECT_NEAR(edges[2].force.norm(), 0.0, 1e-8 * weight) << k;
+  }
+}
+
+// Blocks that are taken away: what they exerted falls to zero over the step and acts through the edges on which they
+// stood and leaned, not through those that begin at their corners. `side` leaves before `high`, or both together.
+TEST(EdgeForces, OfABodyWhoseNeighboursAreTakenAwayCarryWhatIsLeftOfThem) {
+  for (const bool together : {false, true}) {
+    const analysis::StaticSolution solution = run(fmt::format(R"(scabo: 1
+materials: {{stone: {{young: 1e9, poisson: 0.2, density: 2000}}}}
+bodies:
+  low: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{size: 0.5}}}}
+  high: {{material: stone, shape: {{rectangle: {{corner: [0, 1], size: [2, 1]}}}}, mesh: {{size: 0.5}}, removed: {}}}
+  side: {{material: stone, shape: {{rectangle: {{corner: [2, 0], size: [1, 1]}}}}, mesh: {{size: 0.5}}, removed: last}}
+supports: [{{on: low.bottom, fix: [x, y]}}, {{on: side.bottom, fix: y}}]
+loads: {{weight: {{gravity: [0, -10]}}, push: {{on: side.right, pressure: 3e4}}}}
+contacts:
+  joint: {{between: [low.top, high.bottom], friction: 0.6}}
+  wall: {{between: [low.right, side.left]}}
+steps: [{{name: first}}, {{name: last, increments: 4}}, {{name: end, increments: 4}}]
+output:
+  history: {{top: {{edge: low.top}}, right: {{edge: low.right}}, left: {{edge: low.left}}, base: {{edge: low.bottom}}}}
+)",
+                                                              together ? "last" : "end"));
+    ASSERT_EQ(solution.increments.size(), 9u);
+    const double weight = 2000.0 * 10.0 * 2.0, near = 1e-9 * weight;
+    for (std::size_t k = 0; k < 9; ++k) {
+      const std::vector<analysis::EdgeForces>& edges = increment_at(solution, k).edges;
+      const double pushed = std::max(0.0, 1.0 - 0.25 * static_cast<double>(k)),
+                   weighed = together ? pushed : std::min(1.0, 2.0 - 0.25 * static_cast<double>(k));
+      Vec2 sum = Vec2(0.0, -weight);
+      double moment = -weight;
+      for (const analysis::EdgeForces& edge : edges) sum += edge.force, moment += edge.moment;
+      EXPECT_NEAR(sum.norm(), 0.0, near) << k;
+      EXPECT_NEAR(moment, 0.0, near) << k;
+      EXPECT_NEAR((edges[3].force - Vec2(3e4 * pushed, weight * (1.0 + weighed))).norm(), 0.0, near) << k;
+      EXPECT_NEAR(edges[2].force.norm(), 0.0, near) << k;
+      // Together, both have half of what acts at their common corner.
+      if (together && k > 0) continue;
+      EXPECT_NEAR((edges[0].force - Vec2(0.0, -weight * weighed)).norm(), 0.0, near) << k;
+      EXPECT_NEAR((edges[1].force - Vec2(-3e4 * pushed, 0.0)).norm(), 0.0, near) << k;
+    }
   }
 }
 

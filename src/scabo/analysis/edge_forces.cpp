@@ -1,7 +1,9 @@
 #include "scabo/analysis/edge_forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/elasticity.hpp"
@@ -95,6 +97,32 @@ class SumOverEdge {
     }
   }
 
+  /// What bodies that are being taken away still exert (stages.hpp). Where two of them, on two edges, pressed on one
+  /// corner, each edge has half of it.
+  void apply_released() {
+    const std::size_t part = prepared_.structure.dofs.part_of(edge_.on.body);
+    if (state_.released.empty() || state_.released[part].size() == 0) return;
+    const Vector forces = state_.factors.release * state_.released[part];
+    std::map<int, std::array<int, 2>> contacts_at;  // number of them through this edge, and elsewhere
+    for (std::size_t c = 0; c < prepared_.model.contacts.size(); ++c) {
+      const model::Contact& contact = prepared_.model.contacts[c];
+      const bool of_a = contact.a.body == edge_.on.body, of_b = contact.b.body == edge_.on.body;
+      if (of_a == of_b || !is_leaving(of_a ? contact.b.body : contact.a.body)) continue;
+      const int elsewhere = is_elsewhere(of_a ? contact.a : contact.b) ? 1 : 0;
+      std::set<int> nodes;
+      for (const mesh::ContactPair& pair : prepared_.mesh.interfaces[c].pairs)
+        nodes.insert(of_a ? pair.node_a : pair.node_b);
+      for (const int node : nodes) ++contacts_at[node][static_cast<std::size_t>(elsewhere)];
+    }
+    for (const auto& [in_part, node] : number_in_part_) {
+      const auto [here, elsewhere] = contacts_at[node];
+      for (const bool is_other : {false, true}) {
+        const int share = is_other ? elsewhere : here;
+        if (share > 0) apply(is_other, node, forces.segment<2>(place_of(in_part)) * share / (here + elsewhere));
+      }
+    }
+  }
+
   const EdgeForces& sum() const { return sum_; }
 
  private:
@@ -106,6 +134,13 @@ class SumOverEdge {
     if (place.kind == Kind::edge || place.kind == Kind::face)
       return place.kind != edge_.on.kind || place.index != edge_.on.index;
     return place.kind == Kind::body;
+  }
+
+  /// A body that is taken away in this step, whose forces have not yet fallen to zero.
+  bool is_leaving(int body) const {
+    const auto b = static_cast<std::size_t>(body);
+    return prepared_.is_absent(prepared_.structure.dofs.part_of(body)) && b < state_.factors.presence.size() &&
+           state_.factors.presence[b] > 0.0;
   }
 
   /// Nodes that another edge of the body shares with a tied body, and this one does not.
@@ -196,6 +231,7 @@ std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state
     sum.apply_contacts();
     sum.apply_reactions();
     sum.apply_springs();
+    sum.apply_released();
     results.push_back(sum.sum());
   }
   return results;
