@@ -99,6 +99,40 @@ steps:
               1e-10 * *increment_at(solution, 0).moments[1]);
 }
 
+std::string warning_of_large_displacements(const analysis::StaticSolution& solution) {
+  std::string texts;
+  for (const Warning& warning : solution.warnings)
+    if (warning.kind == WarningKind::large_displacement) texts += warning.text + "; ";
+  return texts;
+}
+
+// Rotations beyond those that may be prescribed are named, once: of rigid bodies, and of elastic ones that move by less
+// than a tenth of their size.
+TEST(Rotations, BeyondThoseOfTheTheoryAreNamed) {
+  EXPECT_EQ(warning_of_large_displacements(plate_on_block("- {on: plate, rotation: 0.1}", "")), "");
+  const double moment = *last(plate_on_block("- {on: plate, rotation: 0.1}", "")).moments[1];
+  EXPECT_EQ(
+      warning_of_large_displacements(plate_on_block("", fmt::format("m: {{on: plate, moment: {}}}", 0.99 * moment))),
+      "");
+  EXPECT_EQ(warning_of_large_displacements(plate_on_block(
+                "", fmt::format("m: {{on: plate, moment: {}}}", -1.2 * moment), "steps: [{increments: 3}]")),
+            "step step_1, increment 3: body 'plate' turns by -0.12 rad: the theory is valid for rotations of up to 0.1 "
+            "rad, and normals of contacts and directions of loads do not turn; check loads, supports and the units of "
+            "stiffness; ");
+
+  const double k = 1e3, a = 2.0;  // a block on springs turns by M / (k a^3 / 12)
+  for (const double rotation : {0.09, -0.11}) {
+    const std::string text = warning_of_large_displacements(run(fmt::format(R"(scabo: 1
+materials: {{stuff: {{young: 1e9, poisson: 0.3}}}}
+bodies: {{block: {{material: stuff, shape: {{rectangle: {{corner: [0, 0], size: [{}, 1]}}}}, mesh: {{size: 0.5}}}}}}
+springs: [{{on: block.bottom, k_n: {}, k_t: {}}}]
+loads: {{turn: {{on: block.top, moment: {}}}}}
+)",
+                                                                            a, k, k, rotation * k * a * a * a / 12.0)));
+    EXPECT_EQ(text.find("'block' turns by -0.11 rad") != std::string::npos, rotation < 0.0) << text;
+  }
+}
+
 // The tip of a wedge between a rigid floor and a rigid slope that comes down can only slide out. Friction at both
 // prevents it where tan(beta / 2) < mu, beta the angle of the tip: no force is then large enough to make room.
 TEST(Wedged, TheTipThatFrictionHoldsBetweenTwoDrivenBodiesIsNamed) {

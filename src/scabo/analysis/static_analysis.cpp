@@ -11,6 +11,7 @@
 #include "scabo/analysis/edge_forces.hpp"
 #include "scabo/analysis/goal.hpp"
 #include "scabo/analysis/increment_warnings.hpp"
+#include "scabo/analysis/large_rotations.hpp"
 #include "scabo/analysis/large_slip.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/reach.hpp"
@@ -145,6 +146,16 @@ IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolu
   return result;
 }
 
+/// One warning of large displacements is enough.
+void add_large_rotation(const Prepared& prepared, const State& state, const IncrementResult& at,
+                        StaticSolution& solution) {
+  for (const Warning& warning : solution.warnings)
+    if (warning.kind == WarningKind::large_displacement) return;
+  if (const std::string sentence = large_rotation(prepared, state); !sentence.empty())
+    solution.warnings.push_back({WarningKind::large_displacement, "",
+                                 fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
+}
+
 void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip* large, StaticSolution& solution,
                       const Options& options) {
   // Bodies come and go, or pairs are found anew (which replaces the assembly): not both in one model.
@@ -194,6 +205,7 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
     result.reached = reached.part == 1.0 ? end : begin + reached.part * (end - begin);
     result.pairs_found = found;
     if (there) add_warnings(prepared, reached, result, solution);
+    if (there) add_large_rotation(prepared, reached.state, result, solution);
     if (there && large) add_slid_off(*large, reached.state, result, solution);
     solution.increments.push_back(std::move(result));
     if (!reached.problems.empty()) options.on_problems(solution.increments.back(), reached.problems);
