@@ -234,6 +234,36 @@ steps: %s
             if float(row["gap"]) > 1e-12:
                 self.assertEqual((row["state"], float(row["normal_force"])), ("open", 0.0))
 
+    def test_bodies_are_taken_away_after_a_step_in_which_nothing_changes(self):
+        text = """scabo: 1
+materials: {stone: {young: 1e9, poisson: 0.2, density: 2000}}
+bodies:
+  low: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.25}}
+  high: {material: stone, shape: {rectangle: {corner: [0.5, 1], size: [1, 1]}}, mesh: {size: 0.25}%s}
+supports: [{on: low.bottom, fix: [x, y]}]
+loads: {weight: {gravity: [0, -10]}, push: {on: high.left, traction: [5e3, 0]}}
+contacts: {joint: {between: [low.top, high.bottom], friction: 0.4}}
+output: {history: {top: low.top_left.uy, energy: friction_energy}}
+steps: %s
+"""
+        first, away = "{name: first, increments: 2}", "{name: away, increments: 4}"
+        for name, removed, steps, more in (("whole", ", removed: away", f"[{first}, {away}]", ""), ("one", "", f"[{first}]", ""),
+                                           ("two", ", removed: away", "[{name: rest, loads: {}}, %s]" % away, "restart: one.results\n")):
+            model = self.directory / f"{name}.yaml"
+            model.write_text(more + text % (removed, steps), encoding="utf-8")
+            run = scabo("run", model, "--quiet")
+            self.assertEqual(run.returncode, 0, run.stderr)
+        rows = {name: (self.directory / f"{name}.results" / "history.csv").read_text(encoding="utf-8").splitlines()
+                for name in ("whole", "two")}
+        for one, other in zip(rows["whole"][-4:], rows["two"][-4:], strict=True):
+            for expected, value in zip(one.split(",")[3:], other.split(",")[3:], strict=True):
+                self.assertAlmostEqual(float(value), float(expected), delta=1e-9 * abs(float(expected)))
+        model.write_text("restart: one.results\n" + text % (", removed: away", f"[{away}]"), encoding="utf-8")
+        run = scabo("check", model)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("bodies.high.removed: is the first step of a restart, which begins with the bodies of the other run's end: "
+                      "put a step before it in which nothing changes, as {name: rest, loads: {}}", run.stderr)
+
     def test_its_own_directory_and_runs_without_an_end_are_refused(self):
         one = self.write("one.yaml", "[{name: a, loads: {weight: 1, push: 0.2}}]")
         self.assertEqual(scabo("run", one, "--quiet").returncode, 0)

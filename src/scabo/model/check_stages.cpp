@@ -9,6 +9,17 @@ namespace scabo::model {
 
 namespace {
 
+std::string removed_too_early(const Checking& checking, const Body& body) {
+  const std::vector<Step>& steps = checking.model.steps;
+  if (body.removed > 0)
+    return fmt::format("must be a step after '{}', in which the body is added",
+                       steps[static_cast<std::size_t>(body.added)].name);
+  if (checking.model.restart)
+    return "is the first step of a restart, which begins with the bodies of the other run's end: put a step before it "
+           "in which nothing changes, as {name: rest, loads: {}}";
+  return "is the first step, so that the body is never there: name a later step, or leave the body out";
+}
+
 void check_steps_of(Checking& checking, std::size_t index) {
   const Body& body = checking.model.bodies[index];
   const std::string path = path_of("bodies", body.name, index);
@@ -17,11 +28,7 @@ void check_steps_of(Checking& checking, std::size_t index) {
   if (body.added < 0 || body.added >= steps) checking.error(path, "added", "is not a step of the model");
   if (body.removed < -1 || body.removed >= steps) checking.error(path, "removed", "is not a step of the model");
   if (body.removed >= 0 && body.removed <= body.added)
-    checking.error(path, "removed",
-                   body.removed == 0 ? std::string("is the first step, so that the body is never there: name a later "
-                                                   "step, or leave the body out")
-                                     : fmt::format("must be a step after '{}', in which the body is added",
-                                                   checking.model.steps[static_cast<std::size_t>(body.added)].name));
+    checking.error(path, "removed", removed_too_early(checking, body));
   if (body.outside && body.is_staged())
     checking.error(path, body.added > 0 ? "added" : "removed",
                    "an unbounded body is always there: give the part that is added or removed a body of its own");
