@@ -35,8 +35,9 @@ namespace {
          "backward coefficients of friction have one entry for each pair of a plane problem");
 }
 
+/// `rounding`: of the rigid motions, in the motions of the pairs.
 [[gnu::hot]] std::vector<ContactState> states_of(const Problem& problem, const Vector& p, const Vector& motion,
-                                                 const Scales& scales) {
+                                                 const Vector& rounding, const Scales& scales) {
   std::vector<ContactState> states;
   states.reserve(static_cast<std::size_t>(problem.pairs()));
   const Eigen::Index d = problem.dimension;
@@ -46,10 +47,18 @@ namespace {
     // What opposes slip counts, not the sign of a tangential force that is 0 within rounding.
     const bool moves = d == 2 && slip > 1e-12 * scales.length;
     const double bound = problem.friction_bound(i, p_n, moves ? -motion[d * i + 1] : p[d * i + 1]);
+    // Interior points leave a little force in open pairs and a little gap in closed ones, and the same with slip: the
+    // larger of the two counts.
+    const auto exceeds = [&](double motion_beyond, double force) {
+      const double part = motion_beyond / scales.length;
+      return part > 1e-12 && part > force / scales.force;
+    };
     // A pair that touches at zero force counts as in contact only if there is a force.
-    if (!std::isinf(tension) && p_n + tension <= 1e-13 * scales.force)
+    const double held = p_n + tension;
+    if (!std::isinf(tension) && (held <= 1e-13 * scales.force || exceeds(motion[d * i] - rounding[d * i], held)))
       states.push_back(ContactState::open);
-    else if (friction < bound * (1.0 - 1e-10))
+    else if (friction < bound * (1.0 - 1e-10) &&
+             !exceeds(slip - rounding.segment(d * i + 1, d - 1).norm(), bound - friction))
       states.push_back(ContactState::stick);
     else
       states.push_back(slip > 1e-12 * scales.length || bound == 0.0 ? ContactState::slip : ContactState::stick);
@@ -99,7 +108,8 @@ std::string story_of(const Solution& solution, const SolverOptions& options, boo
     solution.gap[i] = motion[d * i];
     for (Eigen::Index k = 1; k < d; ++k) solution.slip_increment[(d - 1) * i + k - 1] = motion[d * i + k];
   }
-  std::vector<ContactState> states = states_of(problem, solution.p, motion, scales);
+  const Vector rounding = rounding_of_rigid_motions(problem, solution.a, scales.length);
+  std::vector<ContactState> states = states_of(problem, solution.p, motion, rounding, scales);
   const bool known = solution.status == Status::solved && states == solution.states;  // undetermined motions
   solution.states = std::move(states);
   if (solution.status == Status::mechanism) return;

@@ -56,6 +56,28 @@ TEST(Solve, FindsWhatTrialAndErrorFinds) {
   EXPECT_GT(unique, 90);
 }
 
+// Interior points leave a little force in open pairs and a little room below the bound of pairs that slip, within the
+// tolerance: these are open and slip all the same.
+TEST(Solve, StatesAreThoseOfTheLargerOfForceAndMotion) {
+  Problem problem;  // stick, open, slip
+  problem.W = Matrix(Matrix::Identity(6, 6));
+  problem.q = Vector::Zero(6);
+  problem.q << -1.0, -0.1, 1.0, 0.3, -1.0, -2.0;
+  problem.mu = Vector::Constant(3, 0.5);
+  const std::vector<ContactState> states = {ContactState::stick, ContactState::open, ContactState::slip};
+  SolverOptions options;
+  options.tolerance = 1e-9;
+  const Solution exact = solve(problem, {}, options);
+  ASSERT_EQ(exact.status, Status::solved);
+  EXPECT_EQ(exact.states, states);
+
+  Vector p = exact.p;
+  p[0] += 3e-10, p[2] = 3e-10, p[5] *= 1.0 - 3e-10;
+  const auto nearly = with_forces(exact, p, problem, {}, options);
+  ASSERT_TRUE(nearly.has_value());
+  EXPECT_EQ(nearly->states, states);
+}
+
 TEST(Solve, AgreesWithGaussSeidel) {
   std::mt19937 random(32);
   for (int k = 0; k < 50; ++k) {
