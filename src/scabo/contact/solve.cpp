@@ -47,11 +47,12 @@ namespace {
     // What opposes slip counts, not the sign of a tangential force that is 0 within rounding.
     const bool moves = d == 2 && slip > 1e-12 * scales.length;
     const double bound = problem.friction_bound(i, p_n, moves ? -motion[d * i + 1] : p[d * i + 1]);
-    // Interior points leave a little force in open pairs and a little gap in closed ones, and the same with slip: the
-    // larger of the two counts.
+    // Interior points leave a little force in open pairs, and a little room below the bound of pairs that slip. A
+    // motion counts where it is larger by far; at crack tips the forces of pairs are as small as the error of their
+    // gaps.
     const auto exceeds = [&](double motion_beyond, double force) {
       const double part = motion_beyond / scales.length;
-      return part > 1e-12 && part > force / scales.force;
+      return part > 1e-6 && force / scales.force < 1e-3 * part;
     };
     // A pair that touches at zero force counts as in contact only if there is a force.
     const double held = p_n + tension;
