@@ -211,6 +211,34 @@ loads: {{weight: {{gravity: [0, -10]}}}}
   }
 }
 
+// A long slab with a hole beside its axis, turned by any angle: the ends of the slab see the hole under a small angle.
+// It was refused at 11 of 18 angles.
+TEST(Parts, OfASlabWithAHoleTurnedByAnyAngle) {
+  const auto energy_of = [](double degrees, const char* mesh) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const auto at = [&](double x, double y) {
+      return fmt::format("[{}, {}]", std::cos(angle) * x - std::sin(angle) * y,
+                         std::sin(angle) * x + std::cos(angle) * y);
+    };
+    return last(run(fmt::format(R"(scabo: 1
+materials: {{stone: {{young: 1e9, poisson: 0.2}}}}
+bodies:
+  slab:
+    material: stone
+    shape: {{polygon: {{vertices: [{}, {}, {}, {}]}}}}
+    holes: {{bore: {{circle: {{centre: {}, radius: 0.15}}}}}}
+    mesh: {{{}}}
+supports: [{{on: slab.edge_4, fix: normal}}, {{on: slab.vertex_1, fix: [x, y]}}]
+loads: {{pull: {{on: slab.edge_2, pressure: -1e6}}}}
+)",
+                                at(0, 0), at(6, 0), at(6, 1), at(0, 1), at(3, 0.4), mesh)))
+        .energy.elastic;
+  };
+  const double expected = energy_of(0.0, "kind: polygons, size: 0.1, order: 3");
+  for (int degrees = 0; degrees < 180; degrees += 20)
+    EXPECT_NEAR(energy_of(degrees, "size: 0.35, order: 4"), expected, 2e-3 * expected) << degrees;
+}
+
 // Free thermal expansion moves every point and causes no stress; a bar held at both ends is under -E alpha T.
 TEST_P(ManyCells, ThermalExpansion) {
   const std::string text = R"(scabo: 1

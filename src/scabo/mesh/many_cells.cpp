@@ -44,12 +44,13 @@ struct Sizing {
   std::function<double(const Vec2&)> at;
   double largest = 0.0;
   bool uniform = true;  ///< the same everywhere
+  double turn = largest_turn_of_side;
 };
 
 /// Fractions of the length of an edge at which it is divided, 0 and 1 included.
 std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge, int least_count = 1) {
   const double length = edge.length();
-  const double by_turn = edge.arc ? std::abs(edge.arc->sweep) / largest_turn_of_side : 1.0;
+  const double by_turn = edge.arc ? std::abs(edge.arc->sweep) / sizing.turn : 1.0;
   const double rounding = rounding_of(sizing.largest);
   std::vector<double> breaks{0.0};
   if (sizing.uniform) {
@@ -60,7 +61,7 @@ std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge, 
   } else {
     return graded_breaks(
         edge, {}, sizing.at,
-        {static_cast<double>(least_count), largest_turn_of_side, rounding, std::numeric_limits<double>::infinity()});
+        {static_cast<double>(least_count), sizing.turn, rounding, std::numeric_limits<double>::infinity()});
   }
   breaks.push_back(1.0);
   return breaks;
@@ -163,7 +164,8 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
   const auto asked = [&body, &sizes](const Vec2& x) { return wanted_size(body, sizes, x); };
   made.narrow = narrow_places(net, cracks.tips(), asked, body.mesh.size, options);
   if (made.narrow.cells > options.most) return made;
-  Sizing sizing{asked, body.mesh.size, body.mesh.refine.empty() && sizes.empty() && made.narrow.samples.empty()};
+  Sizing sizing{asked, body.mesh.size, body.mesh.refine.empty() && sizes.empty() && made.narrow.samples.empty(),
+                largest_turn_of_side * options.finer_arcs};
   if (!made.narrow.samples.empty()) {
     const auto narrow = std::make_shared<SizeField>(made.narrow.samples, model::mesh_growth);
     sizing.at = [asked, narrow](const Vec2& x) { return std::min(asked(x), narrow->at(x)); };
@@ -343,11 +345,12 @@ std::variant<BodyMesh, Diagnostic> divide_image(const model::Body& body, double 
   const auto corners = static_cast<double>(polygons.nodes.size()), cells = static_cast<double>(polygons.cells.size());
   const double nodes = corners + (body.mesh.order - 1) * (corners + cells - 1.0);  // sides by Euler's formula
   if (nodes > most_nodes)
-    return Diagnostic{body.mesh.source,
-                      fmt::format("the image has {:.7g} cells with about {} nodes, more than the {:.7g} allowed: use an "
-                                  "image of fewer pixels{}",
-                                  cells, text_of_count(nodes, most_nodes, 2), std::max(most_nodes, 0.0),
-                                  body.mesh.order > 1 ? " or a lower 'order'" : "")};
+    return Diagnostic{
+        body.mesh.source,
+        fmt::format("the image has {:.7g} cells with about {} nodes, more than the {:.7g} allowed: use an "
+                    "image of fewer pixels{}",
+                    cells, text_of_count(nodes, most_nodes, 2), std::max(most_nodes, 0.0),
+                    body.mesh.order > 1 ? " or a lower 'order'" : "")};
   const Vec2 corner = body.outline.edges.front().start;
   for (Vec2& node : polygons.nodes) node += corner;
   for (PolygonCell& cell : polygons.cells) cell.centre += corner;
@@ -395,14 +398,18 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                          "allowed: use a larger 'size'",
                                          body.mesh.size, text_of_count(nodes, most_nodes, 2), most_nodes)};
   const UnitFree own(body, sizes);
-  // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places.
-  constexpr std::array<double, 3> turns{0.5, 0.25, 0.125}, sizes_per_width{2.0, 1.4, 1.0};
+  // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places. Few parts that do
+  // not see an arc well, from far along a slab with a hole, get shorter sides on it.
+  constexpr std::array<double, 5> turns{0.5, 0.25, 0.125, 0.125, 0.125}, sizes_per_width{2.0, 1.4, 1.0, 1.0, 1.0},
+      finer_arcs{1.0, 1.0, 1.0, 0.5, 0.25};
+  const std::size_t attempts = body.mesh.kind == model::MeshKind::parts ? turns.size() : turns.size() - 2;
   for (std::size_t attempt = 0;; ++attempt) {
     const BodyDomain of = domain_of(own.body(), own.sizes(),
                                     {.sizes_per_width = sizes_per_width[attempt],
                                      .gaps = attempt > 0,
                                      .arcs = attempt > 0 && body.mesh.kind == model::MeshKind::quadtree,
-                                     .most = most_nodes});
+                                     .most = most_nodes,
+                                     .finer_arcs = finer_arcs[attempt]});
     const auto in_words = [&](const Vec2& x) {
       const Vec2 real = own.real(x);
       return fmt::format("({:.6g}, {:.6g})", real.x(), real.y());
@@ -434,7 +441,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                       body.name, pieces)};
       return mesh;
     } catch (const Refusal& refusal) {
-      if (attempt + 1 < turns.size()) continue;
+      if (attempt + 1 < attempts) continue;
       std::optional<Vec2> place;
       if (refusal.near()) place = own.real(*refusal.near());
       const std::string narrow = of.narrow.width > 0.0 ? fmt::format("; its lines are {:.3g} apart near {}", width,

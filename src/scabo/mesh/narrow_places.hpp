@@ -15,6 +15,7 @@ struct NarrowOptions {
   bool arcs = false;             ///< cells beside an arc are not larger than its radius
   double sizes_per_tip = 0.5;    ///< the same of a crack tip and whatever is next to it
   double most = 1e6;             ///< about as many cells at most
+  double finer_arcs = 1.0;       ///< sides on arcs turn by this part of what they may at most
 };
 
 struct NarrowPlaces {
