@@ -11,6 +11,7 @@
 #include "scabo/analysis/increment_loads.hpp"
 #include "scabo/analysis/softly_held.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
+#include "scabo/analysis/undetermined_motions.hpp"
 
 namespace scabo::analysis {
 
@@ -207,6 +208,8 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     take(from, result.solution, std::move(evolution.history), to);
     balances = add_displacements(prepared, nullptr, to);
     if (result.solution.status != contact::Status::solved) break;
+    if (give_smallest_motions(prepared, result.problem, laws, result.start, options, from, to, result.solution))
+      balances = add_displacements(prepared, nullptr, to);
     soft = softly_held(prepared, to, result.problem, result.solution, posed.drawn);
     if (!soft || !(soft->wrong > SoftlyHeld::good) || round == most_corrections) break;
     problem.q += soft->difference;

@@ -9,6 +9,7 @@
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/quantities.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
+#include "scabo/analysis/undetermined_motions.hpp"
 
 namespace scabo::analysis {
 
@@ -44,13 +45,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
       if (warning.kind == kind && warning.subject == subject) return;
     warnings.push_back({kind, subject, fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
   };
-  for (Eigen::Index column = 0; column < reached.undetermined.cols(); ++column) {
-    const std::string motion = describe_motions(prepared, reached.undetermined.col(column));
-    add(WarningKind::undetermined_motion, motion,
-        fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
-                    "add a support if the position matters",
-                    motion));
-  }
+  if (const auto motions = undetermined_motion_warning(prepared, reached.undetermined, warnings))
+    add(motions->kind, motions->subject, motions->text);
   const bool told_of_forces = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
     return warning.kind == WarningKind::undetermined_force;
   });

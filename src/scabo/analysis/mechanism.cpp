@@ -145,6 +145,15 @@ Mechanism mechanism_of(const Prepared& prepared, const Vector& rigid, FlowRule r
   return mechanism;
 }
 
+Eigen::Matrix3d moments_of_part(const Prepared& prepared, std::size_t p) {
+  const Areas areas = areas_of_part(prepared, p);
+  const double L = prepared.structure.parts[p]->lever();
+  Eigen::Matrix3d moments;
+  moments << areas.area, 0.0, -areas.first.y() / L, 0.0, areas.area, areas.first.x() / L, -areas.first.y() / L,
+      areas.first.x() / L, areas.polar / (L * L);
+  return moments;
+}
+
 Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared) {
   std::vector<Eigen::Triplet<double>> entries;
   double scale = 0.0;  // a power of two, of the first part
@@ -152,12 +161,8 @@ Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared) {
     const system::BodySystem& part = *prepared.structure.parts[p];
     const Eigen::Index m = part.rigid_motions().cols();
     if (m == 0 || prepared.is_absent(p)) continue;
-    const Areas areas = areas_of_part(prepared, p);
-    if (scale == 0.0) scale = std::exp2(-std::ilogb(areas.area));
-    const double L = part.lever();
-    Eigen::Matrix3d mass;  // of [u_x, u_y, L rotation] at the reference point
-    mass << areas.area, 0.0, -areas.first.y() / L, 0.0, areas.area, areas.first.x() / L, -areas.first.y() / L,
-        areas.first.x() / L, areas.polar / (L * L);
+    const Eigen::Matrix3d mass = moments_of_part(prepared, p);
+    if (scale == 0.0) scale = std::exp2(-std::ilogb(mass(0, 0)));
     const Matrix along = part.rigid_coordinates().transpose() * (scale * mass) * part.rigid_coordinates();
     const Matrix inverse = Eigen::PartialPivLU<Matrix>(along).inverse();
     for (Eigen::Index i = 0; i < m; ++i)

@@ -17,6 +17,10 @@ namespace scabo::analysis {
 /// `rigid`: m amplitudes, not all zero; `loads`: m, work of the loads per amplitude.
 Mechanism mechanism_of(const Prepared& prepared, const Vector& rigid, FlowRule rule, const Vector& loads);
 
+/// The integral of |u|^2 over the area of part `p` is v'M v for the rigid motion v = [u_x, u_y, L rotation] at its
+/// reference point: M, from area and moments of area (of an unbounded part those of a square of its size).
+Eigen::Matrix3d moments_of_part(const Prepared& prepared, std::size_t p);
+
 /// M^-1 of the parts as rigid bodies, m x m, as if all were of one material: area, and moments of area about the
 /// reference point (of an unbounded body those of a square of its size).
 Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared);

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "scabo/linalg/nonnegative_least_squares.hpp"
+#include "scabo/linalg/least_distance.hpp"
 
 namespace scabo::contact {
 
@@ -239,31 +239,6 @@ Matrix tractions_of_stresses(const std::vector<int>& group, const std::vector<in
   return T;
 }
 
-/// min |v - aim| subject to B v >= h, where v = 0 is admissible (Lawson and Hanson 1974, chapter 23: least distance
-/// programming); a point on the way from 0 to it where rounding leaves it outside.
-Vector nearest_within(const Matrix& B, const Vector& h, const Vector& aim) {
-  const double size = aim.norm(), allowed = 1e-13 * size;
-  const auto inside = [&](const Vector& v) { return (B * v - h).minCoeff() >= -allowed; };
-  if (size == 0.0 || B.rows() == 0 || inside(aim)) return aim;
-  Matrix E(B.cols() + 1, B.rows());
-  E << B.transpose(), ((h - B * aim) / size).transpose();
-  const Vector multipliers = linalg::nonnegative_least_squares(E, Vector::Unit(E.rows(), E.rows() - 1));
-  std::vector<Index> active;
-  for (Index i = 0; i < multipliers.size(); ++i)
-    if (multipliers[i] > 0.0) active.push_back(i);
-  Vector v = aim;
-  if (!active.empty()) {
-    const Matrix held = B(active, Eigen::all);
-    v += held.completeOrthogonalDecomposition().solve(h(active) - held * aim);
-  }
-  if (inside(v)) return v;
-  double part = 1.0;
-  const Vector ahead = B * v;
-  for (Index i = 0; i < h.size(); ++i)
-    if (ahead[i] < h[i]) part = std::min(part, h[i] / ahead[i]);  // h <= 0
-  return part * v;
-}
-
 /// y, moved as little as possible to where B y >= h. It is beyond these limits by rounding, and by as much as the
 /// solution is, up to its tolerance.
 Vector within(const Matrix& B, const Vector& h, Vector y) {
@@ -347,7 +322,7 @@ Vector change_of(const std::vector<int>& group, Index columns, const Network& ne
       B.row(l) /= size;
       h[l] /= size;
     }
-  const Vector y = R.triangularView<Eigen::Upper>().solve(nearest_within(B, h, aim));
+  const Vector y = R.triangularView<Eigen::Upper>().solve(linalg::nearest_within(B, h, aim));
   return CZ * within(limits_of_y, bounds_of_y, y);
 }
 

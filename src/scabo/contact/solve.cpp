@@ -310,4 +310,16 @@ std::optional<Solution> with_forces(const Solution& solution, Vector p, const Pr
   return other;
 }
 
+std::optional<Solution> with_motions(const Solution& solution, Vector a, const Problem& problem, const Start& start,
+                                     const SolverOptions& options) {
+  Solution other = solution;
+  other.a = std::move(a);
+  const Measure measure(problem, start.p.size() == problem.q.size() ? start.p : Vector(Vector::Zero(problem.q.size())),
+                        options.force_scale);
+  complete(other, problem, motion_of(problem, other.p, other.a), measure, options, false);
+  if (other.status != Status::solved) return std::nullopt;
+  other.undetermined = solution.undetermined;  // a pair that may slip and does not is still one of them
+  return other;
+}
+
 }  // namespace scabo::contact

@@ -34,4 +34,9 @@ Solution solve(const Problem& problem, const Start& start = {}, const SolverOpti
 std::optional<Solution> with_forces(const Solution& solution, Vector p, const Problem& problem, const Start& start,
                                     const SolverOptions& options);
 
+/// A solution with other rigid motions a under the same forces, judged anew; nothing if it is not solved with these.
+/// Which motions are undetermined stays known from `solution`.
+std::optional<Solution> with_motions(const Solution& solution, Vector a, const Problem& problem, const Start& start,
+                                     const SolverOptions& options);
+
 }  // namespace scabo::contact

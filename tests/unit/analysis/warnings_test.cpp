@@ -251,6 +251,43 @@ std::string row(int count, const std::string& other_bodies, const std::string& r
          std::to_string(count) + ", step: [1, 0]}}\n" + rest;
 }
 
+/// Blocks on a floor, pressed on it; `friction` of each, and further lines.
+std::string on_floor(const std::vector<double>& friction, const std::string& rest = "") {
+  std::string contacts = "contacts:\n";
+  for (std::size_t k = 1; k <= friction.size(); ++k)
+    contacts += "  base_" + std::to_string(k) + ": {between: [floor.top, block_" + std::to_string(k) +
+                ".bottom], friction: " + std::to_string(friction[k - 1]) + "}\n";
+  return row(static_cast<int>(friction.size()),
+             "  floor: {rigid: true, shape: {rectangle: {corner: [0, -1], size: [40, 1]}}}\n",
+             "supports: [{on: floor, fix: [x, y]}]\nloads: {weight: {gravity: [0, -9.81]}}\n" + contacts + rest);
+}
+
+/// The sentences about motions that nothing determines.
+std::vector<std::string> of_motions(const StaticSolution& solution) {
+  std::vector<std::string> texts;
+  for (const Warning& warning : solution.warnings)
+    if (warning.kind == WarningKind::undetermined_motion) texts.push_back(warning.text);
+  return texts;
+}
+
+TEST(Warnings, OfManyBodiesThatSlideFreelyInOneSentence) {
+  EXPECT_THAT(of_motions(solve(on_floor({0.0, 0.0, 0.3, 0.0}))),
+              ElementsAre(HasSubstr("do not determine bodies 'block_1', 'block_2' and 'block_4': translation "
+                                    "along (1, 0); the smallest such motion was chosen")));
+  EXPECT_THAT(
+      of_motions(solve(on_floor(std::vector<double>(6, 0.0)))),
+      ElementsAre(HasSubstr("do not determine bodies 'block_1', 'block_2', 'block_3' and 'block_4': translation "
+                            "along (1, 0); and 2 more bodies; the smallest")));
+}
+
+TEST(Warnings, OfFreeMotionsAgainOnlyWhereOtherBodiesHaveThem) {
+  const std::string steps = "steps: [{loads: {weight: 1}, increments: 2}, {friction: {base_2: 0}}]\n";
+  EXPECT_THAT(
+      of_motions(solve(on_floor({0.0, 0.3, 0.3}, steps))),
+      ElementsAre(HasSubstr("step step_1, increment 1: supports, friction and loads do not determine body 'block_1': "),
+                  HasSubstr("do not determine bodies 'block_1' and 'block_2': translation along (1, 0);")));
+}
+
 std::size_t times(const std::string& part, const std::string& text) {
   std::size_t count = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
