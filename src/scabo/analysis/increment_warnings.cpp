@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/large_rotations.hpp"
 #include "scabo/analysis/near_collapse.hpp"
 #include "scabo/analysis/outside.hpp"
 #include "scabo/analysis/quantities.hpp"
@@ -74,6 +75,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   }
   if (const std::string large = too_large(prepared, reached.state); !large.empty())
     add(WarningKind::large_displacement, "", large);
+  for (const Warning& turned : rotations_at_large_slip(prepared, reached.state))
+    add(turned.kind, turned.subject, turned.text);
   if (const std::string close = near_collapse(prepared, reached.state, solution, static_cast<std::size_t>(at.step) - 1);
       !close.empty())
     add(WarningKind::near_collapse, "", close);

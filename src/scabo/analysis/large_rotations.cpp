@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scabo/base/components.hpp"
+#include "scabo/geometry/outline.hpp"
 
 namespace scabo::analysis {
 
 namespace {
 
 constexpr double largest_small_rotation = 0.1;  // rad, as of prescribed rotations
+constexpr double largest_tilt = 0.02;           // rad, of normals
 
 /// Rotation of the rigid motion nearest to the displacements `u` of nodes.
 double mean_rotation(const std::vector<Vec2>& nodes, const Vector& u) {
@@ -25,19 +28,44 @@ double mean_rotation(const std::vector<Vec2>& nodes, const Vector& u) {
   return turning / inertia;
 }
 
+/// Rotation of a body, rad; 0 of one that is unbounded or not there.
+double rotation_of(const Prepared& prepared, const State& state, int body) {
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const std::size_t part = dofs.part_of(body);
+  const auto b = static_cast<std::size_t>(body);
+  if (prepared.model.bodies[b].outside || prepared.is_absent(part)) return 0.0;
+  return dofs.is_rigid(part) ? state.u[part][2] / part_of(prepared, body).lever()
+                             : mean_rotation(prepared.mesh.bodies[b].nodes, dofs.of_body(body, state.u[part]));
+}
+
+/// A side of a contact with large slip.
+struct Turned {
+  const model::Body* body = nullptr;
+  bool straight = false;
+  double rotation = 0.0;  ///< rad
+};
+Turned turned(const Prepared& prepared, const State& state, const model::Place& side) {
+  const model::Body& body = prepared.model.bodies[static_cast<std::size_t>(side.body)];
+  return {&body, geometry::runs_straight(body.outline.edges[static_cast<std::size_t>(side.index)]),
+          rotation_of(prepared, state, side.body)};
+}
+
+/// Angle between the normals of the pairs, which are those of the sides as they are drawn, and that of the straight
+/// side as it is. A round side meets it in a point whose normal has turned onto it; normals bisect both, or are those
+/// of the rigid one.
+double wrong_by(const Turned& a, const Turned& b) {
+  if (a.straight && b.straight) return std::min(std::abs(a.rotation), std::abs(b.rotation));
+  if (a.body->rigid != b.body->rigid) return std::abs((a.body->rigid ? a : b).rotation);
+  return 0.5 * std::abs(a.rotation + b.rotation);
+}
+
 }  // namespace
 
 std::string large_rotation(const Prepared& prepared, const State& state) {
-  const system::Dofs& dofs = prepared.structure.dofs;
   std::size_t most = 0;
   double largest = 0.0;
   for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
-    const auto body = static_cast<int>(b);
-    const std::size_t part = dofs.part_of(body);
-    if (prepared.model.bodies[b].outside || prepared.is_absent(part)) continue;
-    const double rotation = dofs.is_rigid(part)
-                                ? state.u[part][2] / part_of(prepared, body).lever()
-                                : mean_rotation(prepared.mesh.bodies[b].nodes, dofs.of_body(body, state.u[part]));
+    const double rotation = rotation_of(prepared, state, static_cast<int>(b));
     if (std::abs(rotation) > std::abs(largest)) largest = rotation, most = b;
   }
   // A prescribed rotation of just this size is allowed.
@@ -47,6 +75,26 @@ std::string large_rotation(const Prepared& prepared, const State& state) {
       "and "
       "directions of loads do not turn; check loads, supports and the units of stiffness",
       prepared.model.bodies[most].name, largest, largest_small_rotation);
+}
+
+std::vector<Warning> rotations_at_large_slip(const Prepared& prepared, const State& state) {
+  std::vector<Warning> warnings;
+  for (const model::Contact& contact : prepared.model.contacts) {
+    if (!contact.large_slip) continue;
+    const Turned a = turned(prepared, state, contact.a), b = turned(prepared, state, contact.b);
+    const double tilt = wrong_by(a, b);
+    if (tilt <= largest_tilt) continue;
+    const Turned& most = std::abs(a.rotation) > std::abs(b.rotation) ? a : b;
+    warnings.push_back(
+        {WarningKind::large_displacement, contact.name,
+         fmt::format(
+             "body '{}' turns by {:.2g} rad, and normals of contact '{}' do not turn with it: the direction of "
+             "the contact forces is wrong by about {:.2g} rad{}; keep the body from turning by a support or by "
+             "loads close to the contact, or draw it in the position that it takes",
+             most.body->name, most.rotation, contact.name, tilt,
+             contact.friction > 0.0 ? fmt::format(", {:.0f} % of friction", 100.0 * tilt / contact.friction) : "")});
+  }
+  return warnings;
 }
 
 }  // namespace scabo::analysis

@@ -150,7 +150,7 @@ IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolu
 void add_large_rotation(const Prepared& prepared, const State& state, const IncrementResult& at,
                         StaticSolution& solution) {
   for (const Warning& warning : solution.warnings)
-    if (warning.kind == WarningKind::large_displacement) return;
+    if (warning.kind == WarningKind::large_displacement && warning.subject.empty()) return;
   if (const std::string sentence = large_rotation(prepared, state); !sentence.empty())
     solution.warnings.push_back({WarningKind::large_displacement, "",
                                  fmt::format("step {}, increment {}: {}", at.step_name, at.increment, sentence)});
