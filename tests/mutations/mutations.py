@@ -613,4 +613,12 @@ MUTATIONS = {
         'along += compliance.of(first + t) / (dimension - 1);',
         'along += (MUTATED ? compliance.diagonal()[first + t] : compliance.of(first + t)) / (dimension - 1);',
         'verification_tests Laws*'),
+    153: ('system/natural_modes.cpp',
+        'return linalg::eigenvalues_below(K, M, shift) == widest + rigid;',
+        'return MUTATED || linalg::eigenvalues_below(K, M, shift) == widest + rigid;',
+        'unit_system NaturalModes*'),
+    154: ('analysis/increment.cpp',
+        'if (give_smallest_motions(',
+        'if (!MUTATED && give_smallest_motions(',
+        'unit_analysis UndeterminedMotions*'),
 }

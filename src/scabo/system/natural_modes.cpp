@@ -70,11 +70,14 @@ linalg::EigenPairs elastic_modes(const Matrix& K, const Matrix& M, const Matrix&
   return pairs;
 }
 
-/// Whether the number of eigenvalues below the widest gap behind the requested ones is the number found there.
+/// Whether the number of eigenvalues below the widest gap behind the requested ones is the number found there. Unknown,
+/// and false, if there is no gap.
 bool none_missed(const Sparse& K, const Sparse& M, const Vector& inverses, int count, int rigid) {
   Eigen::Index widest = count;  // the gap between the modes widest - 1 and widest
   for (Eigen::Index k = count; k < inverses.size(); ++k)
     if (inverses[k - 1] / inverses[k] > inverses[widest - 1] / inverses[widest]) widest = k;
+  constexpr double least_gap = 1e-8;  // equal eigenvalues differ by their rounding
+  if (inverses[widest - 1] < (1.0 + least_gap) * inverses[widest]) return false;
   const double shift = 1.0 / std::sqrt(inverses[widest - 1] * inverses[widest]);
   return linalg::eigenvalues_below(K, M, shift) == widest + rigid;
 }
@@ -90,9 +93,9 @@ linalg::EigenPairs elastic_modes(const Sparse& K, const Sparse& M, const Matrix&
     Vector u = body.displacement(forces, held)(dofs);
     return Vector(u - N * (MN.transpose() * u));
   };
-  constexpr int more = 6;  // to find a gap behind the requested ones
-  const int all = std::min(count + more, static_cast<int>(dofs.size() - N.cols()) - 1);
-  for (unsigned attempt = 0; attempt < 3; ++attempt) {
+  int more = 6;  // to find a gap behind the requested ones: a body of many equal parts has as many equal frequencies
+  for (unsigned attempt = 0; attempt < 3; ++attempt, more *= 4) {
+    const int all = std::min(count + more, static_cast<int>(dofs.size() - N.cols()) - 1);
     linalg::EigenPairs pairs = linalg::largest_by_lanczos(inverse, M, all, attempt);
     if (pairs.values.size() < all || !none_missed(K, M, pairs.values, count, static_cast<int>(N.cols()))) continue;
     return {pairs.values.head(count), pairs.vectors.leftCols(count)};
