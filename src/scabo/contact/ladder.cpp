@@ -111,7 +111,7 @@ NewtonEnd Ladder::climb_elastic(const Vector& p, const Vector& a, const std::vec
   if (held_together() && better(bonded(*held_together()))) return best;
   if (hopeless && hopeless()) return best;
   // Newton's method may end beside the solution, of whose states some are wrong: |H| of 1e-6 of the largest force.
-  constexpr double beside = 1e-3, start_beside = 1e-6;
+  constexpr double beside = 1e-2, start_beside = 1e-6;
   if (cold && inner && !paths_first && best.residual <= beside * best.p.lpNorm<Eigen::Infinity>()) {
     if (may_cross_over() && better(crossed_over({{best.p, best.a}}))) return best;
     if (better(inside_near(best.p, best.a, start_beside))) return best;

@@ -85,10 +85,12 @@ class Ladder {
   NewtonEnd with_bodies_held();
   NewtonEnd arrived(PathEnd end);
   bool may_cross_over() const;
+  bool begins_bonded();
   struct CrossingPoint {
     Vector p, a;
   };
   NewtonEnd crossed_over(const std::vector<CrossingPoint>& points);
+  NewtonEnd crossed_from_bonded();
   NewtonEnd crossed(const CrossingPoint& from, double margin);
   PathStart crossing_start(const CrossingPoint& from, double margin) const;
   PathEnd along_path(const PathStart& start, bool held = false);

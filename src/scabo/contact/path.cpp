@@ -26,6 +26,7 @@ class Path {
  public:
   Path(const Problem& problem, const PathStart& start, const PathOptions& options)
       : options_(options),
+        margin_(start.margin),
         at_(problem, start, options),
         held_(options.hold > 0.0 ? 1.0 : 0.0),
         together_(std::min(first_together, options.together)) {}
@@ -60,7 +61,7 @@ class Path {
         note_least();
         if (!renew()) return PathEnd::How::broken;
         if (end_.changes >= most || options_.deadline.passed()) return PathEnd::How::broken;
-        if (stands_still()) return PathEnd::How::turned_back;
+        if (stands_still() && !begin_again_here()) return PathEnd::How::turned_back;
         continue;
       }
       const double to_end = at_.dt() < 0.0 && !endless_ ? at_.t() / -at_.dt() : HUGE_VAL;
@@ -80,11 +81,12 @@ class Path {
       ++end_.changes;
       note_least();
       if (options_.deadline.passed()) return PathEnd::How::broken;
-      const bool back = end_.changes - least_at_ >= patience;
-      if (end_.changes >= most || begun_at_ * at_.t() > far || (options_.patience > 0 && back))
-        return back ? PathEnd::How::turned_back : PathEnd::How::broken;
-      if (stands_still()) return PathEnd::How::turned_back;
       passed_ = next;
+      const bool back = end_.changes - least_at_ >= patience;
+      const bool leaves = begun_at_ * at_.t() > far, still = stands_still();
+      if (end_.changes >= most) return back ? PathEnd::How::turned_back : PathEnd::How::broken;
+      if ((leaves || still || (options_.patience > 0 && back)) && !begin_again_here())
+        return back || still ? PathEnd::How::turned_back : PathEnd::How::broken;
     }
   }
 
@@ -150,8 +152,7 @@ class Path {
   // largest force or motion; when Newton's method leads on: each time this part of the pairs before, or fewer.
   static constexpr int first_together = 16, later_together = 8, least_pause = 2, most_pause = 16, most_corrections = 8;
   static constexpr double beyond = 1e-11, beyond_at_end = 1e-13, fewer = 0.6, most_growth = 100.0;
-  // Another path begins so far from limits, of the mean force, and not so near to the end that this would be felt.
-  static constexpr double margin_again = 1e-6, least_again = 1e-3;
+  static constexpr double least_again = 1e-3;  // t from which another path begins: nearer to the end it would lead away
 
   /// The way on which the softness is taken back is as short as rounding; where it ends early, the point before counts.
   PathEnd finish(PathEnd::How how) {
@@ -408,9 +409,26 @@ class Path {
     const bool again = options_.hold > 0.0 && !last.states.empty() && begun_at_ * last.t > least_again;
     at_.go_to(again ? last : from);
     if (!again) return false;
+    begin_again();
+    return true;
+  }
+
+  void begin_again() {
     begun_at_ *= at_.t();
-    at_.begin_again(margin_again, 0.0);
+    at_.begin_again(margin_, 0.0);
     least_ = 1.0;
+  }
+
+  /// Where a path of held bodies does not come nearer to its end. Not where the bodies have begun to be let go.
+  bool begin_again_here() {
+    if (again_ == options_.again || options_.hold == 0.0 || round_ > 0 || begun_at_ * at_.t() < least_again)
+      return false;
+    ++again_;
+    begin_again();
+    still_from_ = begun_at_;
+    still_at_ = least_at_ = end_.changes;
+    passed_.reset();
+    endless_ = false;
     return true;
   }
 
@@ -440,18 +458,20 @@ class Path {
   }
 
   const PathOptions& options_;
+  double margin_;  // where the path begins and begins again
   PathSystem at_;
   PathEnd end_;
   std::optional<PathSystem::Point> arrived_;  // where t was 0, the softness not yet or only in part taken back
-  std::optional<Next> passed_;  // the limit that the path has just come from
-  bool endless_ = false;        // t stands still while the bodies move
-  double begun_at_ = 1.0;       // what t = 1 of the path at hand was of the first one
-  double least_ = 1.0;          // t, of the round
-  double still_from_ = 1.0;     // of begun_at_ * least_, at still_at_
-  double held_ = 0.0;           // what holds the bodies, over that of the first round
+  std::optional<Next> passed_;                // the limit that the path has just come from
+  bool endless_ = false;                      // t stands still while the bodies move
+  double begun_at_ = 1.0;                     // what t = 1 of the path at hand was of the first one
+  double least_ = 1.0;                        // t, of the round
+  double still_from_ = 1.0;                   // of begun_at_ * least_, at still_at_
+  double held_ = 0.0;                         // what holds the bodies, over that of the first round
   double loosened_by_ = 1.0, error_before_ = HUGE_VAL;
   bool falls_ = false;
-  int same_ = 0, round_ = 0, rounds_ = 0, least_at_ = 0, still_at_ = 0, side_before_ = 0, place_at_ = between_places;
+  int same_ = 0, again_ = 0, round_ = 0, rounds_ = 0, least_at_ = 0, still_at_ = 0, side_before_ = 0,
+      place_at_ = between_places;
   int together_, together_at_ = 0, pause_ = least_pause, successes_ = 0;
 };
 

@@ -24,8 +24,9 @@
 // method with the factors at hand, where rows of all pairs beyond their limits are replaced together. Two or three
 // iterations suffice, or it leads away: then a leap to half as many limits follows. A leap ends where the matrix has
 // the same sign of its determinant as before: with the other sign, paths lead back. Where bodies are held, what
-// Newton's method found before it led away begins a path of its own, whose dq and df are what is then missing. What
-// leaps do not pass, a body that begins to move or a path that turns back, is passed change by change.
+// Newton's method found before it led away begins a path of its own, whose dq and df are what is then missing; and so
+// does, where asked for, a point from which a path does not come nearer to its end. What leaps do not pass, a body that
+// begins to move or a path that turns back, is passed change by change.
 #pragma once
 
 #include <functional>
@@ -40,7 +41,9 @@ namespace scabo::contact {
 struct PathStart {
   Vector p, a;                       ///< forces, moved into the friction cones here, and rigid motions
   std::vector<ContactState> states;  ///< N; the direction of slip follows from p
-  double margin = 1e-2;   ///< of the mean force: pairs start this far from their limits, each at another distance
+  /// Of the mean force: pairs start this far from their limits, each at another distance, also where a path begins
+  /// again.
+  double margin = 1e-2;
   double pressure = 0.0;  ///< of the mean force: added to the normal forces of the pairs in contact
 };
 
@@ -52,6 +55,7 @@ struct PathOptions {
   int most = 0;       ///< changes of state in all; 0: 100, and four for each pair
   int patience = 0;   ///< changes without a smaller t after which the path has turned back; 0: an eighth of `most`
   int together = 0;   ///< changes of state in a leap, most; 0: no leaps
+  int again = 0;      ///< times that a path which turns back begins again where it is
   Deadline deadline = {};
   std::function<void(const Vector& p, const Vector& a)> on_factorisation = {};  ///< may be empty
 };

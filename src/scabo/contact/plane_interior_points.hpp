@@ -41,8 +41,9 @@ class PlaneInteriorPoints {
   ~PlaneInteriorPoints();
 
   /// Steps until the root of the mean square of H, over the largest force, is not above `aim` after a step that was
-  /// nearly whole, or until they no longer lead on; or, after the first few, until one is shorter than `shortest`.
-  /// `residual` is that figure.
+  /// nearly whole, or until they no longer lead on; or, after the first few, until one is shorter than `shortest`, or
+  /// by 1.45 times that far from the solution, where the residual of six steps is still large too. `residual` is that
+  /// figure.
   InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline, double shortest = 0.0);
 
  private:

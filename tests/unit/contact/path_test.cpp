@@ -178,6 +178,26 @@ TEST(Path, BeginsAgainWhereALeapLeadsAway) {
   EXPECT_GT(leaps, 100);
 }
 
+// A path of held bodies that turns back may begin again where it is: after two changes without a smaller t here.
+TEST(Path, BeginsAgainWhereItTurnsBack) {
+  const auto arrived = [](int again) {
+    std::mt19937 random(5);
+    int arrived = 0;
+    for (int k = 0; k < 60; ++k) {
+      const Scaled in_forces = scaled(test::floating_problem(random, test::whole(random, 30, 50), 2.0));
+      const PathEnd end = path_from_bonded(in_forces, ContactState::stick, 1e-2, 0.0,
+                                           {.hold = 1e-6, .patience = 2, .together = 64, .again = again});
+      if (end.how != PathEnd::How::arrived) continue;
+      ++arrived;
+      EXPECT_LT(test::violation(in_forces.problem, end.p, end.a), 1e-8 * std::max(1.0, end.p.lpNorm<Eigen::Infinity>()))
+          << k;
+    }
+    return arrived;
+  };
+  const int once = arrived(0), again = arrived(8);
+  EXPECT_GT(again, once);
+}
+
 // Forces of floor and ceiling, both pressed, would balance any push: no mechanism. But a joint that slides does not
 // open, nothing presses the block against the ceiling, and it slides when friction on the floor is used up.
 TEST(Collapse, OfABlockThatOnlyDilatancyWouldHold) {
