@@ -192,6 +192,31 @@ void BDifferentiableEquations::evaluate_at_motion(const Vector& p, Residual& at)
   }
 }
 
+int BDifferentiableEquations::stick_below(double level, const Vector& p, Residual& at) const {
+  const Eigen::Index d = problem_.dimension;
+  int number = 0;
+  for (Eigen::Index i = 0; i < problem_.pairs(); ++i) {
+    const auto forces = p.segment(d * i, d);
+    const Vector opening = r_.segment(d * i, d).cwiseProduct(at.motion.segment(d * i, d));
+    const double strength = std::abs(p[d * i] + problem_.tension_of(i)),
+                 bound = problem_.cohesion_of(i) + problem_.largest_mu(i) * p[d * i];
+    const double largest = std::max({strength, bound, forces.tail(d - 1).norm(), opening.lpNorm<Eigen::Infinity>()});
+    if (!(largest < level)) continue;
+    ++number;
+    Branch branch;
+    branch.contact = true;
+    at.H[d * i] = opening[0];
+    const bool sticks = problem_.largest_mu(i) > 0.0 || problem_.cohesion_of(i) > 0.0;
+    branch.tangent = sticks ? Branch::Tangent::stick : Branch::Tangent::free;
+    if (sticks)
+      at.H.segment(d * i + 1, d - 1) = opening.tail(d - 1);
+    else
+      at.H.segment(d * i + 1, d - 1) = forces.tail(d - 1);
+    at.branches[static_cast<std::size_t>(i)] = branch;
+  }
+  return number;
+}
+
 Residual BDifferentiableEquations::residual(const Vector& p, const Vector& a) const {
   Residual at;
   evaluate(p, a, at);

@@ -73,6 +73,10 @@ class BDifferentiableEquations {
   const Vector& r() const { return r_; }  // dN
   double proximal_weight() const { return weight_; }
 
+  /// Puts pairs whose forces, bound and motions are all below `level` (a force) on the branch of pairs that are closed
+  /// and stick, with H on it; those in `at` are the branches of their errors. Their number.
+  int stick_below(double level, const Vector& p, Residual& at) const;
+
   /// Adds (weight / r)(p - centre) to the motions.
   void hold(double weight, Vector centre);
 

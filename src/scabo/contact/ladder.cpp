@@ -43,6 +43,7 @@ NewtonEnd Ladder::run(const Problem& problem, const Vector& p, const Vector& a, 
   options.fall = how.fall;
   options.first_fall = how.first_fall;
   options.first_step = how.first_step;
+  options.undecided = how.undecided;
   options.watched = how.watched;
   options.stage = how.stage;
   options.deadline = options_.deadline;

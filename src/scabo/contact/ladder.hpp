@@ -59,6 +59,7 @@ class Ladder {
     double fall = 0.5;        ///< NewtonOptions::fall
     double first_fall = 1.0;  ///< NewtonOptions::first_fall
     double first_step = 0.0;  ///< NewtonOptions::first_step
+    double undecided = 0.0;   ///< NewtonOptions::undecided
     int watched = 6;          ///< NewtonOptions::watched
     bool soft = false;        ///< contact/soft_newton, where it may
   };
@@ -94,7 +95,8 @@ class Ladder {
   NewtonEnd crossed(const CrossingPoint& from, double margin);
   PathStart crossing_start(const CrossingPoint& from, double margin) const;
   PathEnd along_path(const PathStart& start, bool held = false);
-  NewtonEnd confirmed(NewtonEnd found, int few, const std::string& name);
+  NewtonEnd confirmed(NewtonEnd found, const std::string& name, Run how);
+  NewtonEnd confirmed_inside(NewtonEnd found);
   NewtonEnd without_history(const Vector& p, const Vector& a);
   void take_trace_of(ColdStart& start);
   NewtonEnd after_start(ColdStart start, const Run& how);

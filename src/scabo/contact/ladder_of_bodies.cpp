@@ -32,6 +32,10 @@ constexpr double at_limits = 1e-6, within_limits = 1e-2;
 /// again.
 constexpr int many_pairs = 8000;
 
+/// Pairs with less than this part of |H| are undecided where interior points end (NewtonOptions::undecided). At crack
+/// tips 10 and 100 do as well, with 1 Newton's method finds none.
+constexpr double undecided = 30.0;
+
 /// Whether a path was followed to where bodies move on. Not if that is where the loads are reached but for rounding, as
 /// where all loads are taken away.
 bool tells_of_a_fall(const PathEnd& end) {
@@ -157,7 +161,7 @@ NewtonEnd Ladder::arrived(PathEnd end) {
   found.p = std::move(end.p);
   found.a = std::move(end.a);
   constexpr int few = 4;
-  return confirmed(std::move(found), few, "path");
+  return confirmed(std::move(found), "path", {"newton after path", 0.0, 1.0, few, few});
 }
 
 /// Whether a path follows where Newton's method or interior points are slow. It takes at most 10 factorisations where
@@ -256,11 +260,10 @@ PathEnd Ladder::along_path(const PathStart& start, bool held) {
 
 /// States are certain when Newton has confirmed them. Where pairs are redundant it may not; then the point itself is
 /// kept if it is a solution.
-NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
+NewtonEnd Ladder::confirmed(NewtonEnd found, const std::string& name, Run how) {
   const Residual at = BDifferentiableEquations(problem_, options_.r_factor).residual(found.p, found.a);
   found.residual = at.largest();
   found.converged = content_ && content_(found.p, found.a, at.motion);
-  Run how{"newton after " + name, 0.0, 1.0, few, few};
   how.soft = has_many_motions(problem_);
   NewtonEnd end = newton_alone(found.p, found.a, how);
   if ((end.converged && end.residual <= found.residual) || !found.converged) return end;
@@ -268,10 +271,20 @@ NewtonEnd Ladder::confirmed(NewtonEnd found, int few, const std::string& name) {
   return found;
 }
 
+/// Newton's method confirms interior points of walls at once or not at all; where pairs at a crack tip are undecided, a
+/// few iterations find their states.
+NewtonEnd Ladder::confirmed_inside(NewtonEnd found) {
+  constexpr int hardly = 2, few = 6, soon = 3;
+  Run how{"newton after interior points", 0.0, 1.0, hardly, hardly};
+  if (!has_many_motions(problem_)) how.iterations = few, how.patience = soon;
+  how.undecided = undecided;
+  return confirmed(std::move(found), "interior points", how);
+}
+
 /// Interior points of a plane problem from forces and motions that are known roughly. When H has fallen far enough
 /// for most states to be right, a few Newton iterations reach the solution; where they do not, steps follow once more.
 NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
-  constexpr int few = 7, slowly = 4, hardly = 2;
+  constexpr int few = 7, slowly = 4;
   // Where Newton follows: the root of the mean square of H, over the largest force; and the next time, of what was then
   // reached. Of walls of 256 to 1,600 blocks most are solved from the first of them, and 1,600 blocks not from 6e-5.
   constexpr double first_aim = 5e-5, next_aim = 0.1;
@@ -293,7 +306,7 @@ NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
       NewtonEnd found = nothing();
       found.p = std::move(reached.p);
       found.a = std::move(reached.a);
-      return confirmed(std::move(found), hardly, "interior points");
+      return confirmed_inside(std::move(found));
     }
     if (late()) return best;
     if (reached.jammed) {
@@ -310,6 +323,7 @@ NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
     }
     Run how{"newton after interior points", 0.0, 1.0, few, slowly};
     how.first_step = 0.5;  // is whole or half where most states are right
+    how.undecided = undecided;
     NewtonEnd end = softly(reached.p, reached.a, how);
     if (end.converged || end.residual < best.residual) best = std::move(end);
     if (best.converged || late() || reached.residual > aim) return best;
@@ -335,14 +349,15 @@ NewtonEnd Ladder::inside(std::initializer_list<double> start_factors) {
   if (best.p.size() == 0) return best;
   if (!best.converged) {
     constexpr int few = 10;
-    return newton_alone(best.p, best.a, {"newton after interior points", 0.0, 1.0, few});
+    Run how{"newton after interior points", 0.0, 1.0, few};
+    how.undecided = undecided;
+    return newton_alone(best.p, best.a, how);
   }
   if (late()) {
     best.residual = BDifferentiableEquations(problem_, options_.r_factor).residual(best.p, best.a).largest();
     return best;
   }
-  constexpr int few = 2;
-  return confirmed(std::move(best), few, "interior points");
+  return confirmed_inside(std::move(best));
 }
 
 }  // namespace scabo::contact

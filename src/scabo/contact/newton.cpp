@@ -32,11 +32,13 @@ class Newton {
     while (true) {
       keep_best();
       record();
-      if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) ||
+      if (end_.converged || end_.iterations >= options_.iterations + given_up_ || !std::isfinite(at_.merit()) ||
           options_.deadline.passed() || creeps())
         break;
+      if (end_.iterations == most_stuck && given_up_ == 0) go_back_from_stuck();
       ++end_.iterations;
       options_.deadline.spend(operations_);
+      if (end_.iterations == 1 && step_with_undecided_stuck()) continue;
       if (many_ && step_of_many_bodies(first)) continue;
       if (many_ && options_.watched == 0) {
         end_.singular = !found_;
@@ -62,6 +64,34 @@ class Newton {
       if (alpha == 0.0) return false;
     }
     return false;
+  }
+
+  /// Interior points know forces and motions to within |H|, which is more than pairs have at the tip of a crack: 1e-9
+  /// of the largest force, where sides are divided towards it. Their branches there are those of errors, of which
+  /// Newton's method mends one ring of pairs after the other (13 to 28 iterations). Where they all stick, the first
+  /// step finds the field around the tip, which tells their states: 1 to 3, even if a wrong state makes |H| large on
+  /// the way.
+  bool step_with_undecided_stuck() {
+    constexpr int few = 10;  // of so many pairs not more than one is undecided: Newton finds its state itself
+    if (options_.undecided <= 0.0) return false;
+    trial_ = at_;
+    const int undecided = equations_.stick_below(options_.undecided * at_.largest(), p_, trial_);
+    if (few * undecided <= equations_.problem().pairs()) return false;
+    if (!direction_.find(p_, trial_, 0.0, NewtonDirection::Ties::free, d_)) return false;
+    stuck_merit_ = at_.merit();
+    take(1.0);
+    return true;
+  }
+
+  /// Where the faces of a crack slip at its tips the step leads away. The best point is the first one then.
+  void go_back_from_stuck() {
+    if (!(stuck_merit_ > 0.0) || at_.merit() < stuck_merit_) return;
+    given_up_ = most_stuck;
+    halved_at_ = end_.iterations;
+    watch_ = patience_ = 0;
+    p_ = end_.p;
+    a_ = end_.a;
+    equations_.evaluate(p_, a_, at_);
   }
 
   /// Of a wall hundreds of joints change their state together, and have ties besides: they just touch or are about to
@@ -187,6 +217,8 @@ class Newton {
     return 0.0;
   }
 
+  static constexpr int most_stuck = 2;  // iterations after which a step with undecided pairs stuck has led nearer
+
   const BDifferentiableEquations& equations_;
   const NewtonOptions& options_;
   NewtonDirection direction_;
@@ -201,6 +233,8 @@ class Newton {
   double eased_ = 1.0;              // part of the regularisation that is left
   double halved_merit_ = HUGE_VAL;  // the smallest one when it was last halved,
   int halved_at_ = 0;               // and the iteration
+  double stuck_merit_ = 0.0;        // before a step with undecided pairs stuck; 0: none
+  int given_up_ = 0;                // iterations after such a step that led away
   int unchecked_ = 0;               // full steps without descent
   int watch_ = 0, patience_ = 0;    // full steps since watched_; line searches to go before the next
   Vector watched_p_, watched_a_;

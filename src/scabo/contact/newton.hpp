@@ -25,6 +25,7 @@ struct NewtonOptions {
   double fall = 0.5;
   double first_fall = 1.0;  ///< ends where the first iteration leaves more than this part of the merit
   double first_step = 0.0;  ///< of soft_newton: ends where the first step is shorter
+  double undecided = 0.0;   ///< pairs with less than this part of |H| stick in the first step (not of soft_newton)
   std::string stage = "newton";
   Deadline deadline = {};                                   ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration = {};  ///< may be empty; what it throws ends the solve

@@ -276,6 +276,34 @@ TEST(BDifferentiableInThePlane, RegularisationGivesWayWhereNoStateChanges) {
   EXPECT_LT((end.p - solution).norm(), 1e-7);  // |H| / e
 }
 
+// Two pairs know their branches, one by its force and one by its motion; the third knows neither.
+TEST(BDifferentiableInThePlane, PairsBelowALevelStick) {
+  Problem problem;
+  problem.W = Matrix(2.0 * Matrix::Identity(6, 6));
+  problem.q = Vector::Zero(6);
+  problem.mu = Vector::Constant(3, 0.5);
+  problem.q << -2.0, 0.0, 0.2, 0.0, 1e-3, -4e-3;
+  Vector p = Vector::Zero(6);
+  p << 1.0, 0.1, 0.0, 0.0, 0.0, 1e-4;
+  const BDifferentiableEquations equations(problem, 1.0);
+  const Residual before = equations.residual(p, Vector());
+  Residual at = before;
+  EXPECT_EQ(equations.stick_below(1e-5, p, at), 0);
+  EXPECT_EQ(equations.stick_below(1e-2, p, at), 1);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(at.branches[i].same_branch(before.branches[i])) << i;
+  EXPECT_EQ(at.H.head(4), before.H.head(4));
+  EXPECT_TRUE(at.branches[2].contact);
+  EXPECT_EQ(at.branches[2].tangent, Branch::Tangent::stick);
+  EXPECT_DOUBLE_EQ(at.H[4], 0.5e-3);  // motions over W_ii
+  EXPECT_DOUBLE_EQ(at.H[5], 0.5 * (-4e-3 + 2e-4));
+
+  problem.mu[2] = 0.0;  // no friction: the force along the joint is 0
+  at = before;
+  EXPECT_EQ(equations.stick_below(1e-2, p, at), 1);
+  EXPECT_EQ(at.branches[2].tangent, Branch::Tangent::free);
+  EXPECT_DOUBLE_EQ(at.H[5], 1e-4);
+}
+
 // One pair alone: slip across the force, the cone's tip and its edge, solved by hand.
 TEST(BDifferentiableInSpace, OnePairIsSolvedByHand) {
   Problem problem;
