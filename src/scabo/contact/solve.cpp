@@ -40,6 +40,9 @@ namespace {
                                                  const Vector& rounding, const Scales& scales) {
   std::vector<ContactState> states;
   states.reserve(static_cast<std::size_t>(problem.pairs()));
+  // Without contact loads may move bodies by 1e6 times the slips of pairs (soft springs), and a slip is none beside
+  // that. 1e-4 is well above the gaps that the tolerance leaves.
+  const double length = std::clamp(largest_of(motion), 1e-4 * scales.length, scales.length);
   const Eigen::Index d = problem.dimension;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const double p_n = p[d * i], tension = problem.tension_of(i);
@@ -51,7 +54,7 @@ namespace {
     // motion counts where it is larger by far; at crack tips the forces of pairs are as small as the error of their
     // gaps.
     const auto exceeds = [&](double motion_beyond, double force) {
-      const double part = motion_beyond / scales.length;
+      const double part = motion_beyond / length;
       return part > 1e-6 && force / scales.force < 1e-3 * part;
     };
     // A pair that touches at zero force counts as in contact only if there is a force.

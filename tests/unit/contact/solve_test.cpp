@@ -78,6 +78,29 @@ TEST(Solve, StatesAreThoseOfTheLargerOfForceAndMotion) {
   EXPECT_EQ(nearly->states, states);
 }
 
+// Without contact a load would move the first pair by 1e6, on a soft spring; the second slips by 1e-3.
+TEST(Solve, SlipsCountBesidePairsThatAreHeldSoftly) {
+  Problem problem;
+  Vector flexibility(4);
+  flexibility << 1e6, 1e6, 1.0, 1.0;
+  problem.W = Matrix(flexibility.asDiagonal());
+  problem.q = Vector::Zero(4);
+  problem.q << -1e6, 0.0, -1.0, -0.501;
+  problem.mu = Vector::Constant(2, 0.5);
+  const std::vector<ContactState> states = {ContactState::stick, ContactState::slip};
+  SolverOptions options;
+  options.tolerance = 1e-9;
+  const Solution exact = solve(problem, {}, options);
+  ASSERT_EQ(exact.status, Status::solved);
+  EXPECT_EQ(exact.states, states);
+
+  Vector p = exact.p;
+  p[3] *= 1.0 - 3e-10;
+  const auto nearly = with_forces(exact, p, problem, {}, options);
+  ASSERT_TRUE(nearly.has_value());
+  EXPECT_EQ(nearly->states, states);
+}
+
 TEST(Solve, AgreesWithGaussSeidel) {
   std::mt19937 random(32);
   for (int k = 0; k < 50; ++k) {
