@@ -211,7 +211,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     if (give_smallest_motions(prepared, result.problem, laws, result.start, options, from, to, result.solution))
       balances = add_displacements(prepared, nullptr, to);
     soft = softly_held(prepared, to, result.problem, result.solution, posed.drawn);
-    if (!soft || !(soft->wrong > SoftlyHeld::good) || round == most_corrections) break;
+    if (!soft || !(soft->apart > SoftlyHeld::good) || round == most_corrections) break;
     problem.q += soft->difference;
     result.start = {result.solution.p, result.solution.a, result.start.touching};
   }

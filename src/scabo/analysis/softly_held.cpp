@@ -30,30 +30,54 @@ std::vector<double> stiffnesses(const Prepared& prepared, const State& state) {
   return stiffness;
 }
 
-/// A pair and its body that is held softly.
-struct SoftPair {
-  Eigen::Index pair = 0;
-  int body = 0;
-};
-std::vector<SoftPair> soft_pairs(const Prepared& prepared, const contact::Problem& problem,
-                                 const std::vector<double>& stiffness) {
+const model::Contact& contact_at(const Prepared& prepared, Eigen::Index pair) {
+  const auto contact = prepared.contact.pairs[static_cast<std::size_t>(pair)].contact;
+  return prepared.model.contacts[static_cast<std::size_t>(contact)];
+}
+
+/// Pairs of which a body may be held softly: W_ii is the flexibility of both.
+std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const contact::Problem& problem,
+                                     const std::vector<double>& stiffness) {
   const Vector flexibility = problem.W.diagonal();
   const auto is_soft = [&](int body, Eigen::Index pair) {
     const std::size_t p = prepared.structure.dofs.part_of(body);
     return prepared.structure.parts[p]->has_springs() ||
            flexibility.segment<2>(2 * pair).maxCoeff() * stiffness[p] > soft;
   };
-  std::vector<SoftPair> found;
+  std::vector<Eigen::Index> found;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
-    const model::Contact& contact =
-        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
     const auto pair = static_cast<Eigen::Index>(i);
-    if (is_soft(contact.a.body, pair))
-      found.push_back({pair, contact.a.body});
-    else if (is_soft(contact.b.body, pair))
-      found.push_back({pair, contact.b.body});
+    const model::Contact& contact = contact_at(prepared, pair);
+    if (is_soft(contact.a.body, pair) || is_soft(contact.b.body, pair)) found.push_back(pair);
   }
   return found;
+}
+
+/// How far a force at a pair moves the part of a body there, without contact.
+double flexibility_at(const Prepared& prepared, int body, Eigen::Index pair) {
+  const std::size_t p = prepared.structure.dofs.part_of(body);
+  if (!prepared.structure.parts[p]->is_flexible()) return 0.0;
+  double flexibility = 0.0;
+  for (const Eigen::Index row : {2 * pair, 2 * pair + 1}) {
+    const auto& motion = prepared.contact.motion[p];
+    const Vector along = motion.transpose() * Vector::Unit(motion.rows(), row);
+    std::vector<int> dofs;
+    std::vector<double> parts;
+    for (Eigen::Index k = 0; k < along.size(); ++k)
+      if (along[k] != 0.0) dofs.push_back(static_cast<int>(k)), parts.push_back(along[k]);
+    if (dofs.empty()) continue;
+    const Vector force = Eigen::Map<const Vector>(parts.data(), static_cast<Eigen::Index>(parts.size()));
+    flexibility = std::max(flexibility, force.dot(prepared.structure.parts[p]->flexed(dofs, force)));
+  }
+  return flexibility;
+}
+
+/// The body of a pair that gives way.
+int softer_body(const Prepared& prepared, Eigen::Index pair) {
+  const model::Contact& contact = contact_at(prepared, pair);
+  return flexibility_at(prepared, contact.b.body, pair) > flexibility_at(prepared, contact.a.body, pair)
+             ? contact.b.body
+             : contact.a.body;
 }
 
 }  // namespace
@@ -61,7 +85,7 @@ std::vector<SoftPair> soft_pairs(const Prepared& prepared, const contact::Proble
 std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to, const contact::Problem& problem,
                                       const contact::Solution& solution, const Vector& drawn) {
   const std::vector<double> stiffness = stiffnesses(prepared, to);
-  const std::vector<SoftPair> pairs = soft_pairs(prepared, problem, stiffness);
+  const std::vector<Eigen::Index> pairs = soft_pairs(prepared, problem, stiffness);
   if (pairs.empty()) return {};
   SoftlyHeld held;
   held.difference = drawn;
@@ -76,11 +100,14 @@ std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to,
   // Bodies may rest under large forces: a force then stands for the displacement that it would cause at one node.
   const double stiffest = *std::max_element(stiffness.begin(), stiffness.end());
   if (stiffest > 0.0) largest = std::max(largest, solution.p.lpNorm<Eigen::Infinity>() / stiffest);
-  for (const SoftPair& at : pairs) {
-    const double wrong = std::max(held.difference.segment<2>(2 * at.pair).lpNorm<Eigen::Infinity>(),
-                                  against_the_law(problem, solution, at.pair));
-    if (wrong > held.wrong * largest) held.wrong = wrong / largest, held.body = at.body;
+  Eigen::Index worst = pairs.front();
+  for (const Eigen::Index pair : pairs) {
+    const double apart = held.difference.segment<2>(2 * pair).lpNorm<Eigen::Infinity>();
+    const double wrong = std::max(apart, against_the_law(problem, solution, pair));
+    if (apart > held.apart * largest) held.apart = apart / largest;
+    if (wrong > held.wrong * largest) held.wrong = wrong / largest, worst = pair;
   }
+  if (held.wrong > SoftlyHeld::allowed) held.body = softer_body(prepared, worst);
   return held;
 }
 

@@ -21,9 +21,10 @@ struct SoftlyHeld {
   /// The largest difference, or motion against the law, of pairs of bodies that are held softly, over the largest
   /// displacement.
   double wrong = 0.0;
-  int body = -1;  ///< the body where it is
+  double apart = 0.0;  ///< the same of the difference alone
+  int body = -1;       ///< the body where it is, if it is above `allowed`
 
-  static constexpr double good = 1e-6;     ///< of `wrong`: not worth another solve
+  static constexpr double good = 1e-6;     ///< of `apart`: not worth another solve
   static constexpr double allowed = 3e-5;  ///< of `wrong`: forces are lost beyond
 };
 
