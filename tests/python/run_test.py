@@ -241,7 +241,7 @@ class Progress(InTemporaryDirectory):
 
     def long_increment(self):
         """A model whose increments take more than the time between two calls."""
-        sizes = {f"bodies.{body}.mesh.size": 0.025 for body in ("lower", "upper")}
+        sizes = {f"bodies.{body}.mesh.size": 0.0125 for body in ("lower", "upper")}
         return scabo.read(BEAM, set={**sizes, "steps": [{"name": "press", "increments": 50}]})
 
     def test_iterations_within_an_increment(self):

@@ -55,6 +55,7 @@ double beyond_cones(const Problem& problem, const Vector& p) {
   return all > 0.0 ? beyond / all : 0.0;
 }
 
+constexpr double joints_of_walls = 1.5;
 /// Joints that touch bodies only contact holds, over the number of these bodies: 1 in a tower, 3 in a wall.
 double joints_per_body(const Problem& problem) {
   std::set<std::vector<int>> joints;
@@ -74,7 +75,7 @@ NewtonEnd Ladder::bonded(const BondedStart& start) {
   // Walls of 64 to 100 blocks: below 0.12 Newton's method and paths take 3 to 6 iterations, above it Newton's method
   // does not converge, and above 0.28 interior points turn back. Paths of towers take 2 to 5, those of smaller walls 3
   // to 7.
-  constexpr double least_of_small = 0.12, most_of_small = 0.28, joints_of_walls = 1.5;
+  constexpr double least_of_small = 0.12, most_of_small = 0.28;
   constexpr int least_pairs = 500;
   // What converges takes 3 to 10 iterations; a path takes 2 to 10 factorisations, whatever happens.
   const bool small = problem_.pairs() <= most_of_paths_first;
@@ -301,13 +302,14 @@ NewtonEnd Ladder::inside_near(Vector p, Vector a, double start) {
   // reached. Of walls of 256 to 1,600 blocks most are solved from the first of them, and 1,600 blocks not from 6e-5.
   constexpr double first_aim = 5e-5, next_aim = 0.1;
   // Of walls of 256 to 1,600 blocks those whose steps are all at least 0.44 take 7 to 10 iterations, the others up
-  // to 45.
-  constexpr double jammed = 0.45;
+  // to 45. In walls a path also follows sooner where the states are not yet known, in towers it may turn back there.
+  const bool is_wall = joints_per_body(problem_) > joints_of_walls;
+  const ShortSteps jammed{0.45, is_wall ? 0.65 : 0.45};
   bool may_cross = may_cross_over();
   PlaneInteriorPoints points(problem_, p, a, start);
   NewtonEnd best = nothing();
   for (double aim = first_aim;;) {
-    InteriorPointEnd reached = points.advance(aim, content_, options_.deadline, may_cross ? jammed : 0.0);
+    InteriorPointEnd reached = points.advance(aim, content_, options_.deadline, may_cross ? jammed : ShortSteps{});
     for (Iteration& iteration : reached.trace) {
       iteration.iteration += iterations_ + coarse_iterations_;
       trace_.push_back(std::move(iteration));

@@ -43,10 +43,11 @@ constexpr std::array<double, 3> aims{1.0, 0.3, 0.1};
 // `wider`.
 constexpr double jammed = 0.3, wider = 3.0;
 constexpr int free_steps = 2, most_divided = 8;
-// After so many steps, and as long as the residual is so large, steps that are to be called short may be longer by this
-// factor; and the residual by which all steps are slow after so many.
+// The residual from which steps are far from the solution. After so many steps those that are to be called short may be
+// longer by this factor, and with such a residual all are slow.
+constexpr double far_away = 5e-3;
 constexpr int most_short = 5;
-constexpr double far_away = 5e-3, slowly = 1.45, late_away = 1.5e-3;
+constexpr double slowly = 1.45, late_away = 1.5e-3;
 // Parts of the factors that may go less far than the others, and how far: they keep at least 1 - `nearly` of what they
 // are, or what gives this part of the usual product.
 constexpr std::array<double, 7> shorter{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
@@ -84,7 +85,7 @@ class PlaneInteriorPoints::Implementation {
     divide(p, a, usual * start * std::max(bound * bound, 1e-300));
   }
 
-  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline, double shortest) {
+  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline, const ShortSteps& shorter) {
     InteriorPointEnd end;
     end.residual = HUGE_VAL;
     int since = 0;
@@ -110,7 +111,7 @@ class PlaneInteriorPoints::Implementation {
         end.content = true;
         break;
       }
-      if (leads_on_slowly(residual, shortest)) {
+      if (leads_on_slowly(residual, shorter)) {
         end.jammed = true;
         end.early_p = early_p_, end.early_a = early_a_;
         break;
@@ -127,11 +128,11 @@ class PlaneInteriorPoints::Implementation {
   }
 
  private:
-  /// Where something other than steps leads on sooner, from `shortest` above 0 on.
-  bool leads_on_slowly(double residual, double shortest) const {
-    if (!(shortest > 0.0) || steps_ <= free_steps) return false;
-    const bool late = steps_ > most_short;
-    return (late && residual > late_away) || step_ < (late || residual > far_away ? slowly : 1.0) * shortest;
+  /// Where something other than steps leads on sooner.
+  bool leads_on_slowly(double residual, const ShortSteps& shorter) const {
+    if (!(shorter.near > 0.0) || steps_ <= free_steps) return false;
+    if (steps_ > most_short) return residual > late_away || step_ < slowly * shorter.near;
+    return step_ < (residual > far_away ? shorter.far : shorter.near);
   }
 
   /// Coefficients, and strengths that the forces `p` suggest where they are none or all too large. Returns the mean
@@ -500,8 +501,8 @@ PlaneInteriorPoints::PlaneInteriorPoints(const Problem& problem, const Vector& p
 PlaneInteriorPoints::~PlaneInteriorPoints() = default;
 
 InteriorPointEnd PlaneInteriorPoints::advance(double aim, const IsSolution& content, const Deadline& deadline,
-                                              double shortest) {
-  return implementation_->advance(aim, content, deadline, shortest);
+                                              const ShortSteps& shorter) {
+  return implementation_->advance(aim, content, deadline, shorter);
 }
 
 }  // namespace scabo::contact

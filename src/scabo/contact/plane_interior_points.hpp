@@ -31,6 +31,11 @@ namespace scabo::contact {
 /// A plane problem with W sparse, or dense with at most 2,500 rows; any law of the pairs.
 bool may_take_plane_interior_points(const Problem& problem);
 
+/// Steps that are too short to go on with, near the solution and where its states are not yet known; 0: none is.
+struct ShortSteps {
+  double near = 0.0, far = 0.0;
+};
+
 class PlaneInteriorPoints {
  public:
   /// From forces p, in the cones or not, and motions a of the rigid bodies, W_ii being 1 in the mean. Where p_n - r u_n
@@ -41,10 +46,10 @@ class PlaneInteriorPoints {
   ~PlaneInteriorPoints();
 
   /// Steps until the root of the mean square of H, over the largest force, is not above `aim` after a step that was
-  /// nearly whole, or until they no longer lead on; or, after the first few, until one is shorter than `shortest`, or
-  /// by 1.45 times that far from the solution, where the residual of six steps is still large too. `residual` is that
-  /// figure.
-  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline, double shortest = 0.0);
+  /// nearly whole, or until they no longer lead on; or, after the first few, until one is shorter than `shorter` says,
+  /// or the residual of six steps is still large. `residual` is that figure.
+  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline,
+                           const ShortSteps& shorter = {});
 
  private:
   class Implementation;
