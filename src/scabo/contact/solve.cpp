@@ -290,6 +290,18 @@ std::optional<Solution> solved_with_slides_apart(const Problem& problem, const S
   return judged_as_a_whole(std::move(solution), problem, start, options);
 }
 
+/// The solution with other forces and motions; nothing where they are none.
+std::optional<Solution> completed_with(Solution other, Vector p, Vector a, const Problem& problem, const Start& start,
+                                       const SolverOptions& options) {
+  other.p = std::move(p);
+  other.a = std::move(a);
+  const Measure measure(problem, start.p.size() == problem.q.size() ? start.p : Vector(Vector::Zero(problem.q.size())),
+                        options.force_scale);
+  complete(other, problem, motion_of(problem, other.p, other.a), measure, options, false);
+  if (other.status != Status::solved) return std::nullopt;
+  return other;
+}
+
 }  // namespace
 
 [[gnu::hot]] Solution solve(const Problem& problem, const Start& start, const SolverOptions& options) {
@@ -301,27 +313,19 @@ std::optional<Solution> solved_with_slides_apart(const Problem& problem, const S
 
 std::optional<Solution> with_forces(const Solution& solution, Vector p, const Problem& problem, const Start& start,
                                     const SolverOptions& options) {
-  Solution other = solution;
-  other.p = std::move(p);
-  const Measure measure(problem, start.p.size() == problem.q.size() ? start.p : Vector(Vector::Zero(problem.q.size())),
-                        options.force_scale);
-  complete(other, problem, motion_of(problem, other.p, other.a), measure, options, false);
-  if (other.status != Status::solved) return std::nullopt;
+  std::optional<Solution> other = completed_with(solution, std::move(p), solution.a, problem, start, options);
+  if (!other) return std::nullopt;
   // The motions differ by rounding, which decides between states where the next increment begins.
-  other.gap = solution.gap;
-  other.slip_increment = solution.slip_increment;
+  other->gap = solution.gap;
+  other->slip_increment = solution.slip_increment;
   return other;
 }
 
 std::optional<Solution> with_motions(const Solution& solution, Vector a, const Problem& problem, const Start& start,
                                      const SolverOptions& options) {
-  Solution other = solution;
-  other.a = std::move(a);
-  const Measure measure(problem, start.p.size() == problem.q.size() ? start.p : Vector(Vector::Zero(problem.q.size())),
-                        options.force_scale);
-  complete(other, problem, motion_of(problem, other.p, other.a), measure, options, false);
-  if (other.status != Status::solved) return std::nullopt;
-  other.undetermined = solution.undetermined;  // a pair that may slip and does not is still one of them
+  std::optional<Solution> other = completed_with(solution, solution.p, std::move(a), problem, start, options);
+  if (!other) return std::nullopt;
+  other->undetermined = solution.undetermined;  // a pair that may slip and does not is still one of them
   return other;
 }
 

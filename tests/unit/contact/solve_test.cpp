@@ -56,6 +56,22 @@ TEST(Solve, FindsWhatTrialAndErrorFinds) {
   EXPECT_GT(unique, 90);
 }
 
+/// These are the states of the solution, and of its forces with a `change` within the tolerance.
+template <typename Change>
+void expect_states_of(const Problem& problem, const std::vector<ContactState>& states, const Change& change) {
+  SolverOptions options;
+  options.tolerance = 1e-9;
+  const Solution exact = solve(problem, {}, options);
+  ASSERT_EQ(exact.status, Status::solved);
+  EXPECT_EQ(exact.states, states);
+
+  Vector p = exact.p;
+  change(p);
+  const auto nearly = with_forces(exact, p, problem, {}, options);
+  ASSERT_TRUE(nearly.has_value());
+  EXPECT_EQ(nearly->states, states);
+}
+
 // Interior points leave a little force in open pairs and a little room below the bound of pairs that slip, within the
 // tolerance: these are open and slip all the same.
 TEST(Solve, StatesAreThoseOfTheLargerOfForceAndMotion) {
@@ -65,17 +81,7 @@ TEST(Solve, StatesAreThoseOfTheLargerOfForceAndMotion) {
   problem.q << -1.0, -0.1, 1.0, 0.3, -1.0, -2.0;
   problem.mu = Vector::Constant(3, 0.5);
   const std::vector<ContactState> states = {ContactState::stick, ContactState::open, ContactState::slip};
-  SolverOptions options;
-  options.tolerance = 1e-9;
-  const Solution exact = solve(problem, {}, options);
-  ASSERT_EQ(exact.status, Status::solved);
-  EXPECT_EQ(exact.states, states);
-
-  Vector p = exact.p;
-  p[0] += 3e-10, p[2] = 3e-10, p[5] *= 1.0 - 3e-10;
-  const auto nearly = with_forces(exact, p, problem, {}, options);
-  ASSERT_TRUE(nearly.has_value());
-  EXPECT_EQ(nearly->states, states);
+  expect_states_of(problem, states, [](Vector& p) { p[0] += 3e-10, p[2] = 3e-10, p[5] *= 1.0 - 3e-10; });
 }
 
 // Without contact a load would move the first pair by 1e6, on a soft spring; the second slips by 1e-3.
@@ -88,17 +94,7 @@ TEST(Solve, SlipsCountBesidePairsThatAreHeldSoftly) {
   problem.q << -1e6, 0.0, -1.0, -0.501;
   problem.mu = Vector::Constant(2, 0.5);
   const std::vector<ContactState> states = {ContactState::stick, ContactState::slip};
-  SolverOptions options;
-  options.tolerance = 1e-9;
-  const Solution exact = solve(problem, {}, options);
-  ASSERT_EQ(exact.status, Status::solved);
-  EXPECT_EQ(exact.states, states);
-
-  Vector p = exact.p;
-  p[3] *= 1.0 - 3e-10;
-  const auto nearly = with_forces(exact, p, problem, {}, options);
-  ASSERT_TRUE(nearly.has_value());
-  EXPECT_EQ(nearly->states, states);
+  expect_states_of(problem, states, [](Vector& p) { p[3] *= 1.0 - 3e-10; });
 }
 
 TEST(Solve, AgreesWithGaussSeidel) {
