@@ -102,18 +102,6 @@ void take(const State& from, const contact::Solution& solution, contact::History
   to.states = solution.states;
 }
 
-/// A solution with the iterations of those before it, which led to it.
-contact::Solution following(contact::Solution before, contact::Solution solution) {
-  for (contact::Iteration& iteration : solution.trace) {
-    iteration.iteration += before.iterations + before.coarse_iterations;
-    before.trace.push_back(std::move(iteration));
-  }
-  solution.trace = std::move(before.trace);
-  solution.iterations += before.iterations;
-  solution.coarse_iterations += before.coarse_iterations;
-  return solution;
-}
-
 /// Supports on both sides may hold a pair; they must not press its points into each other. `motion`: of these pairs.
 void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
   const system::ContactSystem& contact = prepared.contact;
@@ -202,7 +190,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     contact::Evolution evolution = contact::evolve(problem, laws, from.history, result.start, options);
     if (prepared.model.solver.uniqueness && N > 0)
       result.uniqueness = follow_history(problem, laws, from.history, result.start, options, evolution);
-    result.solution = following(std::move(result.solution), std::move(evolution.solution));
+    result.solution = contact::continued(std::move(result.solution), std::move(evolution.solution));
     result.problem = std::move(evolution.problem);
     give_smoothest_forces(prepared, result.problem, result.start, options, result.solution);
     take(from, result.solution, std::move(evolution.history), to);

@@ -72,8 +72,7 @@ std::string large_rotation(const Prepared& prepared, const State& state) {
   if (std::abs(largest) <= largest_small_rotation * (1.0 + 1e-9)) return {};
   return fmt::format(
       "body '{}' turns by {:.3g} rad: the theory is valid for rotations of up to {:.3g} rad, and normals of contacts "
-      "and "
-      "directions of loads do not turn; check loads, supports and the units of stiffness",
+      "and directions of loads do not turn; check loads, supports and the units of stiffness",
       prepared.model.bodies[most].name, largest, largest_small_rotation);
 }
 

@@ -44,4 +44,7 @@ struct Solution {
   std::string reason;            ///< why the problem was not solved, as a sentence
 };
 
+/// `solution` with the iterations of the one before, which led to it.
+Solution continued(Solution before, Solution solution);
+
 }  // namespace scabo::contact

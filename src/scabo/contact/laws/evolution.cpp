@@ -204,20 +204,12 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   History trial = from;
   Following following;
   Start at = start;
-  Solution total;
   const int most = 2 * static_cast<int>(from.size()) + gradual;
   for (int quiet = 0; result.rounds < most && quiet < gradual;) {
     set_limits(laws, trial, problem);
     Solution solution = solve_within(problem, at, options, reference_force(problem, diagonal, at, options));
     ++result.rounds;
-    for (Iteration& iteration : solution.trace) {
-      iteration.iteration += total.iterations + total.coarse_iterations;
-      total.trace.push_back(std::move(iteration));
-    }
-    total.iterations = solution.iterations += total.iterations;
-    total.coarse_iterations = solution.coarse_iterations += total.coarse_iterations;
-    solution.trace.clear();
-    result.solution = std::move(solution);
+    result.solution = continued(std::move(result.solution), std::move(solution));
     const bool solved = result.solution.status == Status::solved;
     const Ends ends = solved ? ends_of(problem, result.solution, diagonal) : Ends{};
     const bool again = solved && with_memory && [&] {
@@ -232,14 +224,12 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
     if (!again) {
       result.history = solved ? after(from, trial, ends) : from;
       result.problem = std::move(problem);
-      result.solution.trace = std::move(total.trace);
       return result;
     }
     at = {result.solution.p, result.solution.a, start.touching};
   }
   result.history = from;
   result.problem = std::move(problem);
-  result.solution.trace = std::move(total.trace);
   result.solution.status = Status::not_converged;
   result.solution.reason = "the failure states of the joints did not converge within " + std::to_string(result.rounds) +
                            " iterations; the increment may be too large, or failure propagates without limit";
