@@ -1,4 +1,5 @@
-"""Comments and documents name files that exist: paths of this project, headers and sources, decisions by their whole name."""
+"""Comments and documents name files that exist: paths of this project, headers and sources, decisions by their whole name.
+The version is the same wherever it stands."""
 import pathlib
 import re
 import sys
@@ -74,6 +75,13 @@ class References(unittest.TestCase):
         for folder, (_, names) in FOLDERS.items():
             for name in names:
                 self.assertTrue(list((ROOT / "src/scabo" / folder).glob(name)), f"{folder}/{name}")
+
+    def test_versions_agree(self):
+        texts = {name: (ROOT / name).read_text(encoding="utf-8") for name in ("CMakeLists.txt", "CITATION.cff", "CHANGELOG.md", "README.md")}
+        version = re.search(r"project\(scabo VERSION (\d+\.\d+)\.(\d+)", texts["CMakeLists.txt"])
+        self.assertIn(f"\nversion: {version[1]}.{version[2]}\n", texts["CITATION.cff"])
+        self.assertIn(f"\n## [{version[1]}.{version[2]}]", texts["CHANGELOG.md"])
+        self.assertIn(f"find_package(scabo {version[1]} REQUIRED)", texts["README.md"])
 
     def test_stale_names_are_found(self):
         text = "int a;  // as in contact/gone.hpp, mesh/gone and gone.cpp; base/error.hpp, mesh/*, https://mesh/site\n"
