@@ -113,8 +113,8 @@ TEST(Wall, OfAFewHundredPairsTakesFewIterations) {
 }
 
 // More than a thousand pairs: interior points follow Newton's method (docs/methods/12_contact_solver.md),
-// 36, 26 and 26 iterations before. Near the limit load of the last walls their steps become short, and a path follows; by interior points alone
-// these took 17 and 18.
+// 36, 26 and 26 iterations before. Near the limit load of the last walls their steps become short, and a path follows;
+// by interior points alone these took 17 and 18.
 TEST(Wall, OfManyPairsTakesFewIterations) {
   struct Case {
     double friction, part;

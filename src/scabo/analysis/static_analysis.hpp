@@ -148,7 +148,8 @@ struct IncrementResult {
   std::map<std::string, double> factors;  ///< factors of loads and of supports with prescribed displacements
   bool converged = false;
   int newton_iterations = 0;
-  /// On the problems of fewer pairs from which the start was computed (contact/starts/cold_start.hpp); not counted above.
+  /// On the problems of fewer pairs from which the start was computed (contact/starts/cold_start.hpp); not counted
+  /// above.
   int coarse_iterations = 0;
   int halvings = 0;                       ///< number of times that the increment was halved
   std::optional<PairsFound> pairs_found;  ///< of a model with large slip
