@@ -13,7 +13,8 @@ namespace scabo::analysis {
 namespace {
 
 /// Friction over elastic energy from which it is told. Walls of 16 x 16 and 24 x 24 blocks with friction 0.6 that are
-/// pushed reach 0.3 to 1.2 at 0.9 of their limit load and 3.5 to 180 from 0.95 on (docs/decisions/0059).
+/// pushed reach 0.3 to 1.2 at 0.9 of their limit load and 3.5 to 180 from 0.95 on
+/// (docs/decisions/0059-bodies-near-their-collapse.md).
 constexpr double worth_telling = 3.0;
 
 /// Energy that friction has dissipated before a step.
