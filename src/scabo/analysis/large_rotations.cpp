@@ -22,7 +22,7 @@ struct Moved {
   double rotation = 0.0;  ///< rad
   double deformed = 0.0;  ///< largest component that is left
 };
-Moved moved(const std::vector<Vec2>& nodes, const Vector& u) {
+Moved rigid_part(const std::vector<Vec2>& nodes, const Vector& u) {
   Vec2 centre = Vec2::Zero();
   Moved found;
   const auto count = static_cast<double>(nodes.size());
@@ -59,7 +59,7 @@ double rotation_of(const Prepared& prepared, const State& state, int body) {
   const auto b = static_cast<std::size_t>(body);
   if (prepared.model.bodies[b].outside || prepared.is_absent(part)) return 0.0;
   return dofs.is_rigid(part) ? state.u[part][2] / part_of(prepared, body).lever()
-                             : moved(prepared.mesh.bodies[b].nodes, dofs.of_body(body, state.u[part])).rotation;
+                             : rigid_part(prepared.mesh.bodies[b].nodes, dofs.of_body(body, state.u[part])).rotation;
 }
 
 /// A side of a contact with large slip.
@@ -89,7 +89,7 @@ std::string deformed_in_words(const Prepared& prepared, const State& state, int 
   const std::size_t part = dofs.part_of(body);
   if (dofs.is_rigid(part)) return "";
   const Moved own =
-      moved(prepared.mesh.bodies[static_cast<std::size_t>(body)].nodes, dofs.of_body(body, state.u[part]));
+      rigid_part(prepared.mesh.bodies[static_cast<std::size_t>(body)].nodes, dofs.of_body(body, state.u[part]));
   const double size = 2.0 * part_of(prepared, body).lever(), by_rotation = 0.5 * size * std::abs(own.rotation);
   if (own.deformed >= 0.1 * by_rotation) return "";
   return fmt::format("; it deforms by {:.1g} of its size only: it rolls or tips", own.deformed / size);
@@ -123,7 +123,7 @@ std::string large_displacement(const Prepared& prepared, const State& state) {
     if (dofs.is_rigid(part) || prepared.is_absent(part)) continue;
     const double size = 2.0 * prepared.structure.parts[part]->lever();
     Vector u = dofs.of_body(body, state.u[part]);
-    const Moved own = moved(prepared.mesh.bodies[b].nodes, u);
+    const Moved own = rigid_part(prepared.mesh.bodies[b].nodes, u);
     if (has_large_slip(prepared.model))  // bodies may slide, and others push them, as far as they like
       u.reshaped(2, u.size() / 2).colwise() -= own.along;
     const double largest = u.lpNorm<Eigen::Infinity>();

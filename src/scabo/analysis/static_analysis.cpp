@@ -119,7 +119,7 @@ void tell_begin(const Options& options, const model::Step& step, std::size_t ind
                                     : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
 }
 
-double largest_displacement(const State& state) {
+double largest_component(const State& state) {
   double largest = 0.0;
   for (const Vector& u : state.u)
     if (u.size() > 0) largest = std::max(largest, u.lpNorm<Eigen::Infinity>());
@@ -141,7 +141,7 @@ IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolu
     reached.reason = fmt::format(
         "the elastic energy exceeds the range of floating-point numbers: displacements reach {:.3g} under "
         "forces of up to {:.3g}",
-        largest_displacement(reached.state), largest_force(reached.state));
+        largest_component(reached.state), largest_force(reached.state));
   result.converged = reached.reason.empty();
   result.newton_iterations = reached.iterations;
   result.coarse_iterations = reached.coarse_iterations;

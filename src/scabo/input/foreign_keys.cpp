@@ -8,16 +8,16 @@ namespace scabo::input {
 
 namespace {
 
-constexpr const char* elastic =
+constexpr const char* about_yield =
     "bodies are linear elastic and do not yield: leave it out, and compare it with the von Mises stress of the results";
-constexpr const char* no_heat =
+constexpr const char* about_heat =
     "no flow of heat is computed: leave it out, and give the change of temperature as a load, 'temperature'";
-constexpr const char* angle =
+constexpr const char* about_angle =
     "friction is a key of a contact, 'friction', the tangent of this angle: 0.577 for 30 degrees";
-constexpr const char* rigid_contact =
+constexpr const char* about_contact_stiffness =
     "the sides of a contact do not give way, so that it has no stiffness: leave it out, and draw a soft layer as a "
     "body";
-constexpr const char* anchor =
+constexpr const char* about_anchor =
     "an anchor is an entry of 'springs', tensioned by its 'at_rest': {on: wall.head, k_x: 40e6, at_rest: [-5e-3, "
     "null], "
     "name: anchor}";
@@ -31,29 +31,29 @@ struct ForeignKey {
 
 /// The first that fits counts.
 constexpr ForeignKey foreign_keys[] = {
-    {"yield", "", "", elastic},
-    {"yieldstress", "", "", elastic},
-    {"yieldstrength", "", "", elastic},
-    {"plastic", "", "", elastic},
-    {"plasticity", "", "", elastic},
-    {"hardening", "", "", elastic},
-    {"conductance", "", "", no_heat},
-    {"conductivity", "", "", no_heat},
-    {"thermalconductivity", "", "", no_heat},
-    {"specificheat", "", "", no_heat},
+    {"yield", "", "", about_yield},
+    {"yieldstress", "", "", about_yield},
+    {"yieldstrength", "", "", about_yield},
+    {"plastic", "", "", about_yield},
+    {"plasticity", "", "", about_yield},
+    {"hardening", "", "", about_yield},
+    {"conductance", "", "", about_heat},
+    {"conductivity", "", "", about_heat},
+    {"thermalconductivity", "", "", about_heat},
+    {"specificheat", "", "", about_heat},
     {"frictionangle", "friction", "", "write its tangent as 'friction', 0.577 for 30 degrees"},
-    {"frictionangle", "", "", angle},
+    {"frictionangle", "", "", about_angle},
     {"angleoffriction", "friction", "", "write its tangent as 'friction', 0.577 for 30 degrees"},
-    {"angleoffriction", "", "", angle},
+    {"angleoffriction", "", "", about_angle},
     {"phi", "friction", "", "write its tangent as 'friction', 0.577 for 30 degrees"},
-    {"phi", "young", "", angle},
-    {"anchor", "", "", anchor},
-    {"anchors", "", "", anchor},
-    {"stiffness", "friction", "increments", rigid_contact},
-    {"contactstiffness", "", "", rigid_contact},
-    {"normalstiffness", "", "", rigid_contact},
-    {"penalty", "", "", rigid_contact},
-    {"penaltystiffness", "", "", rigid_contact},
+    {"phi", "young", "", about_angle},
+    {"anchor", "", "", about_anchor},
+    {"anchors", "", "", about_anchor},
+    {"stiffness", "friction", "increments", about_contact_stiffness},
+    {"contactstiffness", "", "", about_contact_stiffness},
+    {"normalstiffness", "", "", about_contact_stiffness},
+    {"penalty", "", "", about_contact_stiffness},
+    {"penaltystiffness", "", "", about_contact_stiffness},
     {"stiffness", "fix", "",
      "a support does not give way: write an entry of 'springs' instead, {on: beam.bottom, k_n: 50e6}"},
     {"stiffness", "young", "", "the stiffness of a material is 'young' and 'poisson': leave it out"},
