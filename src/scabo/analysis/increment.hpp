@@ -136,10 +136,6 @@ DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attemp
 /// The results of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);
 
-/// A sentence about the first part whose displacements exceed a tenth of its size, for which the theory of small
-/// displacements is not valid; empty if there is none.
-std::string too_large(const Prepared& prepared, const State& state);
-
 /// `body 'upper': translation along (1, 0)` for rigid motions `a`; of many bodies the four parts that move most, and
 /// how many others.
 std::string describe_motions(const Prepared& prepared, const Vector& a);

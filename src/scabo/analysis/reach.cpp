@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/analysis/increment_balance.hpp"
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/wedged_points.hpp"
 #include "scabo/contact/laws/evolution.hpp"
@@ -30,6 +31,16 @@ std::string remedy_for(const Prepared& prepared, double figure) {
   return tolerance_to_set(figure, prepared.model.solver.tolerance, 2 * prepared.mesh.nodes());
 }
 
+/// The part that resists its displacements most.
+std::string stiffest_part(const Prepared& prepared, const State& state) {
+  std::size_t stiffest = 0;
+  double largest = 0.0;
+  for (std::size_t p = 0; p < state.u.size(); ++p)
+    if (const double force = prepared.structure.parts[p]->stiff_force(state.u[p]); force > largest)
+      largest = force, stiffest = p;
+  return prepared.structure.dofs.name_of(stiffest, prepared.model);
+}
+
 /// Reason why an increment with a contact solution is not accepted.
 std::string above_tolerance(const Prepared& prepared, const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
@@ -38,9 +49,11 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
   if (const std::string remedy = remedy_for(prepared, worst); !remedy.empty())
     reason += remedy;
   else if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
-    reason +=
-        "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
-        "stiff parts less stiff or rigid, give a slender super-element mesh {kind: fem}, or raise solver.tolerance";
+    reason += fmt::format(
+        "; rounding of the displacements alone may leave {:.1g}, because {} resists a displacement of one node {:.0e} "
+        "times as much as the largest force: make it less stiff beside the other parts, or rigid, or raise "
+        "solver.tolerance",
+        tried.rounding, stiffest_part(prepared, tried.state), tried.rounding / rounding_of_resistance);
   else if (const std::string stiff = stiff_springs(prepared.model, prepared.structure, stiff_beside); !stiff.empty())
     reason += "; " + stiff;
   return reason;
@@ -83,7 +96,7 @@ std::string lost_in_rounding(const Prepared& prepared, const Attempt& tried, dou
     return fmt::format(
         "; all pairs are open by {:.3g} or more at first, and the motion that closes them is so large beside the "
         "deformation of the bodies that rounding of the displacements may leave {:.1g} of the forces unbalanced: a "
-        "smaller gap or a larger load is needed, check their units",
+        "smaller gap or a larger load is needed",
         opening, closing);
   if (!(lost > tolerance) || !std::isfinite(lost)) return {};
   return fmt::format(

@@ -111,6 +111,22 @@ std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to,
   return held;
 }
 
+namespace {
+
+/// How far a force at a contact moves a body there, over how far it would move one of its nodes alone.
+double flexibility_in_contact(const Prepared& prepared, int body) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const auto pair = static_cast<Eigen::Index>(i);
+    const model::Contact& contact = contact_at(prepared, pair);
+    if (contact.a.body == body || contact.b.body == body) most = std::max(most, flexibility_at(prepared, body, pair));
+  }
+  const system::BodySystem& part = part_of(prepared, body);
+  return most * part.stiff_force(Vector::Ones(part.size()));
+}
+
+}  // namespace
+
 std::string lost_where_softly_held(const Prepared& prepared, const SoftlyHeld& held) {
   const model::Body& body = prepared.model.bodies[static_cast<std::size_t>(held.body)];
   const char* lost = "its contact forces are lost in the rounding of how far the loads would move it without contact";
@@ -120,9 +136,11 @@ std::string lost_where_softly_held(const Prepared& prepared, const SoftlyHeld& h
         "them stiffer",
         body.name, lost);
   return fmt::format(
-      "body '{}' is so slender, or held by parts so soft, that {}: leave soft parts out, if contact holds the body, or "
-      "make them stiffer; give a slender body fewer elements",
-      body.name, lost);
+      "body '{}' gives way {:.0e} times as far under a force at its contact as its elements do, so that {}: hold it "
+      "more "
+      "stiffly (leave out soft parts that are tied to it, if contact holds it, or make them stiffer), or use larger "
+      "elements",
+      body.name, flexibility_in_contact(prepared, held.body), lost);
 }
 
 }  // namespace scabo::analysis

@@ -63,6 +63,9 @@ struct Energy {
   double external = 0.0;  ///< of loads and of reactions at prescribed displacements
   double elastic = 0.0;   ///< stored in bodies and springs
   double friction = 0.0;  ///< dissipated
+  /// `friction`, and `external` with it, are known to +- this: pairs began or ended to slip within increments in which
+  /// their pressure changed.
+  double friction_error = 0.0;
 };
 
 /// A crack, or a corner at a scaling centre, after an increment.

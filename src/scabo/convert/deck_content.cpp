@@ -7,6 +7,7 @@
 #include <map>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "scabo/convert/deck_contacts.hpp"
 #include "scabo/convert/deck_fields.hpp"
@@ -30,6 +31,7 @@ struct Growing {
   std::string amplitude;  // of this value, upper case
   bool touched = false;   // in this step
   bool fresh = true;      // new in this step
+  bool released = false;  // by OP=NEW, and not given since: told once
 };
 using Table = std::map<std::pair<int, int>, Growing>;
 
@@ -160,6 +162,31 @@ class ContentReader {
     growing.touched = growing.fresh = false;
   }
 
+  /// One remark for all that OP=NEW releases in a step: a set has many nodes.
+  void note_what_is_released() {
+    if (!new_displacements_) return;
+    std::vector<std::string> labels;
+    const Growing* first = nullptr;
+    for (auto& [key, growing] : displacements_) {
+      if (growing.touched) growing.released = false;
+      if (growing.touched || std::exchange(growing.released, true)) continue;
+      if (first == nullptr) first = &growing;
+      if (std::find(labels.begin(), labels.end(), growing.given.label) == labels.end())
+        labels.push_back(growing.given.label);
+    }
+    if (first == nullptr) return;
+    constexpr std::size_t most = 3;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(labels.size(), most); ++i)
+      names += fmt::format("{}'{}'", i == 0 ? "" : ", ", files::printable(labels[i]));
+    if (labels.size() > most) names += fmt::format(" and {} more", labels.size() - most);
+    remarks_.essential(
+        first->given.at,
+        fmt::format("the displacement{} of {} {} released in step {} by OP=NEW, which supports of Scabo "
+                    "cannot be",
+                    labels.size() == 1 ? "" : "s", names, labels.size() == 1 ? "is" : "are", content_.steps.size()));
+  }
+
   /// What the step has of one of the keywords of distributed loads.
   struct DistributedLoads {
     bool before = false, here = false;       // given in an earlier step, in this one
@@ -180,14 +207,8 @@ class ContentReader {
     const DeckStep& step = content_.steps.back();
     if (!has_procedure_)
       remarks_.essential(step.at, "the step has no *STATIC, and Scabo converts static steps; add it");
-    for (auto& [key, growing] : displacements_) {
-      if (new_displacements_ && !growing.touched)
-        remarks_.essential(growing.given.at,
-                           fmt::format("the displacement of '{}' is released in step {} by OP=NEW, which "
-                                       "supports of Scabo cannot be",
-                                       files::printable(growing.given.label), content_.steps.size()));
-      finish(growing, false);
-    }
+    note_what_is_released();
+    for (auto& [key, growing] : displacements_) finish(growing, false);
     for (auto& [key, growing] : forces_) finish(growing, new_forces_);
     for (auto& [key, growing] : pressures_) finish(growing, new_pressures_);
     for (GrowingBodyLoad& load : body_loads_) {

@@ -461,9 +461,9 @@ ImportedMesh GmshReader::read() {
       skip_section(section);
     }
   }
-  if (version_ == 0) fail("the file has no $MeshFormat: it is not a mesh of Gmsh, or empty");
-  if (!has_nodes_) fail("the file has no $Nodes: it is truncated, or nothing was meshed; save the mesh again");
-  if (!has_elements_) fail("the file has no $Elements: it is truncated, or nothing was meshed; save the mesh again");
+  if (version_ == 0) fail("the file has no $MeshFormat, with which a mesh of Gmsh begins");
+  if (!has_nodes_) fail("the file has no $Nodes; save the mesh again, after meshing it (in Gmsh: -2)");
+  if (!has_elements_) fail("the file has no $Elements; save the mesh again, after meshing it (in Gmsh: -2)");
   return builder_.finish();
 }
 

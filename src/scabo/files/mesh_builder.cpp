@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "scabo/files/cell_shape.hpp"
+#include "scabo/files/folded_cell.hpp"
 #include "scabo/files/side_table.hpp"
 #include "scabo/files/text_cursor.hpp"
 
@@ -277,23 +278,15 @@ void MeshBuilder::check_shapes(ImportedMesh& mesh, const std::vector<int>& origi
     for (const int node : cell.nodes) points.push_back(mesh.nodes[index(node)]);
     const auto folded = folded_at(cell.kind, points);
     if (!folded) continue;
-    const bool polygon = cell.kind == CellKind::polygon || cell.kind == CellKind::quadratic_polygon;
-    const bool middle = *folded >= cell.corners();
-    std::string numbers;
-    for (const int node : cell.nodes) {
-      if (numbers.size() > 100) {
-        numbers += " ...";
-        break;
-      }
-      numbers += fmt::format(" {}", numbers_[index(original[index(node)])]);
+    std::vector<std::int64_t> nodes;
+    for (const int node : cell.nodes) nodes.push_back(numbers_[index(original[index(node)])]);
+    std::string list;
+    for (const std::int64_t node : nodes) {
+      list += list.size() > 100 ? " ..." : fmt::format(" {}", node);
+      if (list.ends_with("...")) break;
     }
-    const std::int64_t node = numbers_[index(original[index(cell.nodes[index(*folded)])])];
     fail(cells_[c],
-         fmt::format("({}, nodes{}) is folded: {} at {}node {}; {}", name_of(cell.kind), numbers,
-                     polygon ? "its boundary meets itself or has no area" : "its Jacobian is not positive",
-                     middle ? "middle " : "", node,
-                     is_quadratic(cell.kind) ? "move its nodes: a middle node belongs between the quarters of its side"
-                                             : "put its nodes in order around it, or mesh again"));
+         fmt::format("({}, nodes{}) {}", name_of(cell.kind), list, why_folded(cell.kind, points, nodes, *folded)));
   }
 }
 

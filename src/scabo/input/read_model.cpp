@@ -235,6 +235,7 @@ Model read_tree(Reading& reading, const NodePtr& tree, const std::string& file) 
 Document parse_document(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
   Reading reading;
   reading.model.file = file;
+  reading.model.text = std::make_shared<const std::string>(text);
   std::vector<Diagnostic> mistakes;
   NodePtr root = parse_yaml(text, mistakes);
   for (const Diagnostic& mistake : mistakes) reading.report.error(mistake.at, mistake.message);

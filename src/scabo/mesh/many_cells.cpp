@@ -289,7 +289,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
     cell.centre = seeing_centre(polygon);
     const auto material_of = [&](int region) {
-      if (body.image) return std::next(body.image->materials.begin(), region)->second;
+      if (body.image) return region;
       return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
     };
     cell.materials = {material_of(polygon.region)};
@@ -333,15 +333,14 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
 
 namespace {
 
-/// A body that an image shows. Region k is that of label number k with a material.
+/// A body that an image shows. Its regions are its materials.
 std::variant<BodyMesh, Diagnostic> divide_image(const model::Body& body, double most_nodes) {
   const model::ImageShape& shape = *body.image;
   ImageOptions options;
   options.pixel = shape.pixel;
   options.size = body.mesh.size;
-  for (const auto& [label, material] : shape.materials)
-    options.regions.emplace(label, static_cast<int>(options.regions.size()));
-  PolygonMesh polygons = image_mesh(*shape.image, options);
+  options.regions = shape.materials;
+  ImageMesh polygons = image_mesh(*shape.image, options);
   const auto corners = static_cast<double>(polygons.nodes.size()), cells = static_cast<double>(polygons.cells.size());
   const double nodes = corners + (body.mesh.order - 1) * (corners + cells - 1.0);  // sides by Euler's formula
   if (nodes > most_nodes)
@@ -351,13 +350,14 @@ std::variant<BodyMesh, Diagnostic> divide_image(const model::Body& body, double 
                     "image of fewer pixels{}",
                     cells, text_of_count(nodes, most_nodes, 2), std::max(most_nodes, 0.0),
                     body.mesh.order > 1 ? " or a lower 'order'" : "")};
-  const Vec2 corner = body.outline.edges.front().start;
-  for (Vec2& node : polygons.nodes) node += corner;
-  for (PolygonCell& cell : polygons.cells) cell.centre += corner;
+  for (Vec2& node : polygons.nodes) node += shape.corner;
+  for (PolygonCell& cell : polygons.cells) cell.centre += shape.corner;
   BodyDomain of;
-  of.domain.lines.resize(4);
-  of.lines_of_edge = {{0}, {1}, {2}, {3}};
-  return body_mesh_of(polygons, of, body);
+  of.domain.lines.resize(polygons.left.size());
+  of.lines_of_edge.assign(polygons.lines_of_side.begin(), polygons.lines_of_side.end());
+  BodyMesh mesh = body_mesh_of(polygons, of, body);
+  mesh.corners.assign(polygons.corners.begin(), polygons.corners.end());
+  return mesh;
 }
 
 /// Number of pieces that share no side with each other.

@@ -58,7 +58,7 @@ class Grower {
       last_trouble_ = trouble.front();
       if (!divide_at(trouble)) break;
     }
-    give_up("lines are too close to each other, or meet elsewhere than at their ends,");
+    give_up("no division of the squares was found in which lines cut each into sound cells,");
   }
 
  private:

@@ -35,7 +35,8 @@ struct QuadtreeOptions {
 /// there have no nodes inside this cell; its sides know their regions. Points at which more than one crack or part of
 /// the outside ends keep their node.
 ///
-/// Throws InputError if lines are too close to each other, or meet elsewhere than at their ends.
+/// Throws InputError if lines cut squares of every size into parts that are no cells: they are too close to each other,
+/// or meet elsewhere than at their ends.
 PolygonMesh quadtree_mesh(const Domain& domain, const QuadtreeOptions& options = {});
 
 }  // namespace scabo::mesh

@@ -158,8 +158,20 @@ class Applied {
     }
     const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
     const model::Edge& edge = body_.outline.edges[static_cast<std::size_t>(place_->index)];
-    const double length = edge.length(), slope = 12.0 * moment.value / (thickness() * length * length * length);
-    const Vec2 along = (edge.end - edge.start) / length, middle = 0.5 * (edge.start + edge.end);
+    const Vec2 along = (edge.end - edge.start) / edge.length();
+    // Over the elements, between which the edge of an image may have gaps: length, first and second moment.
+    double length = 0.0, first = 0.0, second = 0.0;
+    for (const mesh::LineElement& element : at.elements) {
+      const auto position = [&](int node) {
+        return along.dot(body_mesh_.nodes[static_cast<std::size_t>(node)] - edge.start);
+      };
+      const double from = position(element.nodes.front()), to = position(element.nodes.back());
+      length += to - from;
+      first += (to * to - from * from) / 2.0;
+      second += (to * to * to - from * from * from) / 3.0;
+    }
+    const double slope = moment.value / (thickness() * (second - first * first / length));
+    const Vec2 middle = edge.start + first / length * along;
     // The normal is the direction of the edge turned clockwise.
     apply_traction(at, [&](const Vec2& x, const Vec2& n) { return Vec2(-slope * along.dot(x - middle) * n); });
   }
