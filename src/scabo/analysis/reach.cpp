@@ -50,8 +50,9 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
     reason += remedy;
   else if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
     reason += fmt::format(
-        "; rounding of the displacements alone may leave {:.1g}, because {} resists a displacement of one node {:.0e} "
-        "times as much as the largest force: make it less stiff beside the other parts, or rigid, or raise "
+        "; rounding of the displacements alone may leave {:.1g}, because {} would resist its largest displacement, of "
+        "one "
+        "node alone, by {:.0e} times the largest force: make it less stiff beside the other parts, or rigid, or raise "
         "solver.tolerance",
         tried.rounding, stiffest_part(prepared, tried.state), tried.rounding / rounding_of_resistance);
   else if (const std::string stiff = stiff_springs(prepared.model, prepared.structure, stiff_beside); !stiff.empty())

@@ -69,7 +69,7 @@ class LevelReader {
     }
     const std::size_t before = reading_.report.count();
     for (const MapEntry& entry : value.node->entries) read(entry.key, Value{entry.value, value.path + "." + entry.key});
-    if (reading_.report.count() == before && materials_.empty())
+    if (reading_.report.count() == before && materials_.empty() && !present_.empty())
       reading_.report.error(value, "no pixel of the image gets a material: name one for a level that it has");
     tell_of_empty_pixels(value);
     return materials_;
