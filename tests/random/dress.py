@@ -1,6 +1,7 @@
 """Makes a model of a `Scene`: materials, meshes, supports, springs and laws of contact."""
 import families
 import geometry
+import inside
 import loads
 from dice import Dice, short
 
@@ -20,8 +21,10 @@ def model(seed):
         made["bodies"][name] = body(dice, made["materials"], shape, name in rigid)
     hold(dice, scene, made, rigid, pressure)
     join(dice, scene, made, rigid, pressure)
+    inside.flaws(dice, made)
     loads.load(dice, scene, made, rigid, pressure)
     loads.steps(dice, made)
+    loads.stages(dice, scene, made)
     return scene.name, {key: value for key, value in made.items() if value not in ([], {})}
 
 
@@ -101,11 +104,23 @@ def hold(dice, scene, made, rigid, pressure):
             else:
                 supports.append({"on": place, "fix": ["x", "y"], "name": f"hold_{name}"})
     supports += [{"symmetry": line} for line in scene.symmetric]
+    if "jaw" in rigid and dice.chance(0.5):
+        supports.append({"on": "jaw", "fix": "y", "name": "guide"})
+    elastic = [name for name in scene.shapes if name not in rigid and "rectangle" in scene.shapes[name]]
+    if elastic and dice.chance(0.08):  # alike in all directions
+        name = dice.choice(elastic)
+        k = short(stiffness(made, name) * dice.log(1e-4, 0.1))
+        springs.append({"on": f"{name}.{dice.choice(['top_left', 'top_right'])}", "k_x": k, "k_y": k, "name": "anchor"})
 
 
 def foundation(dice, scene, made, name, pressure):
     """A rigid body that is held, stands on springs along its edge, or moves in a step."""
     edge = scene.fixed[name][0]
+    if dice.chance(0.08):
+        move = [short(1e-5 * dice.uniform(-1, 1)) for _ in "xy"]
+        made["supports"].append({"on": name, "displacement": move, "rotation": short(1e-5 * dice.uniform(-1, 1)), "at": [0.1, 0.2],
+                                 "name": f"move_{name}"})
+        return
     if dice.chance(0.15):
         k = short(1e3 * pressure * dice.log(1, 100))
         made["springs"].append({"on": f"{name}.{edge}", "k_n": k, "k_t": k, "name": f"spring_{name}"})
@@ -149,6 +164,9 @@ def join(dice, scene, made, rigid, pressure):
         bonded = own.get("bond") or "property" in own and made["contact_properties"]["p1"].get("bond")
         if not bonded and dice.chance(0.3 if scene.fits else 0.08):
             contact["gap"] = short(dice.choice([-1, -1, 1]) * motion * dice.log(0.05, 3) * 0.5)
+        plain = isinstance(contact.get("friction", 0), (int, float)) or "forward" in contact["friction"]
+        if straight and plain and not contact.keys() & {"gap", "bond", "cohesion", "property"} and dice.chance(0.04):
+            contact["slip"] = "large"
         made["contacts"][f"c{number + 1}"] = contact
     if "contact_properties" in made and not any("property" in c for c in made["contacts"].values()):
         del made["contact_properties"]

@@ -166,8 +166,9 @@ MAKERS = {"traction": traction, "pressure": side_pressure, "table": table, "corn
 def steps(dice, made):
     """One step, or first what presses and then the rest; perhaps back again, or with less friction."""
     first = [name for name in made["loads"] if name.startswith(("weight", "press", "field"))]
-    first += [s["name"] for s in made["supports"] if "displacement" in s]
-    rest = [name for name in made["loads"] if name not in first]
+    moved = [item["name"] for item in made["supports"] if "displacement" in item]
+    first += [name for name in moved if name.startswith("press")]
+    rest = [name for name in [*made["loads"], *moved] if name not in first]
     rest += [s["name"] for s in made["springs"] if "at_rest" in s]
     several = lambda: dice.weighted({1: 2, 2: 2, 3: 1.5, 4: 1, 5: 0.5, "auto": 0.7})
     if not rest or not first or dice.chance(0.35):
@@ -190,3 +191,16 @@ def steps(dice, made):
     if weak and dice.chance(0.1):
         key = dice.choice(weak)
         made["steps"].append({"name": "soften", "increments": 2, "friction": {key: short(made["contacts"][key]["friction"] * 0.7)}})
+
+
+def stages(dice, scene, made):
+    """The body on top is put in place in the second step, or taken away in the last one."""
+    if scene.name not in ("stack", "wall") or len(made["steps"]) < 2 or made["ties"] or not dice.chance(0.12):
+        return
+    if any(contact.get("slip") for contact in made["contacts"].values()):
+        return
+    body = scene.top[0].split(".")[0]
+    if dice.chance(0.6):
+        made["bodies"][body]["added"] = made["steps"][1]["name"]
+    else:
+        made["bodies"][body]["removed"] = made["steps"][-1]["name"]
