@@ -10,15 +10,16 @@ def model(seed):
     """The random model of a seed: its family, and what a model file says."""
     dice = Dice(seed)
     scene = dice.weighted(families.FAMILIES)(dice)
-    pressure = dice.log(2e4, 5e5)
+    found = materials(dice)
+    pressure = contact_pressure(dice, found) if scene.points else dice.log(2e4, 5e5)
     made = {"scabo": 1, "title": f"{scene.name} {seed}", "analysis": {"plane": dice.choice(["stress", "strain"]), "thickness": 1.0},
-            "materials": materials(dice), "bodies": {}, "supports": [], "springs": [], "loads": {}, "contacts": {}, "ties": {},
+            "materials": found, "bodies": {}, "supports": [], "springs": [], "loads": {}, "contacts": {}, "ties": {},
             "steps": [], "output": {"fields": []}}
     if dice.chance(0.3):
         made["analysis"]["thickness"] = dice.choice([0.1, 0.5, 2.0])
     rigid = rigid_bodies(dice, scene)
     for name, shape in scene.shapes.items():
-        made["bodies"][name] = body(dice, made["materials"], shape, name in rigid)
+        made["bodies"][name] = body(dice, found, shape, name in rigid, scene)
     hold(dice, scene, made, rigid, pressure)
     join(dice, scene, made, rigid, pressure)
     inside.flaws(dice, made)
@@ -58,14 +59,19 @@ def is_ground(name):
     return name in ("floor", "anvil", "jaw", "wall_right", "wall_left")
 
 
-def body(dice, found, shape, rigid):
+def contact_pressure(dice, found):
+    """So large that round sides touch along a part of their radius: about 0.2 of it."""
+    return short(1e-2 * dice.log(0.5, 2) * min(of.get("young") or of["orthotropic"]["E2"] for of in found.values()))
+
+
+def body(dice, found, shape, rigid, scene):
     if rigid:
         return {"rigid": True, "shape": shape}
     material = "m1" if dice.chance(0.6) else dice.choice(found)
-    return {"material": material, "shape": shape, "mesh": mesh(dice, shape)}
+    return {"material": material, "shape": shape, "mesh": mesh(dice, shape, scene)}
 
 
-def mesh(dice, shape):
+def mesh(dice, shape, scene):
     kind = dice.weighted({"superelement": 0.6, "polygons": 0.14, "quadtree": 0.12, "fem": 0.14})
     low, high = geometry.extent(shape)
     narrow = max(0.6 * min(high[0] - low[0], high[1] - low[1]), 0.35 * max(high[0] - low[0], high[1] - low[1]))
@@ -74,7 +80,10 @@ def mesh(dice, shape):
     made = {"size": short(narrow / dice.uniform(*parts), 2), "order": order}
     if kind != "superelement":
         made["kind"] = kind
-    if dice.chance(0.1):
+    near = [point for point in scene.points if geometry.touches(shape, point)]
+    if near:
+        made["refine"] = [{"near": list(point), "size": short({1: 0.03, 2: 0.05}.get(order, 0.1) * scene.radius, 2)} for point in near]
+    elif dice.chance(0.1):
         name = dice.choice(geometry.edges(shape))
         made["refine"] = [{"on": name, "size": short(made["size"] / 2, 2)}]
     return made
@@ -162,7 +171,7 @@ def join(dice, scene, made, rigid, pressure):
         if joint in scene.gaps:
             contact = {"between": list(joint), "friction": own.get("friction", 0.3)}
         bonded = own.get("bond") or "property" in own and made["contact_properties"]["p1"].get("bond")
-        if not bonded and dice.chance(0.3 if scene.fits else 0.08):
+        if not bonded and not scene.clamped and dice.chance(0.3 if scene.fits else 0.08):
             contact["gap"] = short(dice.choice([-1, -1, 1]) * motion * dice.log(0.05, 3) * 0.5)
         plain = isinstance(contact.get("friction", 0), (int, float)) or "forward" in contact["friction"]
         if straight and plain and not contact.keys() & {"gap", "bond", "cohesion", "property"} and dice.chance(0.04):

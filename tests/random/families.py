@@ -84,7 +84,7 @@ def pieces(dice):
                 top.append(place)
             elif abs(p[0]) + abs(q[0]) < 1e-9 or abs(p[0] - width) + abs(q[0] - width) < 1e-9:
                 side.append(place)
-    return Scene("pieces", shapes, fixed, top, side)
+    return Scene("pieces", shapes, fixed, top, side, clamped=True)
 
 
 def halves(part, normal, point):
@@ -119,7 +119,7 @@ def pin(dice):
 def groove(dice):
     """A block, or a disc, in a groove of a base that stands on a floor or is held; perhaps a block on top."""
     half, depth, width, height = dice.number(0.3, 0.6), dice.number(0.2, 0.5), dice.number(1.6, 2.4), dice.number(0.8, 1.2)
-    bottom = (0.0, height - depth)
+    bottom, opening = (0.0, height - depth), half
     base = [(-width / 2, 0), (width / 2, 0), (width / 2, height), (half, height), bottom, (-half, height), (-width / 2, height)]
     shapes = {"base": polygon(base)}
     names = {1: "bottom", 2: "right", 3: "top_right", 4: "groove_right", 5: "groove_left", 6: "top_left", 7: "left"}
@@ -146,8 +146,11 @@ def groove(dice):
     fixed = {"base": ["edge_1"]}
     if dice.chance(0.6) or len(shapes) < 3:
         shapes["floor"], fixed = rectangle(-2, -0.4, 4, 0.4), {"floor": ["bottom"]}
-    gaps = {("base.edge_4", "disc.right"): 0.0, ("base.edge_5", "disc.left"): 0.0} if "disc" in shapes else {}
-    return Scene("groove", shapes, fixed, [top], side, gaps=gaps)
+    scene = Scene("groove", shapes, fixed, [top], side)
+    if "disc" in shapes:
+        scene.gaps = {("base.edge_4", "disc.right"): 0.0, ("base.edge_5", "disc.left"): 0.0}
+        scene.points, scene.radius = [(sign * opening / 2, height - depth / 2) for sign in (-1, 1)], radius
+    return scene
 
 
 def wedge(dice):
@@ -215,7 +218,7 @@ def arch(dice):
         shapes["left"] = polygon([(-x, y) for x, y in reversed(right)])
         fixed = {"right": ["edge_1"], "left": ["edge_3"]}
     top = [f"v{i + 1}.{back}" for i in range(count)]
-    return Scene("arch", shapes, fixed, top, [f"v{i + 1}.{back}" for i in (0, count - 1)])
+    return Scene("arch", shapes, fixed, top, [f"v{i + 1}.{back}" for i in (0, count - 1)], clamped=True)
 
 
 def rings(dice):
@@ -243,7 +246,7 @@ def beams(dice):
         shapes[f"b{i + 1}"] = rectangle(0.0, y, length if dice.chance(0.7) else short(length * dice.uniform(0.6, 1)), height)
         y = short(y + height, 6)
     fixed = {body: ["left"] for body in shapes}
-    return Scene("beams", shapes, fixed, [f"b{count}.top"], [f"{body}.right" for body in shapes])
+    return Scene("beams", shapes, fixed, [f"b{count}.top"], [f"{body}.right" for body in shapes], clamped=True)
 
 
 def rollers(dice):
@@ -252,19 +255,21 @@ def rollers(dice):
     cut = radius if dice.chance(0.3) else short(radius * dice.uniform(0.6, 0.95))
     apart = short(2.2 * radius + dice.uniform(0, 0.3))
     shapes = {"floor": rectangle(-1, -0.4, short(apart * count + 1.5), 0.4)}
-    gaps = {}
+    gaps, points = {}, []
     for i in range(count):
         x, name = short(i * apart, 6), f"d{i + 1}"
         gaps[("floor.top", f"{name}.below")] = 0.0
+        points.append((x, 0.0))
         if cut == radius:
             shapes[name] = {"outline": [arc((x - radius, radius), (x, radius), "above"), arc((x + radius, radius), (x, radius), "below")]}
             gaps[("plate.bottom", f"{name}.above")] = 0.0
+            points.append((x, 2 * radius))
         else:  # flat on top, round below
             end = math.sqrt(radius**2 - cut**2)
             shapes[name] = {"outline": [line((x - end, radius + cut), "above"), arc((x + end, radius + cut), (x, radius), "below")]}
     shapes["plate"] = rectangle(short(-0.9 * radius), short(radius + cut, 6), short(apart * (count - 1) + 1.8 * radius, 6), 0.3)
     side = ["plate.left", "plate.right"]
-    return Scene("rollers", shapes, {"floor": ["bottom"]}, ["plate.top"], side, gaps=gaps, square=True)
+    return Scene("rollers", shapes, {"floor": ["bottom"]}, ["plate.top"], side, gaps=gaps, points=points, radius=radius)
 
 
 FAMILIES = {stack: 3, wall: 3, pieces: 3, pin: 1.5, groove: 1.5, wedge: 1.5, vice: 2, arch: 2, rings: 1.2, beams: 1.2, rollers: 0.8}

@@ -124,6 +124,18 @@ def facing(one, other):
     return (long.turn * (middle - begin)) % (2 * math.pi) < long.angle
 
 
+def touches(shape, point):
+    """Whether a point is on an edge."""
+    for edge in edges(shape).values():
+        if edge.straight:
+            along = sum((p - a) * t for p, a, t in zip(point, edge.start, edge.tangent))
+            if 0 <= along <= edge.length and math.dist(edge.at(along / edge.length), point) < 1e-3:
+                return True
+        elif abs(math.dist(edge.centre, point) - edge.radius) < 1e-3:
+            return True
+    return False
+
+
 def touching(shapes):
     """All pairs of places, `body.edge`, of different bodies that lie on each other."""
     all_edges = [(body, name, edge) for body, shape in shapes.items() for name, edge in edges(shape).items()]

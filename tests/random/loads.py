@@ -26,7 +26,7 @@ def press(dice, scene, made, rigid, pressure):
         if scene.name == "vice" and body in rigid and dice.chance(0.5):
             made["supports"].append({"on": body, "displacement": [short(-1e-4 * dice.log(0.1, 3)), 0.0], "name": name})
             continue
-        if len(scene.top) < 3 and elastic(place, rigid) and dice.chance(0.12):
+        if not scene.clamped and len(scene.top) < 3 and elastic(place, rigid) and dice.chance(0.12):
             made["supports"].append({"on": place, "displacement": {"normal": short(-1e-4 * dice.log(0.1, 3))}, "name": name})
         else:
             made["loads"][name] = {"on": place, "pressure": short(pressure * dice.log(0.5, 2))}

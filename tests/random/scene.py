@@ -17,7 +17,9 @@ class Scene:
     symmetric: list = dataclasses.field(default_factory=list)  # lines of symmetry, as `supports` have them
     gaps: dict = dataclasses.field(default_factory=dict)       # pairs of edges apart, with their distance
     fits: bool = False                                         # an interference makes sense
-    square: bool = False                                       # a single edge must not be moved
+    points: list = dataclasses.field(default_factory=list)     # where round sides touch others in a point
+    radius: float = 0.0                                        # of the round sides
+    clamped: bool = False                                      # joints end at supports: neither interference nor moved edges
 
     def edge(self, place):
         body, name = place.split(".", 1)
