@@ -96,7 +96,7 @@ template <typename Io>
 void exchange_state(Io& io, RunState& run) {
   exchange_integer(io, "state/step", run.step);
   exchange_integer(io, "state/increment", run.progress.increment);
-  exchange_scalars(io, "state/progress", {&run.progress.reached, &run.progress.size});
+  exchange_scalars(io, "state/progress", {&run.progress.reached, &run.progress.size, &run.progress.limit});
   State& state = run.state;
   io.numbers("state/load_factors", state.factors.loads);
   io.numbers("state/support_factors", state.factors.supports);

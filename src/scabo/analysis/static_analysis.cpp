@@ -229,9 +229,10 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
     run.state = std::move(reached.state);
     progress.increment = k;
     progress.reached = solution.increments.back().reached;
-    if (step.automatic)
-      progress.size = next_size(*step.automatic, progress.reached - begin, reached.halvings > 0, reached.changes,
-                                reached.last_iterations);
+    if (step.automatic) {
+      progress.size = next_size(*step.automatic, progress.reached - begin, reached.halvings > 0, reached.changes);
+      if (reached.limit > 0.0) progress.limit = begin + reached.limit * (end - begin);
+    }
     if (options.on_state) options.on_state(prepared, run.state, solution);
     try {
       if (options.on_increment) options.on_increment(solution, solution.increments.back());
