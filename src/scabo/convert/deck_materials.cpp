@@ -1,5 +1,6 @@
 #include "scabo/convert/deck_materials.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <cmath>
