@@ -17,6 +17,7 @@ constexpr double largest_part_missed = 0.5;  // of what contact carries
 constexpr double resolved = 0.05;            // of the distance of nodes: a shift of the contact that the mesh can tell
 constexpr double no_gap = 1e-9;              // of the length of a contact: differences of gaps that are rounding
 constexpr double no_rotation = 1e-12;        // of the largest component of a rigid motion
+constexpr double no_force = 1e-8;            // of the largest force: what a contact carries below it is rounding
 
 /// Whether supports and springs let a part turn; unbounded parts do not.
 bool may_turn(const Prepared& prepared, std::size_t p) {
@@ -155,11 +156,13 @@ FirstTouch first_touch(const Prepared& prepared, const Side& on) {
 }
 
 /// The moment that a contact carries of a part by where its forces act: their resultant times the distance of its line
-/// from where the sides touch first; 0 where it passes between points that do, or nearer than the mesh can tell.
-double carried_by(const std::vector<Acting>& acting, const FirstTouch& touch) {
+/// from where the sides touch first; 0 where it passes between points that do, or nearer than the mesh can tell, and where
+/// the resultant is not above `least_force`.
+double carried_by(const std::vector<Acting>& acting, const FirstTouch& touch, double least_force) {
   if (acting.empty()) return 0.0;
   Vec2 resultant = Vec2::Zero();
   for (const Acting& at : acting) resultant += at.force;
+  if (resultant.norm() <= least_force) return 0.0;
   double least = HUGE_VAL, largest = -HUGE_VAL;
   for (const Vec2& from : touch.points) {
     double moment = 0.0;
@@ -191,10 +194,11 @@ std::optional<Rolling> rolling_of(const Prepared& prepared, const State& state, 
   Rolling rolling;
   rolling.part = p;
   rolling.sprung = prepared.structure.parts[p]->has_springs();
+  const double least_force = no_force * std::max(state.largest_force, state.p.lpNorm<Eigen::Infinity>());
   double of_springs = 0.0;  // about where a contact touches first, at most
   for (const Side& side : contacts.of_part(p)) {
     const FirstTouch touch = first_touch(prepared, side);
-    rolling.carried += carried_by(contacts.forces_on(side), touch);
+    rolling.carried += carried_by(contacts.forces_on(side), touch, least_force);
     if (rolling.sprung)
       of_springs = std::max(of_springs, std::abs(moment_of_springs(prepared, state, p, touch.points.front())));
   }
