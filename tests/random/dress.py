@@ -76,13 +76,13 @@ def mesh(dice, shape, scene):
     low, high = geometry.extent(shape)
     narrow = max(0.6 * min(high[0] - low[0], high[1] - low[1]), 0.35 * max(high[0] - low[0], high[1] - low[1]))
     order = dice.whole(1, 2) if kind == "fem" else dice.weighted({1: 0.2, 2: 0.4, 3: 0.15, 4: 0.25})
-    parts = {1: (5, 8), 2: (3, 6), 3: (2, 4), 4: (1, 3)}[order]
+    parts = {1: (4, 7), 2: (2.5, 4.5), 3: (1.5, 3), 4: (1, 2.2)}[order]
     made = {"size": short(narrow / dice.uniform(*parts), 2), "order": order}
     if kind != "superelement":
         made["kind"] = kind
     near = [point for point in scene.points if geometry.touches(shape, point)]
     if near:
-        made["refine"] = [{"near": list(point), "size": short({1: 0.03, 2: 0.05}.get(order, 0.1) * scene.radius, 2)} for point in near]
+        made["refine"] = [{"near": list(point), "size": short({1: 0.04, 2: 0.06}.get(order, 0.1) * scene.radius, 2)} for point in near]
     elif dice.chance(0.1):
         name = dice.choice(geometry.edges(shape))
         made["refine"] = [{"on": name, "size": short(made["size"] / 2, 2)}]

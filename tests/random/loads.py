@@ -200,6 +200,8 @@ def stages(dice, scene, made):
     if any(contact.get("slip") for contact in made["contacts"].values()):
         return
     body = scene.top[0].split(".")[0]
+    if any(str(load.get("on", "")).split(".")[0] == body for load in made["loads"].values()):
+        return  # it would have to act while the body is there
     if dice.chance(0.6):
         made["bodies"][body]["added"] = made["steps"][1]["name"]
     else:

@@ -13,7 +13,6 @@ import tempfile
 import yaml
 
 import compare
-import dress
 from change import Change, changed
 from dice import Dice, short
 from outcome import run, write
@@ -138,7 +137,7 @@ def main():
     arguments = parser.parse_args()
     model = yaml.safe_load((arguments.folder / "base.yaml").read_text(encoding="utf-8"))
     seed = int(arguments.folder.name.split("_")[1])
-    change = twins(dress.model(seed)[1], twin_dice(seed)).get(arguments.twin, (None, Change()))[1]
+    change = twins(model, twin_dice(seed)).get(arguments.twin, (None, Change()))[1]
     with tempfile.TemporaryDirectory() as folder:
         failure = Failure(arguments.scabo, arguments.twin, change, folder, arguments.twin != "finer")
         kind = failure.of(model)
