@@ -238,6 +238,7 @@ State start_on(const Prepared& prepared, const std::vector<CarriedPair>& carried
   state.largest_force = before.largest_force;
   state.p = Vector::Zero(2 * N);
   state.slip = Vector::Zero(N);
+  state.gap = Vector::Zero(N);  // not known before contact is solved
   state.replaced = std::move(replaced);
   state.replaced.offset = Vector::Zero(2 * N);
   state.replaced.slip_before = Vector::Zero(N);
