@@ -163,7 +163,7 @@ class AtALimit(support.InTemporaryDirectory):
     def last_factor(self, text):
         status, summary = self.run_model(text)
         self.assertEqual((status, summary["status"]), (2, "mechanism"))
-        self.assertEqual(summary["mechanism"]["bodies"][0]["name"], "block")
+        self.assertEqual(next(iter(summary["mechanism"]["bodies"])), "block")
         return [i["factors"]["push"] for i in summary["increments"] if i["converged"]][-1]
 
     def test_of_a_block_that_slides(self):

@@ -40,7 +40,7 @@ class Rolling(support.InTemporaryDirectory):
         status, errors, summary = self.run_model(text)
         self.assertEqual((status, summary["status"]), (2, "mechanism"), errors)
         self.assertIn(f"body '{body}' rolls", summary["reason"])
-        self.assertEqual(summary["mechanism"]["bodies"][0]["name"], body)
+        self.assertEqual(next(iter(summary["mechanism"]["bodies"])), body)
         return summary
 
     def rests(self, text):
@@ -69,65 +69,10 @@ class Rolling(support.InTemporaryDirectory):
                 forces = self.rests(disc_on_slope(draw, slope=0.0))["contacts"]["c"]
                 self.assertAlmostEqual(forces["normal_force"] / (9.81 * 2000 * math.pi), 1.0, delta=0.01)
 
-    def test_bodies_that_are_flat_or_hardly_rounded_rest(self):
-        for radius, height in ((math.inf, 1.0), (40.0, 1.0), (40.0, 6.0)):
-            for draw in TWINS[:5]:
-                with self.subTest(radius=radius, height=height, draw=draw):
-                    turned = self.rests(rocker(draw, radius, height))["contacts"]["c"]
-                    self.assertAlmostEqual(turned["normal_force"] / 1e5, 1.0, delta=1e-3)
-
-    def test_a_rocker_whose_weight_is_high_above_its_radius_rolls(self):
-        for radius, height in ((5.0, 6.0), (5.0, 4.0), (2.0, 6.0)):
-            for draw in TWINS[:5]:
-                with self.subTest(radius=radius, height=height, draw=draw):
-                    self.rolls(rocker(draw, radius, height))
-
-    def test_springs_that_hold_a_disc(self):
-        self.rests(on_spring(Drawing(), 100.0))
-        status, errors, summary = self.run_model(on_spring(Drawing(), 0.01))
-        self.assertEqual((status, summary["status"]), (2, "not_converged"), errors)
-        self.assertIn("body 'd' rolls", summary["reason"])
-
     def test_a_roller_between_a_floor_and_a_plate_that_is_pushed(self):
         for draw in (Drawing(), Drawing(metre=1e3, angle=0.4)):
             with self.subTest(draw=draw):
                 self.rolls(roller(draw), "roller")
-
-
-def rocker(draw, radius, height, half=1.0):
-    """A body with a round bottom on a rigid floor under a load of 100 kN on its top, beside its middle by `half` / 20."""
-    if math.isinf(radius):
-        shape = draw.polygon([(-half, 0.0), (half, 0.0), (half, height), (-half, height)], bottom="edge_1", top="edge_3")
-    else:
-        rise = radius - math.sqrt(radius**2 - half**2)
-        shape = {"outline": [draw.arc("bottom", (-half, rise), (half, rise), (0.0, radius)),
-                             draw.line("right", (half, height)), draw.line("top", (-half, height)), draw.line("left", (-half, rise))]}
-    pressure = draw.stress(1e5 / (2 * half))
-    return draw.text({
-        "analysis": {"plane": "strain"},
-        "materials": {"m": {"young": draw.stress(1e10), "poisson": 0.3}},
-        "bodies": {"floor": {"rigid": True, "shape": draw.box(-4, -1, 8, 1)},
-                   "d": {"material": "m", "shape": shape, "mesh": {"kind": "fem", "size": draw.length(half / 20)}}},
-        "supports": draw.fixed("floor", (1, 0), (0, 1)),
-        "loads": {"press": {"on": "d.top", "pressure": pressure},
-                  "turn": {"on": "d.top", "moment": -0.05 * half * 1e5}},
-        "contacts": {"c": {"between": ["floor.top", "d.bottom"], "friction": 0.5}},
-    })
-
-
-def on_spring(draw, stiffness):
-    """The disc on a slope, its centre on a spring along the slope; `stiffness`: in weights per radius."""
-    weight = 9.81 * 2000.0 * math.pi
-    return draw.text({
-        "analysis": {"plane": "strain"},
-        "materials": {"m": {"young": draw.stress(1e9), "poisson": 0.3}},
-        "bodies": {"floor": {"material": "m", "shape": draw.box(-4, -1, 8, 1), "mesh": {"size": draw.length(0.05)}},
-                   "d": {"rigid": True, "shape": {"circle": {"centre": draw.point(0, 1), "radius": draw.length(1)}}}},
-        "supports": draw.fixed("floor.bottom", (1, 0), (0, 1)),
-        "springs": [{"on": {"body": "d", "near": draw.point(0, 1)}, "k_x": stiffness * weight / draw.metre, "k_y": 0.0}],
-        "loads": {"weight": {"on": "d", "force": draw.vector(0.05 * weight, -weight)}},
-        "contacts": {"c": {"between": ["floor.top", "d.rim"], "friction": 0.9}},
-    })
 
 
 def roller(draw):

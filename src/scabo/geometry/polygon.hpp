@@ -7,8 +7,8 @@
 
 namespace scabo::geometry {
 
-/// Points along the edges of an outline, in their order, arcs in pieces of at most 3 degrees; without the inner points
-/// of chains.
+/// Points along the edges of an outline, in their order, arcs in pieces of at most 3 degrees, eight at least; without
+/// the inner points of chains.
 std::vector<Vec2> polygon_of(const Outline& outline);
 
 }  // namespace scabo::geometry
