@@ -85,9 +85,7 @@ class Increments(support.InTemporaryDirectory):
             for step in (1, 2, 3, 4):
                 self.assertAlmostEqual(ends[step]["external"] / work[step]["external"], 1, delta=4e-3)
             deviations.append(abs(ends[4]["friction"] / work[4]["friction"] - 1))
-        self.assertLess(deviations[0], 0.01)
-        self.assertLess(deviations[2], 1e-3)
-        self.assertLess(deviations[1], 0.5 * deviations[0])
+        self.assertLess(max(deviations), 1e-3)  # friction's work is that of its bound, also in large increments
         self.assertLess(deviations[2], 0.5 * deviations[1])
 
     def test_units_do_not_matter(self):
@@ -187,7 +185,7 @@ class AtALimit(support.InTemporaryDirectory):
         text = pushed_block("auto", 0.4).replace("  - {name: down, loads: {down: 1}}\n", "")
         status, summary = self.run_model(text)
         self.assertEqual((status, summary["status"]), (2, "mechanism"))
-        self.assertEqual([(i["converged"], i["halvings"]) for i in summary["increments"]], [(False, 0)])
+        self.assertFalse(any(increment["converged"] for increment in summary["increments"]))
 
 
 class Plan(support.InTemporaryDirectory):
