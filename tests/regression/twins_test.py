@@ -79,7 +79,7 @@ class GroundAtRest(Twins):
     def test_of_other_cells(self):
         for kind in ("polygons", "fem"):
             with self.subTest(kind=kind):
-                self.at_rest(pile(Drawing(), kind, dig=1), delta=2e-3)  # of smaller cells at the foot of the wall
+                self.at_rest(pile(Drawing(), kind, dig=1), delta=2e-3)  # on other meshes
 
     def test_in_other_units_turned_and_in_another_order(self):
         for draw in TWINS[1:]:
