@@ -93,7 +93,8 @@ loads: {{press: {{on: {}, force: [{:.17g}, {:.17g}]}}}}
 contacts: {{joint: {{between: [{}], friction: 0.3}}}}
 )",
       1.0 / (ellipse.unit * ellipse.unit), of.ellipse_first ? roller : plate, of.ellipse_first ? plate : roller, top,
-      top, force / ellipse.unit * std::sin(ellipse.angle), -force / ellipse.unit * std::cos(ellipse.angle),
+      std::cos(ellipse.angle), std::sin(ellipse.angle), top, force / ellipse.unit * std::sin(ellipse.angle),
+      -force / ellipse.unit * std::cos(ellipse.angle),
       of.swapped ? "roller.edge_1, plate.edge_3" : "plate.edge_3, roller.edge_1");
   SCOPED_TRACE(text);
   const auto solution = run(text);
