@@ -207,9 +207,9 @@ void warn_of_coarse_zones(const StaticSolution& solution, std::vector<Warning>& 
   const auto fewest = static_cast<int>(-worst_of(coarse).figure);
   warnings.push_back(
       {WarningKind::few_pairs, contacts_of(solution, coarse),
-       fmt::format("{}: only {} pair{} {} in contact at the end{}, too few for a reliable pressure (total forces are "
-                   "not affected): "
-                   "use a smaller mesh.size or a higher mesh.order, so that five or more pairs are in contact",
+       fmt::format("{}: only {} pair{} {} in contact at the end{}, too few for a reliable pressure, and for a "
+                   "reliable force where displacements are prescribed: use a smaller mesh.size or a higher mesh.order, "
+                   "so that five or more pairs are in contact",
                    contacts_of(solution, coarse), fewest, fewest == 1 ? "" : "s", fewest == 1 ? "is" : "are",
                    in_worst(solution, coarse))});
 }

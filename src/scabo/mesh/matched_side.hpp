@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/rays.hpp"
 
 namespace scabo::mesh {
 
@@ -35,6 +36,7 @@ struct MatchedSide {
   double length = 0.0;
   std::vector<BreakPoint> breaks;
   std::vector<int> orders;
+  std::optional<Rays> rays;  // along which the other side sees it; empty beside a rigid side
 
   double length_at(std::size_t i) const {  // of the shorter adjacent element
     double shortest = length;

@@ -168,13 +168,13 @@ bool is_unlike(const ContactSide& side, const ContactSide& other, const Partners
   for (const auto& [i, j] : partners) partners_of[i].push_back(j);
   for (int e = 0; e < static_cast<int>(other.elements.size()); ++e)
     for (const int node : other.elements[e].nodes) elements_at[node].push_back(e);
-  const auto is_equal = [&](const std::vector<int>& own, const std::vector<int>& opposite) {
-    for (std::size_t k = 0; own.size() == opposite.size() && k < own.size(); ++k) {
+  const auto is_equal = [&](const std::vector<int>& own, const std::vector<int>& facing) {
+    for (std::size_t k = 0; own.size() == facing.size() && k < own.size(); ++k) {
       const std::vector<int>& of_node = partners_of[own[k]];
-      const int expected = opposite[opposite.size() - 1 - k];
+      const int expected = facing[facing.size() - 1 - k];
       if (!of_node.empty() && std::find(of_node.begin(), of_node.end(), expected) == of_node.end()) return false;
     }
-    return own.size() == opposite.size();
+    return own.size() == facing.size();
   };
   for (const LineElement& element : side.elements) {
     const std::vector<int>& own = element.nodes;

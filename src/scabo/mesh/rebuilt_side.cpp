@@ -1,8 +1,10 @@
 #include "scabo/mesh/rebuilt_side.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/replace_elements.hpp"
 
@@ -19,6 +21,35 @@ std::vector<Vec2> points_along(const MatchedSide& side, std::size_t k, int order
   for (std::size_t i = 1; i + 1 < points.size(); ++i)
     inner.push_back(side.edge->at(std::lerp(side.breaks[k].t, side.breaks[k + 1].t, 0.5 * (1.0 + points[i]))));
   return inner;
+}
+
+/// The point of an element on the ray through a point near it. A chain of a file has straight segments, its elements
+/// may be curved: on the chords their new nodes would be dents, deep enough to multiply the pressure where little
+/// touches.
+Vec2 on_element(const MatchedSide& side, const LineElement& element, const std::vector<Vec2>& nodes, const Vec2& near) {
+  if (element.nodes.size() < 3 || !side.edge->is_chain()) return near;
+  const auto foot = geometry::foot_on(*side.edge, near);
+  const Ray ray = side.rays ? side.rays->through(near) : Ray{near, foot ? foot->normal : Vec2(0.0, 0.0)};
+  const geometry::LineBasis& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+  const auto sum = [&](const Vector& of_nodes) {
+    Vec2 x = Vec2::Zero();
+    for (std::size_t i = 0; i < element.nodes.size(); ++i)
+      x += of_nodes[static_cast<Eigen::Index>(i)] * (nodes[static_cast<std::size_t>(element.nodes[i])] + side.moved);
+    return x;
+  };
+  const Vec2 from = sum(basis.values(-1.0)), chord = sum(basis.values(1.0)) - from;
+  double eta = std::clamp(2.0 * (near - from).dot(chord) / chord.squaredNorm() - 1.0, -1.0, 1.0);
+  for (int step = 0; step < 30; ++step) {
+    const Vec2 x = sum(basis.values(eta));
+    const double slope = cross(sum(basis.derivatives(eta)), ray.direction),
+                 change = cross(x - near, ray.direction) / slope;
+    if (!std::isfinite(change)) return near;
+    eta = std::clamp(eta - change, -1.0, 1.0);
+    if (std::abs(change) < 1e-15) break;
+  }
+  const Vec2 found = sum(basis.values(eta));
+  constexpr double nearest = 0.05;  // of the chord: farther away it is another point
+  return (found - near).norm() <= nearest * chord.norm() ? found : near;
 }
 
 /// Whether an element that is not divided stays as it is.
@@ -49,7 +80,14 @@ std::vector<Piece> pieces_of(const MatchedSide& side) {
   return pieces;
 }
 
-bool rebuild_side(MatchedSide& side, const std::vector<Piece>& pieces, BodyMesh& mesh) {
+bool rebuild_side(MatchedSide& side, std::vector<Piece> pieces, BodyMesh& mesh) {
+  const std::vector<LineElement>& elements = mesh.edges[static_cast<std::size_t>(side.index)];
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const LineElement& old = elements[static_cast<std::size_t>(pieces[k].old)];
+    BreakPoint& at = side.breaks[k];
+    if (at.added) at.point = on_element(side, old, mesh.nodes, at.point);
+    for (Vec2& point : pieces[k].inner) point = on_element(side, old, mesh.nodes, point);
+  }
   std::map<int, Vec2> moved;
   for (BreakPoint& at : side.breaks) {
     if (at.added) {
@@ -59,7 +97,6 @@ bool rebuild_side(MatchedSide& side, const std::vector<Piece>& pieces, BodyMesh&
       moved[at.before] = at.point - side.moved;
     }
   }
-  const std::vector<LineElement>& elements = mesh.edges[static_cast<std::size_t>(side.index)];
   Replacements replacements;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Piece& piece = pieces[k];

@@ -25,8 +25,8 @@ struct Piece {
 std::vector<Piece> pieces_of(const MatchedSide& side);
 
 /// Gives `mesh` new break points, moves those that have moved, and replaces elements that are divided, raised or not in
-/// place. Returns whether anything has changed.
-bool rebuild_side(MatchedSide& side, const std::vector<Piece>& pieces, BodyMesh& mesh);
+/// place. New nodes of curved elements of files are on these elements. Returns whether anything has changed.
+bool rebuild_side(MatchedSide& side, std::vector<Piece> pieces, BodyMesh& mesh);
 
 /// Whether the break points are ascending, as the nodes of the edge are.
 bool is_ascending(const MatchedSide& side);

@@ -19,7 +19,9 @@ namespace {
 /// Divides the two sides of one contact alike.
 class Union {
  public:
-  Union(MatchedSide a, MatchedSide b) : sides_{std::move(a), std::move(b)}, rays_(*sides_[0].edge, *sides_[1].edge) {}
+  Union(MatchedSide a, MatchedSide b) : sides_{std::move(a), std::move(b)}, rays_(*sides_[0].edge, *sides_[1].edge) {
+    for (MatchedSide& side : sides_) side.rays = rays_;
+  }
 
   /// Whether anything has changed.
   bool apply(std::vector<BodyMesh>& bodies) {
