@@ -25,6 +25,7 @@ NewtonEnd Ladder::climb_rank_deficient(const Vector& p, const std::function<bool
   const bool entwined = inner && problem_.W.sparse().nonZeros() > 60 * problem_.W.size();
   LongSweeps sweeps(problem_, p);
   NewtonEnd best = nothing();
+  best.p = p;
   const auto better = [&](NewtonEnd end) {
     if (end.converged || end.residual < best.residual) best = std::move(end);
     return best.converged || late();

@@ -152,6 +152,17 @@ Problem moderate(Problem problem) {
   return problem;
 }
 
+/// G without what rounding of normals leaves of motions along a side: a force of 1e12 times the load is no support.
+RigidMap without_rounding(const RigidMap& G) {
+  constexpr double none = 1e-12;  // of the largest entry; motions have size 1
+  RigidMap::Sparse kept = G.sparse();
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < kept.outerSize(); ++k)
+    for (RigidMap::Sparse::InnerIterator it(kept, k); it; ++it) largest = std::max(largest, std::abs(it.value()));
+  kept.prune(largest, none);
+  return RigidMap(std::move(kept));
+}
+
 std::optional<Vector> mechanism_of(const Problem& problem);
 
 }  // namespace
@@ -165,6 +176,7 @@ std::optional<Vector> find_mechanism(const Problem& in_its_unit) {
   problem.f *= scale;
   problem.cohesion *= scale;
   problem.tension *= scale;
+  problem.G = without_rounding(problem.G);
   const Problem less = moderate(problem);
   const bool same = less.mu == problem.mu && less.mu_backward == problem.mu_backward &&
                     less.cohesion == problem.cohesion && less.tension == problem.tension;
@@ -258,29 +270,89 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
   return svd.matrixV().rightCols(m - rank);
 }
 
-Matrix neutral_motions(const Problem& problem) {
-  constexpr double no_friction = 1e-12;  // what it holds is less than the tolerance of any balance
-  const Eigen::Index N = problem.pairs(), m = problem.G.cols();
-  if (N == 0 || m == 0 || has_many_motions(problem) || problem.W.is_sparse()) return Matrix(m, 0);
-  std::vector<ContactState> strongest;
-  bool slides = false;
-  for (Eigen::Index i = 0; i < N; ++i) {
+namespace {
+
+/// Friction that holds less than the tolerance of any balance.
+constexpr double no_friction = 1e-12;
+/// Loads that drive a neutral motion by less than this part of them are in balance along it.
+constexpr double balanced = 1e-10;
+/// Smallest eigenvalue of G'G, over the largest, above which no motion is neutral: far above its rounding.
+constexpr double surely_felt = 1e-12;
+
+/// The state in which a pair resists most.
+std::vector<ContactState> strongest_states(const Problem& problem) {
+  std::vector<ContactState> states;
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const bool resists =
         problem.largest_mu(i) > no_friction || problem.cohesion_of(i) > 0.0 || problem.tension_of(i) > 0.0;
-    strongest.push_back(resists ? ContactState::stick : ContactState::slip);
-    slides = slides || !resists;
+    states.push_back(resists ? ContactState::stick : ContactState::slip);
   }
-  return slides ? undetermined_motions(problem, strongest) : Matrix(m, 0);
+  return states;
 }
 
-WithoutNeutral without_neutral(const Problem& problem, const Matrix& neutral) {
-  const Eigen::Index m = neutral.rows(), k = neutral.cols();
-  const Matrix basis = Eigen::HouseholderQR<Matrix>(neutral).householderQ() * Matrix::Identity(m, m);
-  WithoutNeutral left{problem, basis.rightCols(m - k)};
-  // A holder knows the motions of the whole problem.
-  if (problem.W.is_dense()) left.problem.W = problem.W.with_holder(nullptr);
-  left.problem.G = RigidMap(Matrix(problem.G.dense() * left.kept));
-  left.problem.f = left.kept.transpose() * problem.f;
+/// What costs next to nothing tells nearly always that there are none.
+bool all_are_felt(const Problem& problem, const std::vector<ContactState>& states) {
+  if (has_many_motions(problem)) return false;
+  std::vector<int> rows;
+  for (int i = 0; i < problem.pairs(); ++i)
+    for (int k = 0; k < (states[static_cast<std::size_t>(i)] == ContactState::stick ? problem.dimension : 1); ++k)
+      rows.push_back(problem.dimension * i + k);
+  const Matrix felt = problem.G.dense()(rows, Eigen::all);
+  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(felt.transpose() * felt, Eigen::EigenvaluesOnly).eigenvalues();
+  return values[0] > surely_felt * values[values.size() - 1];
+}
+
+/// Columns of a sparse map.
+RigidMap columns_of(const RigidMap& G, const std::vector<int>& kept) {
+  RigidMap::Sparse left(G.rows(), static_cast<Eigen::Index>(kept.size()));
+  left.reserve(G.sparse().nonZeros());
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    left.startVec(k);
+    for (RigidMap::Sparse::InnerIterator at(G.sparse(), kept[static_cast<std::size_t>(k)]); at; ++at)
+      left.insertBack(at.row(), k) = at.value();
+  }
+  left.finalize();
+  return RigidMap(std::move(left));
+}
+
+}  // namespace
+
+Start WithoutNeutral::start(const Start& given) const {
+  Start left = given;
+  if (given.a.size() != neutral.rows()) return left;
+  const Matrix of_held = neutral(held, Eigen::all);
+  const Vector shifted = given.a - neutral * of_held.colPivHouseholderQr().solve(Vector(given.a(held)));
+  left.a = shifted(kept);
+  return left;
+}
+
+Vector WithoutNeutral::motions(const Vector& a_left, const Vector& a_start) const {
+  Vector a = Vector::Zero(neutral.rows());
+  a(kept) = a_left;
+  return a + neutral * (neutral.transpose() * (a_start - a));
+}
+
+std::optional<WithoutNeutral> without_neutral(const Problem& problem, double force_scale) {
+  const Eigen::Index m = problem.G.cols();
+  if (m == 0 || problem.pairs() == 0 || !(problem.W.is_dense() || problem.W.is_sparse())) return std::nullopt;
+  const std::vector<ContactState> states = strongest_states(problem);
+  if (all_are_felt(problem, states)) return std::nullopt;
+  const Matrix neutral = undetermined_motions(problem, states);
+  const Eigen::Index count = neutral.cols();
+  if (count == 0) return std::nullopt;
+  const Vector driven = neutral.transpose() * problem.f;
+  if (driven.norm() > balanced * std::max(problem.f.norm(), force_scale)) return std::nullopt;
+
+  // The motions that fix the neutral ones: the pivots of their rows.
+  const Eigen::ColPivHouseholderQR<Matrix> pivots(Matrix(neutral.transpose()));
+  std::vector<bool> is_held(static_cast<std::size_t>(m), false);
+  for (Eigen::Index k = 0; k < count; ++k)
+    is_held[static_cast<std::size_t>(pivots.colsPermutation().indices()[k])] = true;
+  WithoutNeutral left{problem, neutral, {}, {}};
+  for (int k = 0; k < m; ++k) (is_held[static_cast<std::size_t>(k)] ? left.held : left.kept).push_back(k);
+  left.problem.W = problem.W.with_holder(nullptr);  // it knows the motions of the whole problem
+  left.problem.G = columns_of(problem.G, left.kept);
+  left.problem.f = problem.f(left.kept);
   return left;
 }
 

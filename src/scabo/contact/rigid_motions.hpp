@@ -1,4 +1,4 @@
-// Rigid motions of a problem: mechanisms before the solve, undetermined motions after it.
+// Rigid motions of a problem: mechanisms and motions that no pair feels before the solve, undetermined motions after it.
 #pragma once
 
 #include <optional>
@@ -20,19 +20,24 @@ std::optional<Vector> find_mechanism(const Problem& problem);
 /// position along these is not.
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
 
-/// Rigid motions (orthonormal columns, m x k) that no force of any pair resists, open or closed: of a body that slides
-/// along sides that are straight or concurrent without friction, or with a coefficient up to 1e-12. None where bodies
-/// are many.
-Matrix neutral_motions(const Problem& problem);
-
-/// The problem without the rigid motions `neutral`, which stay as they are: a = kept b + neutral neutral' a_0. `kept`
-/// (m x (m - k)) completes them to an orthonormal basis. Whether the loads drive a neutral motion is for the caller to
-/// ask: the equilibrium of these motions is no part of the problem that is left.
+/// Motions that no pair feels, open or closed: G v = 0 in all rows that can carry a force (normals; tangents with
+/// friction or strength). Two blocks pressed together may move sideways together, and a body that slides without friction
+/// along its sides moves alone. Newton's equations are singular along them, or determined by the last digits of the
+/// normals, which then decide about the forces: these motions are taken out first and stay as they were.
 struct WithoutNeutral {
-  Problem problem;
-  Matrix kept;
+  Problem problem;              ///< without the columns `held` of G and f: these motions are 0 there
+  Matrix neutral;               ///< m x k, orthonormal
+  std::vector<int> held, kept;  ///< k and m - k motions, ascending
+
+  /// The start with its neutral part changed so that the motions `held` are 0.
+  Start start(const Start& given) const;
+  /// Motions of the given problem whose neutral part is that of `a_start` (m), from those that are left.
+  Vector motions(const Vector& a_left, const Vector& a_start) const;
 };
-WithoutNeutral without_neutral(const Problem& problem, const Matrix& neutral);
+
+/// Nothing where there are no such motions, the loads drive one (`force_scale`: largest applied force), or W is known
+/// by its products alone.
+std::optional<WithoutNeutral> without_neutral(const Problem& problem, double force_scale);
 
 /// Rigid motions eliminated by a proximal term: G'p + f = c (a - a_0), so that a = a_0 + (G'p + f) / c. W is formed; m
 /// = 0.

@@ -253,27 +253,17 @@ Solution judged_as_a_whole(Solution solution, const Problem& problem, const Star
   return climbed_solution(problem, measure, p_start, start, options);
 }
 
-/// Loads that drive a neutral motion by less than this part of them are in balance along it.
-constexpr double balanced = 1e-10;
-
-/// Newton's equations are singular along motions that no pair resists, or worse, determined by the last digits of the
-/// normals alone, which then decide about the forces: the body would move by 1e10 times its deformation to satisfy
-/// them. These motions stay as they were.
-std::optional<Solution> solved_without_neutral(const Problem& problem, const Start& start,
-                                               const SolverOptions& options) {
-  if (!problem.W.is_dense()) return std::nullopt;
-  const Matrix neutral = neutral_motions(problem);
-  if (neutral.cols() == 0) return std::nullopt;
-  const Vector driven = neutral.transpose() * problem.f;
-  if (driven.norm() > balanced * std::max(problem.f.norm(), options.force_scale)) return std::nullopt;
-  const WithoutNeutral left = without_neutral(problem, neutral);
+/// The solution without the motions that no pair feels, which stay as they were, as one of the whole problem.
+Solution solved_without_neutral(const WithoutNeutral& left, const Problem& problem, const Start& start,
+                                const SolverOptions& options) {
   const Eigen::Index m = problem.G.cols();
-  const Vector a_start = start.a.size() == m ? start.a : Vector(Vector::Zero(m));
-  Start start_left = start;
-  start_left.a = left.kept.transpose() * a_start;
-  Solution solution = solve(left.problem, start_left, options);
-  solution.a = left.kept * solution.a + neutral * (neutral.transpose() * a_start);
-  if (solution.motion.size() > 0) solution.motion = left.kept * solution.motion;
+  Solution solution = solve(left.problem, left.start(start), options);
+  solution.a = left.motions(solution.a, start.a.size() == m ? start.a : Vector(Vector::Zero(m)));
+  if (solution.motion.size() > 0) {
+    const Vector motion = solution.motion;
+    solution.motion = Vector::Zero(m);
+    solution.motion(left.kept) = motion;
+  }
   return judged_as_a_whole(std::move(solution), problem, start, options);
 }
 
@@ -306,7 +296,8 @@ std::optional<Solution> completed_with(Solution other, Vector p, Vector a, const
 
 [[gnu::hot]] Solution solve(const Problem& problem, const Start& start, const SolverOptions& options) {
   check_sizes(problem);
-  if (std::optional<Solution> solution = solved_without_neutral(problem, start, options)) return *std::move(solution);
+  if (const std::optional<WithoutNeutral> left = without_neutral(problem, options.force_scale))
+    return solved_without_neutral(*left, problem, start, options);
   if (std::optional<Solution> solution = solved_with_slides_apart(problem, start, options)) return *std::move(solution);
   return solved_as_it_is(problem, start, options);
 }
