@@ -7,7 +7,7 @@ step resultants within 5 % of the largest one. A joint that breaks brittly does 
 import math
 
 EQUAL, CLOSE = 1e-8, 0.05
-PLACE = 1e-8  # m, of bodies of about a metre; sides of A and B at a gap are less apart
+PLACE = 1e-8  # m, of bodies of about a metre
 
 
 def differences(one, other, strict):
@@ -78,7 +78,7 @@ def of_pairs(one, other, time, limit, largest):
             continue
         if len(rows) > 1 and math.dist(rows[0][:2], twins[0][:2]) > math.dist(rows[0][:2], twins[-1][:2]):
             twins = twins[::-1]
-        moved = max(math.dist(row[:2], twin[:2]) for row, twin in zip(rows, twins))
+        moved = max(math.dist(row[:2], twin[:2]) - 1.01 * row[4] for row, twin in zip(rows, twins))  # of A, then of B
         if moved > PLACE:
             yield moved, f"places of pairs of {contact}, m:", time
         apart = max(math.dist(row[2:4], twin[2:4]) for row, twin in zip(rows, twins))

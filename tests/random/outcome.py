@@ -20,7 +20,7 @@ class Outcome:
     reason: str = ""
     warnings: dict = dataclasses.field(default_factory=dict)   # by kind
     increments: list = dataclasses.field(default_factory=list)
-    pairs: dict = dataclasses.field(default_factory=dict)      # by increment and contact: rows (x, y, normal, tangential)
+    pairs: dict = dataclasses.field(default_factory=dict)      # by increment and contact: rows (x, y, normal, tangential, gap)
     cells: int = 0
     seconds: float = 0.0
 
@@ -104,4 +104,4 @@ def read_pairs(path, keys, change, found):
             key = int(row["step"]), int(row["increment"]), keys[row["contact"]]
             place = change.point_back([float(row["x"]), float(row["y"])])
             forces = [float(row[name]) / change.force for name in ("normal_force", "tangential_force")]
-            found.pairs.setdefault(key, []).append((*place, *forces, row["state"]))
+            found.pairs.setdefault(key, []).append((*place, *forces, abs(float(row["gap"])) / change.length))
