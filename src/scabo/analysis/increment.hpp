@@ -119,10 +119,6 @@ struct Attempt {
   std::string beyond;     ///< why a solution contradicts small displacements (beyond_sides.hpp) or the displacements of
                           ///< its bodies (softly_held.hpp); else empty
   bool lost = false;      ///< in rounding, whatever part of the loads acts (softly_held.hpp)
-  /// Why nothing but the theory of small displacements holds a body, which rolls (rolling.hpp); else empty. `rolls`:
-  /// the rigid motions with which it does.
-  std::string rolling;
-  Vector rolls;
   bool accepted = false;
   contact::Problem problem;  ///< the problem solved, from `start`; W is shared, not copied
   contact::Start start;

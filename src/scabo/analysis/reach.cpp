@@ -157,10 +157,6 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   } else if (status == Status::collapse) {
     reached.motion = mechanism_of(prepared, tried.solution.motion, FlowRule::coulomb, tried.problem.f);
     reached.reason = describe_collapse(prepared, tried.solution, reached.part, part);
-  } else if (!tried.rolling.empty()) {
-    reached.mechanism = true;
-    reached.motion = mechanism_of(prepared, tried.rolls, FlowRule::coulomb, tried.problem.f);
-    reached.reason = "mechanism: " + tried.rolling;
   } else if (!tried.beyond.empty())
     reached.reason = tried.beyond;
   else if (status == Status::solved)
@@ -248,7 +244,7 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       continue;
     }
     const bool no_equilibrium = tried.solution.status == contact::Status::mechanism ||
-                                tried.solution.status == contact::Status::collapse || !tried.rolling.empty();
+                                tried.solution.status == contact::Status::collapse;
     const auto is_same_at_half = [&] {
       return is_same_scaled(prepared, reached.state, tried, factors_at(reached.part + 0.5 * part));
     };
