@@ -1,6 +1,8 @@
 // Two elastic blocks, of which contact alone holds the upper one, have one verdict in every size and unit.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "run.hpp"
@@ -83,6 +85,51 @@ TEST(TwoElasticBlocks, HaveOneVerdictInEverySizeAndUnit) {
         EXPECT_NEAR(other.pairs[i].tangential_force, joint.pairs[i].tangential_force, 1e-8 * weight_of_block);
       }
     }
+}
+
+/// Two upright bricks side by side, pressed together by 100 kPa; the left one stands on the ground, the right one hangs
+/// from above, and no support holds them sideways: their common motion no pair feels. `unit`: a metre in the model's
+/// unit of length; turned by `degrees`.
+std::string pressed_bricks(double size, double unit, double degrees, bool right_first, const std::string& more) {
+  const double angle = degrees * std::numbers::pi / 180.0, c = std::cos(angle), s = std::sin(angle);
+  const auto at = [&](double x, double y) {
+    return fmt::format("[{:.17g}, {:.17g}]", unit * (c * x - s * y), unit * (s * x + c * y));
+  };
+  const auto body = [&](const char* name, double left) {
+    return fmt::format(
+        "  {}: {{material: m, shape: {{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, right: edge_2, "
+        "top: edge_3, left: edge_4}}}}}}, mesh: {{size: {:.17g}}}}}\n",
+        name, at(left, 0), at(left + 1, 0), at(left + 1, 2), at(left, 2), size * unit);
+  };
+  const std::string a = body("w", 0.0), b = body("m", 1.0);
+  return fmt::format(
+      "scabo: 1\nanalysis: {{plane: stress, thickness: {}}}\nmaterials: {{m: {{young: {}, poisson: 0.15}}}}\n"
+      "bodies:\n{}contacts: {{joint: {{between: [w.right, m.left], friction: 0.7}}}}\n"
+      "supports: [{{on: w.bottom, fix: normal}}, {{on: m.top, fix: normal}}{}]\n"
+      "loads: {{left: {{on: w.left, pressure: {}}}, right: {{on: m.right, pressure: {}}}}}\n",
+      unit, 5e9 / (unit * unit), right_first ? b + a : a + b, more, 1e5 / (unit * unit), 1e5 / (unit * unit));
+}
+
+// The bricks bulge downwards and upwards, which friction resists: with one corner held sideways, which changes nothing,
+// there is nothing special about the model.
+TEST(PressedBricks, AreSolvedAtEverySizeInEveryUnitAndPosition) {
+  for (const double size : {0.5, 0.25, 0.0625, 0.05}) {
+    const auto held = run(pressed_bricks(size, 1.0, 0.0, false, ", {on: w.vertex_1, fix: x}"));
+    const double shear = contact_of(last(held)).tangential_force;
+    if (size == 0.05) EXPECT_NEAR(shear, -7575.41, 0.01);
+    const auto expect = [&](const std::string& model) {
+      const analysis::StaticSolution solution = run(model);
+      const analysis::ContactResult& joint = contact_of(last(solution));
+      EXPECT_NEAR(joint.normal_force, 2e5, 1e-8 * 2e5);
+      EXPECT_NEAR(joint.tangential_force, shear, 1e-8 * 2e5);
+    };
+    SCOPED_TRACE(size);
+    expect(pressed_bricks(size, 1.0, 0.0, false, ""));
+    expect(pressed_bricks(size, 1e3, 0.0, false, ""));
+    expect(pressed_bricks(size, 1e-3, 0.0, true, ""));
+    expect(pressed_bricks(size, 1.0, 33.0, false, ""));
+    expect(pressed_bricks(size, 1.0, 90.0, true, "") + "steps: [{increments: 10}]\n");
+  }
 }
 
 }  // namespace
