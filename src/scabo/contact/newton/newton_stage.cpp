@@ -3,6 +3,7 @@
 
 #include "scabo/contact/newton/bonded_start.hpp"
 #include "scabo/contact/newton/coarse_start.hpp"
+#include "scabo/contact/newton/kept_states.hpp"
 #include "scabo/contact/stages.hpp"
 
 namespace scabo::contact {
@@ -19,6 +20,23 @@ std::string why_of(const NewtonEnd& end, const Search& search) {
   return "Newton's method stalled after " + std::to_string(end.iterations) + " iterations";
 }
 
+/// From the last increment: of a body that contact alone holds first with the states as they were (kept_states.hpp).
+/// Whether that ends the search.
+bool from_history(Search& search, NewtonEnd& end) {
+  const bool floats = search.problem().G.cols() > 0;
+  const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
+  const auto done = [&](Point from, const char* stage) {
+    end = search.newton_from(std::move(from), {stage, 0, patience});
+    return end.converged || search.late();
+  };
+  std::optional<Point> kept;
+  if (floats) kept = with_states_kept(equations, search.start());
+  if (kept && done(*std::move(kept), "newton from states kept")) return true;
+  if (done(search.start(), "newton")) return true;
+  if (!floats) kept = with_states_kept(equations, search.start());
+  return !floats && kept && done(*std::move(kept), "newton from states kept");
+}
+
 }  // namespace
 
 StageEnd newton_stage(Search& search) {
@@ -28,7 +46,7 @@ StageEnd newton_stage(Search& search) {
     end = search.newton_from(std::move(from), {stage, 0, patience});
     return end.converged || search.late();
   };
-  if (search.has_history() && done(search.start(), "newton")) return {end.converged, why_of(end, search)};
+  if (search.has_history() && from_history(search, end)) return {end.converged, why_of(end, search)};
   if (problem.G.cols() > 0)
     if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
       if (done(*std::move(bonded), "newton from bonded pairs")) return {end.converged, why_of(end, search)};
