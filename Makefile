@@ -6,6 +6,7 @@
 #   make report      the page that `scabo report` fills; brings Node.js and npm if there are none
 #   make wheel       the same as a wheel, build/wheel
 #   make fuzz        the fuzzers, FUZZ_SECONDS each
+#   make random      random models and their twins from SEED on (1000), COUNT of them (100)
 #   make bench       against CalculiX and GetFEM
 #   make bench-contact   contact solvers against Siconos's; PROBLEMS=folder of .hdf5 files in FCLIB's layout
 #   make bench-large   1e4 to 2e6 degrees of freedom, 32 to 3,000 contact pairs, cyclic loads, a thousand bodies; a quarter of an hour and 13 GB
@@ -25,13 +26,15 @@ PYTHON = $(SCABO_PYTHON)
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 15
+SEED ?= 1000
+COUNT ?= 100
 
 configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 # Node.js and npm for the page of reports, unless there are some from elsewhere.
 report = $(shell command -v npm >/dev/null 2>&1 || echo report)
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build python report wheel test test-release test-asan fuzz bench bench-contact bench-large bench-sizes bench-kills bench-elements bench-python docs format packages install package clean
+.PHONY: help demo build python report wheel test test-release test-asan fuzz random bench bench-contact bench-large bench-sizes bench-kills bench-elements bench-python docs format packages install package clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -78,6 +81,10 @@ fuzz:
 	@$(configure) asan
 	@cmake --build --preset asan --target fuzzers --parallel $(JOBS)
 	@cmake/run_fuzzers.sh build-asan $(FUZZ_SECONDS)
+
+random:
+	@$(MAKE) --no-print-directory build
+	@$(with_python) tests/random/run.py build/bin/scabo --from $(SEED) --count $(COUNT) --keep build/random.failed
 
 bench:
 	@cmake/install_packages.sh build bench

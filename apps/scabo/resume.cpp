@@ -35,9 +35,12 @@ std::string model_of(const ResumeOptions& options, const analysis::RunOrigin& or
   std::error_code error;
   for (const std::string& place : places)
     if (is_same(place, model)) return place;
-  for (const std::string& place : places)
+  for (const std::string& place : places) {
+    if (fs::is_fifo(place, error))
+      refuse(place, "is a pipe: say with --model where the text of the model is kept in a file");
     if (fs::exists(place, error))
       refuse(place, "has changed since the run began: restore it, or start anew with `scabo run`");
+  }
   refuse(places.front(),
          "the model file of the run is no longer there: say where it is with --model, or start anew with `scabo run`");
 }

@@ -30,6 +30,10 @@ fs::path default_output(const std::string& model) {
 ExitStatus run(const RunOptions& options, Cluster* cluster, Events& events) {
   const Clock::time_point start = Clock::now();
   events.stage("reading");
+  std::error_code error;
+  if (const fs::file_status model = fs::status(options.model, error);
+      cluster && fs::exists(model) && !fs::is_regular_file(model) && !fs::is_directory(model))
+    throw InputError(options.model, {{{}, "is a pipe or a device, but every rank reads the model: save it as a file"}});
   const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
   const double reading = std::chrono::duration<double>(Clock::now() - start).count();
   const auto output = options.output.empty() ? default_output(options.model) : options.output;

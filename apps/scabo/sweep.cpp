@@ -66,10 +66,19 @@ model::Model first_model(const SweepOptions& options, const std::vector<SweepAxi
   }
 }
 
+/// Every point is a run that reads the model file again.
+void refuse_pipe(const std::string& model) {
+  std::error_code error;
+  const fs::file_status status = fs::status(model, error);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+    throw InputError(
+        model, {{{}, "is a pipe or a device, but every run of a sweep reads the model again: save it as a file"}});
+}
+
 /// What decides the results of a sweep.
 Json manifest_of(const SweepOptions& options, const std::vector<SweepAxis>& axes, const model::Model& model) {
   Json manifest = {{"scabo", result::version()}, {"kind", "sweep"}, {"settings", options.settings}};
-  manifest["files"] = {analysis::source_file(options.model).digest};
+  manifest["files"] = {analysis::source_of(options.model, *model.text).digest};
   for (const std::string& file : model.files) manifest["files"].push_back(analysis::source_file(file).digest);
   manifest["vary"] = Json::array();
   for (const SweepAxis& axis : axes) manifest["vary"].push_back({{"path", axis.path}, {"values", axis.values}});
@@ -261,6 +270,7 @@ ExitStatus sweep(SweepOptions options) {
   std::vector<SweepAxis> axes;
   for (const std::string& text : options.vary) axes.push_back(parse_axis(text));
   count_points(axes);
+  refuse_pipe(options.model);
   const model::Model model = first_model(options, axes);
   if (model.analysis.type == model::AnalysisType::modal)
     refuse_sweep(options.model, "a sweep runs static analyses: leave out type: modal");

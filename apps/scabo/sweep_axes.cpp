@@ -52,7 +52,7 @@ double number_of(std::string_view axis, const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (!text.empty() && *end == '\0' && std::isfinite(value) && std::abs(value) > 1e100)
-    refuse_axis(axis, fmt::format("has {}, which is larger in size than 1e100: check the value and its units", text));
+    refuse_axis(axis, fmt::format("has {}, which is larger in size than 1e100: write a smaller number", text));
   if (text.empty() || *end != '\0' || !std::isfinite(value))
     refuse_axis(axis, fmt::format("has '{}' where a number must stand: {}", text, examples));
   return value;

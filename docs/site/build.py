@@ -33,7 +33,7 @@ import verification_manual
 from markdown import blocks_of, links_of
 
 PARTS = ("gallery", "verification", "cpp", "python")
-PAGES = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/*.md", "docs/methods/*.md", "docs/decisions/*.md",
+PAGES = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/*.md", "docs/model/*.md", "docs/methods/*.md", "docs/decisions/*.md",
          "examples/README.md", "examples/*/README.md", "benchmarks/README.md")
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # What TeX-AMS_CHTML-full needs, 4 MB of 54.
@@ -114,7 +114,7 @@ def stage(source: pathlib.Path) -> None:
     write(source / "index.md", lambda: index.replace("docs/pictures\n", "\n".join(["docs/pictures", *others]) + "\n"))
     methods = (ROOT / "docs/README.md").read_text(encoding="utf-8").partition("## Methods")[2].replace("](methods/", "](").replace("](notation", "](../notation")
     write(source / "docs/methods/README.md", lambda: f"# Methods{methods}")
-    for page, glob in (("docs/methods/README.md", "[0-9]*"), ("docs/decisions/README.md", "[0-9]*"), ("examples/README.md", "[0-9]*/README")):
+    for page, glob in (("docs/model_file.md", "model/*"), ("docs/methods/README.md", "[0-9]*"), ("docs/decisions/README.md", "[0-9]*"), ("examples/README.md", "[0-9]*/README")):
         with open(source / page, "a", encoding="utf-8") as file:
             file.write(f"\n```{{toctree}}\n:hidden:\n:glob:\n\n{glob}\n```\n")
     tutorials = ["# Tutorials in Python", "",

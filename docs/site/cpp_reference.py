@@ -18,7 +18,7 @@ SOURCE = ROOT / "src" / "scabo"
 FOLDERS = {
     "input": ("Model files", ["read_model.hpp"]),
     "model": ("The model", ["model.hpp", "*.hpp"]),
-    "mesh": ("Meshes", ["mesh.hpp", "domain.hpp", "make_mesh.hpp"]),
+    "mesh": ("Meshes", ["mesh.hpp", "domain.hpp"]),
     "element": ("Super-elements", ["coefficient_matrices.hpp", "elasticity.hpp", "stiffness.hpp", "modal_solution.hpp", "interior_field.hpp",
                                    "mass.hpp", "stress_intensity.hpp", "singular_field.hpp", "cell_library.hpp"]),
     "contact": ("The contact problem", ["problem.hpp", "solution.hpp", "solve.hpp", "certificate.hpp", "judge.hpp", "delassus.hpp",

@@ -16,7 +16,7 @@ import yaml
 
 # A unit at the end of a first sentence: `Thickness out of the plane, m.`
 UNIT = re.compile(r", (m|m2|N|N/m|N/m2|N/m3|N/m4|N m|Pa|Pa/m|kg/m3|1/K|K|K/m|degrees|rad|m/s2|J|s)(?=[.;,:]|$| in| \()")
-PROSE = {  # sections of docs/model_file.md about what a name of the schema does not say
+PROSE = {  # sections of docs/model about what a name of the schema does not say
     "place": "places", "edge_place": "places", "names": "shape-polygon", "piece": "shape-outline", "copies": "repeat", "support": "supports",
     "springs": "springs", "load": "loads", "contact": "contacts", "contact_property": "contact_properties", "friction": "contacts", "tie": "ties",
     "step": "steps", "curve": "curves", "material": "materials", "body": "bodies", "mesh": "mesh", "shape": "bodies", "quantity": "tolerance",
@@ -197,13 +197,16 @@ class Reference:
         for word in (title, words[0], *words[::-1]):
             slug = PROSE.get(word, word)
             if slug in self.headings():
-                return f"[model file: {slug.replace('-', ' ')}](../docs/model_file.md#{slug})"
+                return f"[model file: {slug.replace('-', ' ')}](../docs/{self.headings()[slug]}#{slug})"
         return ""
 
-    def headings(self) -> set[str]:
+    def headings(self) -> dict[str, str]:
+        """The page of each heading of the model file's pages, relative to docs/."""
         if not hasattr(self, "_headings"):
             from markdown import anchors_of
-            self._headings = anchors_of((self.root / "docs" / "model_file.md").read_text(encoding="utf-8"))
+            docs = self.root / "docs"
+            pages = [docs / "model_file.md", *sorted((docs / "model").glob("*.md"))]
+            self._headings = {anchor: page.relative_to(docs).as_posix() for page in pages for anchor in anchors_of(page.read_text(encoding="utf-8"))}
         return self._headings
 
     def page(self) -> str:
@@ -213,7 +216,7 @@ class Reference:
 {self.schema['description']} This page is made from the JSON Schema that `scabo schema` prints: {keys} keys in
 {len(self.sections)} groups. [The model file](../docs/model_file.md) explains them with their rules and more examples.
 
-A number may also be a formula, `${{2 * b}}`, of the [parameters](../docs/model_file.md#parameters). `NAME` stands for a name
+A number may also be a formula, `${{2 * b}}`, of the [parameters](../docs/model/writing.md#parameters). `NAME` stands for a name
 of your own, `[]` for an entry of a list. The name beside an example is that of the model file from which it is taken: a
 number is that of an [example](../examples/README.md), the others are in `tests/input/good`.
 

@@ -24,7 +24,9 @@ namespace {
 Document read(const std::string& file, const std::vector<std::string>& settings) {
   const py::gil_scoped_release release;
   Document document{file, settings, nullptr};
-  document.root = input::parse_document(input::read_text_file(file), file, input::parse_settings(settings)).root;
+  auto [root, model] = input::parse_document(input::read_text_file(file), file, input::parse_settings(settings));
+  document.root = std::move(root);
+  document.text = std::move(model.text);
   return document;
 }
 
@@ -42,7 +44,10 @@ CheckedModel checked_model(py::handle data, const std::string& file, const Docum
   const py::gil_scoped_release release;
   checked.model = input::model_of_tree(root, file);
   checked.is_of_file = document && root == before;
-  if (checked.is_of_file) checked.settings = document->settings;
+  if (checked.is_of_file) {
+    checked.settings = document->settings;
+    checked.model.text = document->text;
+  }
   return checked;
 }
 

@@ -1,6 +1,7 @@
 // Models as the extension module keeps them.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct Document {
   std::string file;                   ///< path of the model file
   std::vector<std::string> settings;  ///< `path=value`
   input::NodePtr root;
+  std::shared_ptr<const std::string> text = {};  ///< of the file
 };
 
 /// A model that has been read and validated.

@@ -74,7 +74,7 @@ async function start(): Promise<void> {
     const webgl = /WebGL/i.test(String(error));
     field?.root.querySelectorAll<HTMLElement>(".controls, .bar, .readout").forEach((part) => (part.hidden = true)); // they would change nothing
     field?.root.querySelector(".stage")?.replaceWith(element("p", { class: "failed", role: "alert" }, webgl
-      ? "This browser draws no WebGL 2, which the picture needs. Everything else on this page works without it." : `The picture could not be drawn: ${String(error)}`));
+      ? "This browser has no WebGL 2, which the picture of the field needs. Everything else on this page works without it." : `The picture could not be drawn: ${String(error)}`));
     if (!webgl) throw error;
   }
   document.documentElement.dataset.ready = "true";

@@ -17,7 +17,7 @@ from markdown import blocks_of, broken_links, slug_of  # noqa: E402
 from schema_reference import Reference  # noqa: E402
 
 SCABO = pathlib.Path()
-FOLDERS = ("", "docs", "docs/methods", "docs/decisions", "examples", "benchmarks")
+FOLDERS = ("", "docs", "docs/model", "docs/methods", "docs/decisions", "examples", "benchmarks")
 
 
 class Links(unittest.TestCase):
@@ -46,6 +46,8 @@ class Links(unittest.TestCase):
     def test_the_overview_names_every_page(self):
         overview = (ROOT / "docs/README.md").read_text(encoding="utf-8")
         self.assertEqual([page.name for page in sorted((ROOT / "docs").glob("*.md")) if page.stem != "README" and f"]({page.name}" not in overview], [])
+        index = (ROOT / "docs/model_file.md").read_text(encoding="utf-8")
+        self.assertEqual([page.name for page in sorted((ROOT / "docs/model").glob("*.md")) if f"](model/{page.name}" not in index], [])
 
 
 class References(unittest.TestCase):

@@ -34,7 +34,7 @@ from markdown import blocks_of  # noqa: E402
 from schema_test import load  # noqa: E402
 
 PATIENCE = 1200  # s
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "docs" / "model").glob("*.md"))]
 OTHER_PAGES = sorted((ROOT / "docs" / "methods").glob("*.md")) + sorted((ROOT / "docs" / "decisions").glob("*.md"))
 SCABO = pathlib.Path()
 HAS_MODULE = importlib.util.find_spec("scabo") is not None

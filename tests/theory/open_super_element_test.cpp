@@ -44,7 +44,7 @@ TEST(OpenSuperElement, CrackHasTheExponentOneHalfTwice) {
   for (int i : {4, 5}) EXPECT_NEAR(std::abs(exponents[static_cast<std::size_t>(i)] - 1.0), 0.0, 1e-6);  // may be a pair
 }
 
-// Source: the roots of sin(1.5 pi lambda) = -+ lambda sin(1.5 pi), VERIFICATION.md.
+// Source: the roots of sin(1.5 pi lambda) = -+ lambda sin(1.5 pi), Williams 1952.
 TEST(OpenSuperElement, CornerOf270DegreesHasTheExponentsOfWilliams) {
   const auto exponents = lowest(corner_270(2, 10), elasticity(1.0, 0.3), 5);
   EXPECT_NEAR(exponents[2].real(), 0.544483737, 1e-9);

@@ -112,9 +112,9 @@ TEST(Wall, OfAFewHundredPairsTakesFewIterations) {
   holds({10, 10, 0.6}, 0.99, 1);
 }
 
-// More than a thousand pairs: interior points follow Newton's method (docs/methods/12), 36, 26 and 26 iterations
-// before. Near the limit load of the last walls their steps become short, and a path follows; by interior points alone
-// these took 17 and 18.
+// More than a thousand pairs: interior points follow Newton's method (docs/methods/12_contact_solver.md),
+// 36, 26 and 26 iterations before. Near the limit load of the last walls their steps become short, and a path follows;
+// by interior points alone these took 17 and 18.
 TEST(Wall, OfManyPairsTakesFewIterations) {
   struct Case {
     double friction, part;
@@ -161,7 +161,7 @@ TEST(Wall, OfManyPairsTakesFewIterationsUnderItsWeightAlone) {
 }
 
 // Most states are those of the increment before: 11 to 13 iterations where interior points came after a few of Newton's
-// method (docs/decisions/0049).
+// method.
 TEST(Wall, OfManyPairsTakesFewIterationsInEveryIncrement) {
   const Blocks blocks{16, 16, 0.6};
   const double push = 0.4 * blocks.collapse_push();
@@ -226,7 +226,7 @@ TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
 }
 
 // Forces within the cones balance the push, so that it is no mechanism; but the equilibria that the push passes through
-// end at 0.93 of it (docs/methods/12), and no other was found.
+// end at 0.93 of it (docs/methods/12_contact_solver.md), and no other was found.
 TEST(Wall, WithStrongFrictionFallsBeforeItsLimitLoad) {
   const Blocks blocks{8, 8, 1.0};
   EXPECT_EQ(run(model_of(blocks, 0.92 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::solved);
@@ -296,7 +296,7 @@ TEST(Shaken, BlocksTowersAndWallsStandAsStaticsSays) {
 
 // A wall turned by 30 degrees together with gravity and push, and one in millimetres: the same verdict, the same gaps
 // and slips, and the same force of every pair that has a point for itself. Where three blocks meet in a point, forces
-// around it are not unique (docs/methods/06).
+// around it are not unique (docs/methods/06_newton.md).
 TEST(Wall, TurnedOrInOtherUnitsIsTheSame) {
   for (const auto& [friction, part] : {std::pair{0.6, 0.5}, std::pair{0.3, 0.9}}) {
     SCOPED_TRACE(fmt::format("mu {}, {} of the collapse push", friction, part));

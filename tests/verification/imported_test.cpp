@@ -308,17 +308,22 @@ class Pulled {
  public:
   explicit Pulled(std::string file) : file_(std::move(file)) {
     const auto mesh = files::read_mesh_file(file_);
-    auto made = model::imported_body(mesh, -1);
-    if (std::holds_alternative<std::string>(made)) {
+    const auto is_one = [](const auto& made) {
+      const auto* bodies = std::get_if<model::ImportedBodies>(&made);
+      return bodies != nullptr && bodies->parts.size() == 1;
+    };
+    auto made = model::imported_bodies(mesh, {}, false);
+    if (!is_one(made)) {
       region_ = mesh.regions.front();
-      made = model::imported_body(mesh, 0);
+      made = model::imported_bodies(mesh, {0, -1}, false);
     }
-    for (std::size_t set = 0; std::holds_alternative<std::string>(made) && set < mesh.cell_sets.size(); ++set) {
+    for (std::size_t set = 0; !is_one(made) && set < mesh.cell_sets.size(); ++set) {
       region_ = mesh.cell_sets[set].name;
-      made = model::imported_body_of_set(mesh, static_cast<int>(set));
+      made = model::imported_bodies(mesh, {-1, static_cast<int>(set)}, false);
     }
-    cells_ = std::get<model::ImportedBody>(made).mesh->cells.size();
-    const auto& outline = std::get<model::ImportedBody>(made).outline;
+    const model::ImportedBody& body = std::get<model::ImportedBodies>(made).parts.front();
+    cells_ = body.mesh->cells.size();
+    const auto& outline = body.outline;
     double left = 1e300, right = -1e300;
     for (const auto& edge : outline.edges) {
       const double x = edge.at(0.5).x();

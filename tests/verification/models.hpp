@@ -14,7 +14,7 @@ namespace scabo::verification {
 
 // ---- double cantilever beam ----------------------------------------------------------------------------
 
-/// The beams of examples/01, one on the other, built in at the left, with a force of 100 kN at the tip of the upper
+/// The beams of example 01, one on the other, built in at the left, with a force of 100 kN at the tip of the upper
 /// one.
 inline std::string double_cantilever(const std::string& lower, const std::string& upper, double friction = 0.2) {
   return fmt::format(R"(scabo: 1

@@ -151,7 +151,7 @@ steps: [{{loads: {{down: 1}}}}, {{loads: {{aside: 1}}}}]
 
 // ---- Hertz -----------------------------------------------------------------------------------------------
 
-// A steel roller of radius 50 mm on an aluminium block under 1 MN/m, as examples/12: pressure in L2, and it converges.
+// A steel roller of radius 50 mm on an aluminium block under 1 MN/m, as example 12: pressure in L2, and it converges.
 TEST(Hertz, PressureOfFewDegreesOfFreedom) {
   const double P = 1e6, R = 0.05, E = 1.0 / (0.91 / 210e9 + 0.91 / 70e9),
                a = std::sqrt(4.0 * P * R / (std::numbers::pi * E)), largest = 2.0 * P / (std::numbers::pi * a);
@@ -293,7 +293,7 @@ contacts: {{fit: {{between: [shaft.rim, hub.bore], friction: 0.1, gap: -0.05}}}}
 
 // ---- double cantilever beam ----------------------------------------------------------------------------
 
-// The beams of examples/01 as 2,000 and 3,500 polygons: the converged force, the same with A and B
+// The beams of example 01 as 2,000 and 3,500 polygons: the converged force, the same with A and B
 // swapped.
 TEST(DoubleCantileverBeam, OfThousandsOfPolygonsThatDoNotMatch) {
   const std::string text =

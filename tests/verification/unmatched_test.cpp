@@ -162,7 +162,7 @@ contacts:
 
 // ---- published numbers -----------------------------------------------------------------------------------
 
-// The double cantilever beam of examples/01, 20 against 29 elements. Total force 53.669 kN; pressures of 240 quadratic
+// The double cantilever beam of example 01, 20 against 29 elements. Total force 53.669 kN; pressures of 240 quadratic
 // elements on each side (which differ from those of 120 by at most 0.02 % at these places), in kPa.
 TEST(Unmatched, DoubleCantileverBeam) {
   const std::string text = double_cantilever("size: 0.3", "size: 0.2068965517241379");

@@ -1,5 +1,6 @@
-// Twins of a wall of 1,266 pairs near its limit load, to whose equilibrium a path leads (docs/methods/12): in other
-// units, turned, mirrored, in another order. Of each every block is balanced by hand.
+// Twins of a wall of 1,266 pairs near its limit load, to whose equilibrium a path leads
+// (docs/methods/12_contact_solver.md): in other units, turned, mirrored, in another order. Of each every block is
+// balanced by hand.
 #include <fmt/format.h>
 
 #include <algorithm>

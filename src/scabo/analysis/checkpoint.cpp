@@ -96,7 +96,7 @@ template <typename Io>
 void exchange_state(Io& io, RunState& run) {
   exchange_integer(io, "state/step", run.step);
   exchange_integer(io, "state/increment", run.progress.increment);
-  exchange_scalars(io, "state/progress", {&run.progress.reached, &run.progress.size});
+  exchange_scalars(io, "state/progress", {&run.progress.reached, &run.progress.size, &run.progress.limit});
   State& state = run.state;
   io.numbers("state/load_factors", state.factors.loads);
   io.numbers("state/support_factors", state.factors.supports);
@@ -114,7 +114,9 @@ void exchange_state(Io& io, RunState& run) {
   exchange_vector(io, "state/a", state.a);
   exchange_vector(io, "state/gap", state.gap);
   exchange_vector(io, "state/slip", state.slip);
-  exchange_scalars(io, "state/energy", {&state.energy.external, &state.energy.elastic, &state.energy.friction});
+  exchange_scalars(
+      io, "state/energy",
+      {&state.energy.external, &state.energy.elastic, &state.energy.friction, &state.energy.friction_error});
   exchange_scalars(io, "state/largest_force", {&state.largest_force});
   exchange_replacing(io, state.replaced);
   std::vector<int> states, broken, slipped;
@@ -244,7 +246,9 @@ struct OtherVersion : std::runtime_error {
 
 }  // namespace
 
-SourceFile source_file(const std::string& path) { return {path, hexadecimal(digest(content_of(path)))}; }
+SourceFile source_of(const std::string& path, std::string_view content) { return {path, hexadecimal(digest(content))}; }
+
+SourceFile source_file(const std::string& path) { return source_of(path, content_of(path)); }
 
 bool has_checkpoint(const fs::path& directory) {
   std::error_code error;

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scabo/analysis/continuation.hpp"
@@ -24,6 +25,7 @@ struct SourceFile {
   std::string path;
   std::string digest;
 };
+SourceFile source_of(const std::string& path, std::string_view content);
 /// Throws InputError if the file cannot be read.
 SourceFile source_file(const std::string& path);
 

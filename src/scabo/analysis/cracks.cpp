@@ -143,7 +143,7 @@ std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
       list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", exponent.real());
     warnings.push_back(
         {WarningKind::crack, crack.name,
-         fmt::format("the boundary of '{}' is too coarse to resolve its singular stress: the computed exponents are {} "
+         fmt::format("the singular stress of '{}' is not resolved: the computed exponents are {} "
                      "instead of 0.5 twice, and the stress intensity factors have errors of the same size; use a "
                      "smaller mesh size, a higher order, or a tip farther from the boundary",
                      crack.name, list)});

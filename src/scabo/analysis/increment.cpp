@@ -9,6 +9,7 @@
 #include "scabo/analysis/branch.hpp"
 #include "scabo/analysis/increment_balance.hpp"
 #include "scabo/analysis/increment_loads.hpp"
+#include "scabo/analysis/rolling.hpp"
 #include "scabo/analysis/softly_held.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
 #include "scabo/analysis/undetermined_motions.hpp"
@@ -167,6 +168,19 @@ State initial_state(const Prepared& prepared) {
   return state;
 }
 
+namespace {
+
+/// A state in which a body rolls is none: without springs it is a mechanism.
+void ask_whether_it_rolls(const Prepared& prepared, Attempt& result) {
+  const std::optional<Rolling> rolling = rolling_part(prepared, result.state);
+  if (!rolling) return;
+  result.accepted = false;
+  (rolling->sprung ? result.beyond : result.rolling) = describe_rolling(prepared, result.state, *rolling);
+  result.rolls = motion_of_rolling(prepared, result.state, *rolling);
+}
+
+}  // namespace
+
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
   const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
   Attempt result;
@@ -198,7 +212,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
     if (result.solution.status != contact::Status::solved) break;
     if (give_smallest_motions(prepared, result.problem, laws, result.start, options, from, to, result.solution))
       balances = add_displacements(prepared, nullptr, to);
-    soft = softly_held(prepared, to, result.problem, result.solution, posed.drawn);
+    soft = softly_held(prepared, to, result.problem, result.solution, posed.drawn, options.force_scale);
     if (!soft || !(soft->apart > SoftlyHeld::good) || round == most_corrections) break;
     problem.q += soft->difference;
     result.start = {result.solution.p, result.solution.a, result.start.touching};
@@ -215,6 +229,7 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   result.lost = result.accepted && result.beyond.empty() && soft && soft->wrong > SoftlyHeld::allowed;
   if (result.lost) result.beyond = lost_where_softly_held(prepared, *soft);
   result.accepted = result.accepted && result.beyond.empty();
+  if (result.accepted) ask_whether_it_rolls(prepared, result);
   return result;
 }
 

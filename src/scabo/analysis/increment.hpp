@@ -119,6 +119,10 @@ struct Attempt {
   std::string beyond;     ///< why a solution contradicts small displacements (beyond_sides.hpp) or the displacements of
                           ///< its bodies (softly_held.hpp); else empty
   bool lost = false;      ///< in rounding, whatever part of the loads acts (softly_held.hpp)
+  /// Why nothing but the theory of small displacements holds a body, which rolls (rolling.hpp); else empty. `rolls`:
+  /// the rigid motions with which it does.
+  std::string rolling;
+  Vector rolls;
   bool accepted = false;
   contact::Problem problem;  ///< the problem solved, from `start`; W is shared, not copied
   contact::Start start;
@@ -135,10 +139,6 @@ DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attemp
 
 /// The results of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);
-
-/// A sentence about the first part whose displacements exceed a tenth of its size, for which the theory of small
-/// displacements is not valid; empty if there is none.
-std::string too_large(const Prepared& prepared, const State& state);
 
 /// `body 'upper': translation along (1, 0)` for rigid motions `a`; of many bodies the four parts that move most, and
 /// how many others.

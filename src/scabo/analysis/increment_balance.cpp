@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/analysis/friction_work.hpp"
 #include "scabo/analysis/increment_loads.hpp"
 
 namespace scabo::analysis {
@@ -144,23 +145,10 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.elastic -= reached;
     energy.external -= reached - work_on_references(prepared, from);
   }
-  for (Eigen::Index i = 0; i < to.slip.size(); ++i) {
-    const contact::PairHistory &before = from.history[static_cast<std::size_t>(i)],
-                               &after = to.history[static_cast<std::size_t>(i)];
-    const bool fell = before.broken != after.broken || before.slipped != after.slipped;
-    const double slip = to.slip[i] - from.slip[i];
-    const double at_start = -from.p[2 * i + 1] * slip, at_end = -to.p[2 * i + 1] * slip;
-    // Where the strength fell at once, the slip took place under what was left of it.
-    if (fell) {
-      energy.friction += std::max(at_end, 0.0);
-      continue;
-    }
-    // A force along the slip turned before the slip began, and what moved the pair worked against it as well: friction
-    // never gives energy back.
-    const double turned = std::max(-at_start, 0.0);
-    energy.friction += 0.5 * (at_start + at_end) + turned;
-    energy.external += turned;
-  }
+  const FrictionWork friction = friction_work(prepared, from, to);
+  energy.friction += friction.work;
+  energy.external += friction.beyond_rule;
+  energy.friction_error += friction.error;
   return energy;
 }
 

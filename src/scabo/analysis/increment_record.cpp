@@ -178,6 +178,7 @@ void exchange(Io& io, IncrementResult& of) {
   io(of.largest_force);
   exchange(io, of.certificate);
   io(of.lost_to_rounding), io(of.energy.external), io(of.energy.elastic), io(of.energy.friction);
+  io(of.energy.friction_error);
   exchange(io, of.cracks);
   exchange(io, of.reason);
   exchange(io, of.uniqueness);

@@ -6,7 +6,6 @@
 
 #include "scabo/analysis/increment.hpp"
 #include "scabo/analysis/increment_balance.hpp"
-#include "scabo/analysis/large_slip.hpp"
 
 namespace scabo::analysis {
 
@@ -187,26 +186,6 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
     if (prepared.is_absent(dofs.part_of(body))) result.absent.push_back(body);
   }
   return result;
-}
-
-std::string too_large(const Prepared& prepared, const State& state) {
-  const system::Dofs& dofs = prepared.structure.dofs;
-  for (std::size_t p = 0; p < state.u.size(); ++p) {
-    if (dofs.is_rigid(p)) continue;
-    const double size = 2.0 * prepared.structure.parts[p]->lever();
-    Vector u = state.u[p];
-    if (has_large_slip(prepared.model)) {  // bodies may slide, and others push them, as far as they like
-      const Vec2 mean = u.reshaped(2, u.size() / 2).rowwise().mean();
-      u.reshaped(2, u.size() / 2).colwise() -= mean;
-    }
-    const double largest = u.lpNorm<Eigen::Infinity>();
-    if (largest > 0.1 * size)
-      return fmt::format(
-          "displacements of {} reach {:.3g}, more than a tenth of its size: the theory is valid for small ones "
-          "only; check the units of stiffness and loads",
-          dofs.name_of(p, prepared.model), largest);
-  }
-  return {};
 }
 
 std::string describe_motions(const Prepared& prepared, const Vector& a) {

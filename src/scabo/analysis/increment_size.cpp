@@ -49,10 +49,9 @@ Changes changes_between(const Prepared& prepared, const State& from, const State
 }
 
 double next_size(const model::AutomaticIncrements& limits, double size, bool was_halved, const Changes& changes,
-                 int iterations, const IncrementRule& rule) {
+                 const IncrementRule& rule) {
   double ratio = was_halved ? 1.0 : rule.growth;
   if (changes.changed > 0) ratio = std::min(ratio, std::max(rule.reduction, changes.wanted(rule) / changes.changed));
-  if (iterations > 0) ratio = std::min(ratio, std::max(rule.least_effort, std::sqrt(rule.iterations / iterations)));
   return std::clamp(ratio * size, limits.smallest, limits.largest);
 }
 
@@ -64,7 +63,12 @@ double next_end(const model::Step& step, const StepProgress& progress, const std
   constexpr double rounding_of_sums = 1e-9;
   const auto corner = std::upper_bound(corners.begin(), corners.end(), progress.reached + rounding_of_sums);
   const double last = corner == corners.end() ? 1.0 : *corner;
-  const double size = progress.size > 0.0 ? progress.size : step.automatic->first, left = last - progress.reached;
+  double size = progress.size > 0.0 ? progress.size : step.automatic->first;
+  if (const double ahead = progress.limit - progress.reached; ahead > 0.0) {
+    if (ahead <= step.automatic->smallest * (1.0 + rounding_of_sums)) return progress.limit;
+    size = std::min(size, std::max(0.5 * ahead, step.automatic->smallest));
+  }
+  const double left = last - progress.reached;
   if (left <= size * (1.0 + rounding_of_sums)) return last;
   // What is left is divided in halves, so that no small rest remains.
   return progress.reached + (left < 2.0 * size ? std::max(0.5 * left, step.automatic->smallest) : size);

@@ -1,14 +1,15 @@
 // Size of automatic increments (docs/methods/07_history_and_increments.md).
 //
 // The result of a step depends on its increments only through history: friction and strengths that fall. So the size of
-// the next increment follows from the share of pairs with such a law that changed their state in the last one, and from
-// the effort of Newton's method, which is a sign of how far the start was from the solution:
+// the next increment follows from the share of pairs with such a law that changed their state in the last one:
 //
-//     size <- size * min( growth, wanted / changed, sqrt(iterations wanted / iterations) ),
-//     wanted = max( 1, share * pairs of such laws in contact )
+//     size <- size * min( growth, wanted / changed ),   wanted = max( 1, share * pairs of such laws in contact )
 //
-// An attempt that is not accepted, or that changes far more pairs than wanted, is made again with half the size. All
-// figures are counts, so that the sizes depend neither on units nor on time, and the same model always gets the same.
+// What an increment costs says nothing about its error, and does not count. An attempt that is not accepted, or that
+// changes far more pairs than wanted, is made again with half the size. Where an attempt ends beyond what can be in
+// equilibrium, increments close in on that limit: none goes farther than halfway to it, until it is within the smallest
+// one. All figures are counts, so that the sizes depend neither on units nor on time, and the same model always gets
+// the same.
 #pragma once
 
 #include "scabo/analysis/increment.hpp"
@@ -17,13 +18,11 @@ namespace scabo::analysis {
 
 /// Constants of the rule. Measured on cycles of friction (docs/decisions/0010-increments-and-resuming.md).
 struct IncrementRule {
-  double share = 0.05;        ///< of the pairs in contact that may change in an increment, 0 to 1
-  double growth = 2.0;        ///< largest ratio of the sizes of successive increments, > 1: one halving is made good
-  double reduction = 0.25;    ///< smallest one, < 1: a reversal of loads changes all pairs whatever the size
-  double iterations = 16.0;   ///< wanted: twice what an increment takes where a few pairs change
-  double least_effort = 0.5;  ///< smallest ratio on account of iterations
-  double too_many = 3.0;      ///< changes relative to `wanted` beyond which an increment is made again
-  int repeats = 3;            ///< at most; some changes (all pairs of a block begin to slide) do not become fewer
+  double share = 0.05;      ///< of the pairs in contact that may change in an increment, 0 to 1
+  double growth = 2.0;      ///< largest ratio of the sizes of successive increments, > 1: one halving is made good
+  double reduction = 0.25;  ///< smallest one, < 1: a reversal of loads changes all pairs whatever the size
+  double too_many = 3.0;    ///< changes relative to `wanted` beyond which an increment is made again
+  int repeats = 3;          ///< at most; some changes (all pairs of a block begin to slide) do not become fewer
 };
 
 /// Pairs with friction or strength whose state differs between the ends of an increment, and those of them in contact
@@ -39,16 +38,18 @@ struct Changes {
 };
 Changes changes_between(const Prepared& prepared, const State& from, const State& to);
 
-/// Size of the increment after one of `size` that was accepted after `iterations`; `halved`: only with a smaller size
-/// than planned, so that the next one does not grow. Within the limits.
+/// Size of the increment after one of `size` that was accepted; `halved`: only with a smaller size than planned, so
+/// that the next one does not grow. Within the limits.
 double next_size(const model::AutomaticIncrements& limits, double size, bool halved, const Changes& changes,
-                 int iterations, const IncrementRule& rule = {});
+                 const IncrementRule& rule = {});
 
 /// Ends of the increments of one step. Plain data, which a checkpoint keeps.
 struct StepProgress {
   int increment = 0;     ///< that are finished
   double reached = 0.0;  ///< part of the step, 0 to 1
   double size = 0.0;     ///< of the next increment of an automatic step; 0: its first
+  /// Of an automatic step: the nearest part ahead at which there was no equilibrium, a mechanism or collapse; 0: none.
+  double limit = 0.0;
 };
 
 /// Part of the step at which the next increment ends; not beyond the next corner of a curve that a factor follows.

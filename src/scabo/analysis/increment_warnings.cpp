@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "scabo/analysis/cracks.hpp"
 #include "scabo/analysis/large_rotations.hpp"
@@ -11,29 +12,38 @@
 #include "scabo/analysis/quantities.hpp"
 #include "scabo/analysis/undetermined_forces.hpp"
 #include "scabo/analysis/undetermined_motions.hpp"
+#include "scabo/element/conditioning.hpp"
 
 namespace scabo::analysis {
 
 namespace {
 
-/// The part whose stiffness rounding changes most, and what to do about it.
+/// The part whose stiffness rounding changes most: its name, and why, as far as it is measured.
 struct Rounded {
-  std::string name, remedy;
+  std::string name, why;
 };
-Rounded most_rounded_part(const Prepared& prepared, const State& state) {
+Rounded most_rounded_part(const Prepared& prepared, const State& state, double lost_to_rounding) {
   std::size_t worst = 0;
   double largest = 0.0;
   for (std::size_t p = 0; p < state.u.size(); ++p)
     if (const double lost = prepared.structure.parts[p]->energy_lost(state.u[p]); lost > largest)
       largest = lost, worst = p;
   const system::Dofs& dofs = prepared.structure.dofs;
-  const std::vector<int>& bodies = dofs.bodies_of(worst);
-  const bool all_finite = std::all_of(bodies.begin(), bodies.end(), [&](int b) {
-    return prepared.model.bodies[static_cast<std::size_t>(b)].mesh.kind == model::MeshKind::fem;
-  });
-  return {dofs.name_of(worst, prepared.model),
-          all_finite ? "no mesh of so slender a body is more accurate, check its dimensions"
-                     : "give it mesh {kind: fem}, which rounding changes less"};
+  bool all_finite = true;
+  double slenderness = 1.0;
+  for (const int b : dofs.bodies_of(worst)) {
+    const auto body = static_cast<std::size_t>(b);
+    all_finite = all_finite && prepared.model.bodies[body].mesh.kind == model::MeshKind::fem;
+    slenderness = std::max(slenderness, element::measured(prepared.mesh.bodies[body]).slenderness);
+  }
+  constexpr double slender = 100.0;  // of less slender bodies rounding changes less than 1e-7
+  std::string why = slenderness >= slender ? fmt::format("it is {:.0f} times as long as deep", slenderness)
+                                           : fmt::format(
+                                                 "it resists a displacement of one node about {:.0e} times as "
+                                                 "much as what these loads do to it",
+                                                 lost_to_rounding / std::numeric_limits<double>::epsilon());
+  if (!all_finite) why += "; mesh {kind: fem} is changed less";
+  return {dofs.name_of(worst, prepared.model), why};
 }
 
 }  // namespace
@@ -68,12 +78,12 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   }
   constexpr double worth_saying = 3e-5;  // errors of three times the estimate were seen
   if (at.lost_to_rounding > worth_saying) {
-    const Rounded most_rounded = most_rounded_part(prepared, reached.state);
+    const Rounded most_rounded = most_rounded_part(prepared, reached.state, at.lost_to_rounding);
     add(WarningKind::rounding, "",
         fmt::format("rounding of the stiffness of {} may change its displacements by a part of about {:.0e}: {}",
-                    most_rounded.name, at.lost_to_rounding, most_rounded.remedy));
+                    most_rounded.name, at.lost_to_rounding, most_rounded.why));
   }
-  if (const std::string large = too_large(prepared, reached.state); !large.empty())
+  if (const std::string large = large_displacement(prepared, reached.state); !large.empty())
     add(WarningKind::large_displacement, "", large);
   for (const Warning& turned : rotations_at_large_slip(prepared, reached.state))
     add(turned.kind, turned.subject, turned.text);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/analysis/large_slip.hpp"
 #include "scabo/base/components.hpp"
 #include "scabo/geometry/outline.hpp"
 
@@ -15,17 +16,40 @@ namespace {
 constexpr double largest_small_rotation = 0.1;  // rad, as of prescribed rotations
 constexpr double largest_tilt = 0.02;           // rad, of normals
 
-/// Rotation of the rigid motion nearest to the displacements `u` of nodes.
-double mean_rotation(const std::vector<Vec2>& nodes, const Vector& u) {
+/// The rigid motion nearest to displacements of nodes, and how far they are from it.
+struct Moved {
+  Vec2 along = Vec2::Zero();
+  double rotation = 0.0;  ///< rad
+  double deformed = 0.0;  ///< largest component that is left
+};
+Moved rigid_part(const std::vector<Vec2>& nodes, const Vector& u) {
   Vec2 centre = Vec2::Zero();
-  for (const Vec2& node : nodes) centre += node / static_cast<double>(nodes.size());
+  Moved found;
+  const auto count = static_cast<double>(nodes.size());
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    centre += nodes[node] / count;
+    found.along += u.segment<2>(place_of(node)) / count;
+  }
   double turning = 0.0, inertia = 0.0;
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const Vec2 arm = nodes[node] - centre;
     turning += cross(arm, Vec2(u.segment<2>(place_of(node))));
     inertia += arm.squaredNorm();
   }
-  return turning / inertia;
+  found.rotation = turning / inertia;
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const Vec2 arm = nodes[node] - centre;
+    const Vec2 rigid = found.along + found.rotation * Vec2(-arm.y(), arm.x());
+    found.deformed = std::max(found.deformed, (Vec2(u.segment<2>(place_of(node))) - rigid).lpNorm<Eigen::Infinity>());
+  }
+  return found;
+}
+
+/// What holds a body: words that follow "it is held by".
+std::string what_holds(const Prepared& prepared, std::size_t part) {
+  const system::BodySystem& of = *prepared.structure.parts[part];
+  if (of.rigid_motions().cols() > 0) return "contact alone";
+  return of.has_springs() && of.constraints().empty() ? "springs" : "its supports";
 }
 
 /// Rotation of a body, rad; 0 of one that is unbounded or not there.
@@ -35,7 +59,7 @@ double rotation_of(const Prepared& prepared, const State& state, int body) {
   const auto b = static_cast<std::size_t>(body);
   if (prepared.model.bodies[b].outside || prepared.is_absent(part)) return 0.0;
   return dofs.is_rigid(part) ? state.u[part][2] / part_of(prepared, body).lever()
-                             : mean_rotation(prepared.mesh.bodies[b].nodes, dofs.of_body(body, state.u[part]));
+                             : rigid_part(prepared.mesh.bodies[b].nodes, dofs.of_body(body, state.u[part])).rotation;
 }
 
 /// A side of a contact with large slip.
@@ -59,6 +83,18 @@ double wrong_by(const Turned& a, const Turned& b) {
   return 0.5 * std::abs(a.rotation + b.rotation);
 }
 
+/// `; it deforms by 1e-3 of its size only`: a body that rolls or tips. Empty for a rigid body, and one that bends.
+std::string deformed_in_words(const Prepared& prepared, const State& state, int body) {
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const std::size_t part = dofs.part_of(body);
+  if (dofs.is_rigid(part)) return "";
+  const Moved own =
+      rigid_part(prepared.mesh.bodies[static_cast<std::size_t>(body)].nodes, dofs.of_body(body, state.u[part]));
+  const double size = 2.0 * part_of(prepared, body).lever(), by_rotation = 0.5 * size * std::abs(own.rotation);
+  if (own.deformed >= 0.1 * by_rotation) return "";
+  return fmt::format("; it deforms by {:.1g} of its size only: it rolls or tips", own.deformed / size);
+}
+
 }  // namespace
 
 std::string large_rotation(const Prepared& prepared, const State& state) {
@@ -71,9 +107,37 @@ std::string large_rotation(const Prepared& prepared, const State& state) {
   // A prescribed rotation of just this size is allowed.
   if (std::abs(largest) <= largest_small_rotation * (1.0 + 1e-9)) return {};
   return fmt::format(
-      "body '{}' turns by {:.3g} rad: the theory is valid for rotations of up to {:.3g} rad, and normals of contacts "
-      "and directions of loads do not turn; check loads, supports and the units of stiffness",
-      prepared.model.bodies[most].name, largest, largest_small_rotation);
+      "body '{}' turns by {:.3g} rad, held by {}: the theory is valid for rotations of up to {:.3g} rad, and normals "
+      "of "
+      "contacts and directions of loads do not turn{}",
+      prepared.model.bodies[most].name, largest,
+      what_holds(prepared, prepared.structure.dofs.part_of(static_cast<int>(most))), largest_small_rotation,
+      deformed_in_words(prepared, state, static_cast<int>(most)));
+}
+
+std::string large_displacement(const Prepared& prepared, const State& state) {
+  const system::Dofs& dofs = prepared.structure.dofs;
+  for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
+    const auto body = static_cast<int>(b);
+    const std::size_t part = dofs.part_of(body);
+    if (dofs.is_rigid(part) || prepared.is_absent(part)) continue;
+    const double size = 2.0 * prepared.structure.parts[part]->lever();
+    Vector u = dofs.of_body(body, state.u[part]);
+    const Moved own = rigid_part(prepared.mesh.bodies[b].nodes, u);
+    if (has_large_slip(prepared.model))  // bodies may slide, and others push them, as far as they like
+      u.reshaped(2, u.size() / 2).colwise() -= own.along;
+    const double largest = u.lpNorm<Eigen::Infinity>();
+    if (!(largest > 0.1 * size)) continue;
+    const std::string how = own.deformed < 0.1 * largest
+                                ? fmt::format("it moves as a whole, held by {}, and deforms by {:.3g} only",
+                                              what_holds(prepared, part), own.deformed)
+                                : fmt::format("{:.3g} of it are deformation", own.deformed);
+    return fmt::format(
+        "displacements of body '{}' reach {:.3g}, more than a tenth of its size: the theory is valid for small ones "
+        "only; {}",
+        prepared.model.bodies[b].name, largest, how);
+  }
+  return {};
 }
 
 std::vector<Warning> rotations_at_large_slip(const Prepared& prepared, const State& state) {

@@ -13,7 +13,8 @@ namespace scabo::analysis {
 namespace {
 
 /// Friction over elastic energy from which it is told. Walls of 16 x 16 and 24 x 24 blocks with friction 0.6 that are
-/// pushed reach 0.3 to 1.2 at 0.9 of their limit load and 3.5 to 180 from 0.95 on (docs/decisions/0059).
+/// pushed reach 0.3 to 1.2 at 0.9 of their limit load and 3.5 to 180 from 0.95 on
+/// (docs/decisions/0059-bodies-near-their-collapse.md).
 constexpr double worth_telling = 3.0;
 
 /// Energy that friction has dissipated before a step.
@@ -52,6 +53,16 @@ bool gaps_closed(const Prepared& prepared, const State& state) {
   return false;
 }
 
+/// What the largest force would store in the stiffest node: of ground at rest under its weight hardly any energy is
+/// counted, and what rounding lets slide would be many times as much.
+double energy_at_one_node(const Prepared& prepared, const State& state) {
+  double stiffness = 0.0;
+  for (std::size_t p = 0; p < state.u.size(); ++p)
+    if (!prepared.is_absent(p) && state.u[p].size() > 0)
+      stiffness = std::max(stiffness, prepared.structure.parts[p]->stiff_force(Vector::Ones(state.u[p].size())));
+  return stiffness > 0.0 ? 0.5 * state.largest_force * state.largest_force / stiffness : 0.0;
+}
+
 /// The body whose sides have moved farthest, and how far.
 std::string farthest(const Prepared& prepared, const State& state) {
   double largest = -1.0;
@@ -72,7 +83,7 @@ std::string farthest(const Prepared& prepared, const State& state) {
 std::string near_collapse(const Prepared& prepared, const State& state, const StaticSolution& solution,
                           std::size_t step) {
   if (prepared.contact.rigid_motions() == 0 || !only_loads_grow(prepared, state, step)) return {};
-  double stored = state.energy.elastic;
+  double stored = std::max(state.energy.elastic, energy_at_one_node(prepared, state));
   for (const IncrementResult& increment : solution.increments) stored = std::max(stored, increment.energy.elastic);
   const double slid = state.energy.friction - friction_before(prepared, solution, step);
   if (!(stored > 0.0) || !(slid > worth_telling * stored) || gaps_closed(prepared, state)) return {};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/analysis/increment_balance.hpp"
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/wedged_points.hpp"
 #include "scabo/contact/laws/evolution.hpp"
@@ -19,6 +20,9 @@ namespace {
 /// Part of an increment that is no longer divided because its sides pass each other too far.
 constexpr double smallest_part_of_slip = 1e-5;
 
+/// Of parts of an increment, relative to them.
+constexpr double rounding_of_parts = 1e-9;
+
 /// Whether the model has joints whose strength is lost when they fail.
 bool breaks(const Prepared& prepared) {
   const auto& contacts = prepared.model.contacts;
@@ -30,6 +34,16 @@ std::string remedy_for(const Prepared& prepared, double figure) {
   return tolerance_to_set(figure, prepared.model.solver.tolerance, 2 * prepared.mesh.nodes());
 }
 
+/// The part that resists its displacements most.
+std::string stiffest_part(const Prepared& prepared, const State& state) {
+  std::size_t stiffest = 0;
+  double largest = 0.0;
+  for (std::size_t p = 0; p < state.u.size(); ++p)
+    if (const double force = prepared.structure.parts[p]->stiff_force(state.u[p]); force > largest)
+      largest = force, stiffest = p;
+  return prepared.structure.dofs.name_of(stiffest, prepared.model);
+}
+
 /// Reason why an increment with a contact solution is not accepted.
 std::string above_tolerance(const Prepared& prepared, const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
@@ -38,9 +52,12 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
   if (const std::string remedy = remedy_for(prepared, worst); !remedy.empty())
     reason += remedy;
   else if (worst == std::max(tried.certificate.equilibrium, tried.certificate.rigid_balance) && worst <= tried.rounding)
-    reason +=
-        "; with parts this stiff or bodies this slender, rounding of the displacements alone can cause this: make "
-        "stiff parts less stiff or rigid, give a slender super-element mesh {kind: fem}, or raise solver.tolerance";
+    reason += fmt::format(
+        "; rounding of the displacements alone may leave {:.1g}, because {} would resist its largest displacement, of "
+        "one "
+        "node alone, by {:.0e} times the largest force: make it less stiff beside the other parts, or rigid, or raise "
+        "solver.tolerance",
+        tried.rounding, stiffest_part(prepared, tried.state), tried.rounding / rounding_of_resistance);
   else if (const std::string stiff = stiff_springs(prepared.model, prepared.structure, stiff_beside); !stiff.empty())
     reason += "; " + stiff;
   return reason;
@@ -83,7 +100,7 @@ std::string lost_in_rounding(const Prepared& prepared, const Attempt& tried, dou
     return fmt::format(
         "; all pairs are open by {:.3g} or more at first, and the motion that closes them is so large beside the "
         "deformation of the bodies that rounding of the displacements may leave {:.1g} of the forces unbalanced: a "
-        "smaller gap or a larger load is needed, check their units",
+        "smaller gap or a larger load is needed",
         opening, closing);
   if (!(lost > tolerance) || !std::isfinite(lost)) return {};
   return fmt::format(
@@ -116,7 +133,6 @@ void accept(Attempt tried, double part, Reached& reached) {
   reached.problem = std::move(tried.problem);
   reached.uniqueness = tried.uniqueness;
   reached.part = part;
-  reached.last_iterations = tried.solution.iterations;
 }
 
 /// Why an attempt to reach part `part` of the increment is the last one.
@@ -135,6 +151,10 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   } else if (status == Status::collapse) {
     set_motion_of_mechanism(prepared, tried, reached);
     reached.reason = describe_collapse(prepared, reached.motion->rigid, reached.part, part);
+  } else if (!tried.rolling.empty()) {
+    reached.mechanism = true;
+    reached.motion = mechanism_of(prepared, tried.rolls, FlowRule::coulomb, tried.problem.f);
+    reached.reason = "mechanism: " + tried.rolling;
   } else if (!tried.beyond.empty())
     reached.reason = tried.beyond;
   else if (status == Status::solved)
@@ -203,7 +223,8 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
         continue;
       }
     }
-    const bool may_halve = least ? 0.5 * part >= *least : reached.halvings < prepared.model.solver.halvings;
+    const bool may_halve =
+        least ? part > *least * (1.0 + rounding_of_parts) : reached.halvings < prepared.model.solver.halvings;
     if (tried.accepted && least) {
       reached.changes = changes_between(prepared, from, tried.state);
       if (reached.changes.too_many(rule) && may_halve && repeats < rule.repeats) {
@@ -220,19 +241,25 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       if (reached.pairs_are_due) break;
       continue;
     }
-    const bool smaller_steps_may_help = tried.solution.status != contact::Status::mechanism &&
-                                        tried.solution.status != contact::Status::collapse && !tried.lost;
+    const bool no_equilibrium = tried.solution.status == contact::Status::mechanism ||
+                                tried.solution.status == contact::Status::collapse || !tried.rolling.empty();
+    const auto is_same_at_half = [&] {
+      return is_same_scaled(prepared, reached.state, tried, factors_at(reached.part + 0.5 * part));
+    };
+    const bool closes_in = no_equilibrium && least && may_halve && (large || !is_same_at_half());
+    if (closes_in) reached.limit = next;
+    const bool smaller_steps_may_help = (!no_equilibrium || closes_in) && !tried.lost;
     reached.stopped = smaller_steps_may_help && options.stop && *options.stop;
     if (reached.stopped) return reached;
-    const bool in_vain = smaller_steps_may_help && may_halve && !large && is_far_from_solved(prepared, tried) &&
-                         is_same_scaled(prepared, reached.state, tried, factors_at(reached.part + 0.5 * part));
+    const bool in_vain =
+        smaller_steps_may_help && may_halve && !large && is_far_from_solved(prepared, tried) && is_same_at_half();
     if (!smaller_steps_may_help || !may_halve || in_vain) {
       give_up(prepared, tried, next, reached);
       if (in_vain) reached.reason += "; smaller parts of these loads are the same problem, scaled, and were not tried";
       return reached;
     }
     ++reached.halvings;
-    part *= 0.5;
+    part = std::max(0.5 * part, std::min(part, least.value_or(0.0)));
   }
   return reached;
 }

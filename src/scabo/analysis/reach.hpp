@@ -19,7 +19,8 @@ struct Reached {
   double part = 0.0;  ///< of the increment that was reached: 1, or less of an automatic increment
   Changes changes;    ///< of an automatic increment
   contact::Certificate certificate;
-  int last_iterations = 0;  ///< of the attempt that was accepted
+  /// Of an automatic increment: the part at which there was no equilibrium, if it is in parts for that; 0: none.
+  double limit = 0.0;
   int iterations = 0, coarse_iterations = 0, halvings = 0;
   double residual = 0.0;
   Matrix undetermined;
@@ -35,7 +36,8 @@ struct Reached {
 
 /// Proceeds from the state in `reached` along `factors_at` (0: start of the increment, 1: its end), halving the step if
 /// an attempt is not accepted; every part starts from the last accepted state. With `least`, that of an automatic
-/// increment, it ends with the first attempt that is accepted, and is halved as long as its part is not less than that.
+/// increment, it ends with the first attempt that is accepted, and is halved down to that, even where there is no
+/// equilibrium, so that increments close in on the loads that can still be carried.
 /// With large slip it also ends where pairs are to be found anew, and goes on from what it then `reached`; an attempt
 /// whose sides pass each other too far is made again in equal smaller parts.
 Reached reach(const Prepared& prepared, Reached reached, const std::function<Factors(double)>& factors_at,

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "3";
+constexpr const char* end_version = "4";
 
 /// Digest of numbers and texts, one after the other.
 class Fingerprint {
@@ -186,7 +186,8 @@ void exchange_end(Io& io, EndState& end) {
     io.numbers(path + "/moved", of.moved);
     io.numbers(path + "/referred", of.referred);
   });
-  exchange_scalars(io, "energy", {&end.energy.external, &end.energy.elastic, &end.energy.friction});
+  exchange_scalars(io, "energy",
+                   {&end.energy.external, &end.energy.elastic, &end.energy.friction, &end.energy.friction_error});
   exchange_scalars(io, "largest_force", {&end.largest_force});
 }
 

@@ -53,6 +53,17 @@ std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const contact::Pr
   return found;
 }
 
+/// The stiffness of a node of the less stiff body of a pair, of those that deform: by how much force it answers a gap
+/// that is wrong. 0 where both are rigid.
+double resisting_at(const Prepared& prepared, const std::vector<double>& stiffness, Eigen::Index pair) {
+  const model::Contact& contact = contact_at(prepared, pair);
+  double least = 0.0;
+  for (const int body : {contact.a.body, contact.b.body})
+    if (const double of_body = stiffness[prepared.structure.dofs.part_of(body)]; of_body > 0.0)
+      least = least > 0.0 ? std::min(least, of_body) : of_body;
+  return least;
+}
+
 /// How far a force at a pair moves the part of a body there, without contact.
 double flexibility_at(const Prepared& prepared, int body, Eigen::Index pair) {
   const std::size_t p = prepared.structure.dofs.part_of(body);
@@ -83,7 +94,7 @@ int softer_body(const Prepared& prepared, Eigen::Index pair) {
 }  // namespace
 
 std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to, const contact::Problem& problem,
-                                      const contact::Solution& solution, const Vector& drawn) {
+                                      const contact::Solution& solution, const Vector& drawn, double force_scale) {
   const std::vector<double> stiffness = stiffnesses(prepared, to);
   const std::vector<Eigen::Index> pairs = soft_pairs(prepared, problem, stiffness);
   if (pairs.empty()) return {};
@@ -97,19 +108,35 @@ std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to,
   }
   for (Eigen::Index i = 0; i < solution.gap.size(); ++i)
     held.difference.segment<2>(2 * i) -= Vec2(solution.gap[i], solution.slip_increment[i]);
-  // Bodies may rest under large forces: a force then stands for the displacement that it would cause at one node.
-  const double stiffest = *std::max_element(stiffness.begin(), stiffness.end());
-  if (stiffest > 0.0) largest = std::max(largest, solution.p.lpNorm<Eigen::Infinity>() / stiffest);
+  const double force = std::max(force_scale, solution.p.lpNorm<Eigen::Infinity>());
   Eigen::Index worst = pairs.front();
   for (const Eigen::Index pair : pairs) {
+    const double resisting = resisting_at(prepared, stiffness, pair),
+                 allowed = std::max(largest, resisting > 0.0 ? force / resisting : 0.0);
     const double apart = held.difference.segment<2>(2 * pair).lpNorm<Eigen::Infinity>();
     const double wrong = std::max(apart, against_the_law(problem, solution, pair));
-    if (apart > held.apart * largest) held.apart = apart / largest;
-    if (wrong > held.wrong * largest) held.wrong = wrong / largest, worst = pair;
+    if (apart > held.apart * allowed) held.apart = apart / allowed;
+    if (wrong > held.wrong * allowed) held.wrong = wrong / allowed, worst = pair;
   }
   if (held.wrong > SoftlyHeld::allowed) held.body = softer_body(prepared, worst);
   return held;
 }
+
+namespace {
+
+/// How far a force at a contact moves a body there, over how far it would move one of its nodes alone.
+double flexibility_in_contact(const Prepared& prepared, int body) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const auto pair = static_cast<Eigen::Index>(i);
+    const model::Contact& contact = contact_at(prepared, pair);
+    if (contact.a.body == body || contact.b.body == body) most = std::max(most, flexibility_at(prepared, body, pair));
+  }
+  const system::BodySystem& part = part_of(prepared, body);
+  return most * part.stiff_force(Vector::Ones(part.size()));
+}
+
+}  // namespace
 
 std::string lost_where_softly_held(const Prepared& prepared, const SoftlyHeld& held) {
   const model::Body& body = prepared.model.bodies[static_cast<std::size_t>(held.body)];
@@ -120,9 +147,11 @@ std::string lost_where_softly_held(const Prepared& prepared, const SoftlyHeld& h
         "them stiffer",
         body.name, lost);
   return fmt::format(
-      "body '{}' is so slender, or held by parts so soft, that {}: leave soft parts out, if contact holds the body, or "
-      "make them stiffer; give a slender body fewer elements",
-      body.name, lost);
+      "body '{}' gives way {:.0e} times as far under a force at its contact as its elements do, so that {}: hold it "
+      "more "
+      "stiffly (leave out soft parts that are tied to it, if contact holds it, or make them stiffer), or use larger "
+      "elements",
+      body.name, flexibility_in_contact(prepared, held.body), lost);
 }
 
 }  // namespace scabo::analysis

@@ -119,6 +119,13 @@ void tell_begin(const Options& options, const model::Step& step, std::size_t ind
                                     : fmt::format("step {}, increment {} of {}", step.name, k, step.increments));
 }
 
+double largest_component(const State& state) {
+  double largest = 0.0;
+  for (const Vector& u : state.u)
+    if (u.size() > 0) largest = std::max(largest, u.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
 /// The results of what was reached, if that is the end of the increment; otherwise its history alone. The reason of
 /// `reached` says so if the results are no finite numbers.
 IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolution& solution) {
@@ -131,9 +138,10 @@ IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolu
       return of_state;
     });
   if (reached.reason.empty() && !std::isfinite(result.energy.elastic))
-    reached.reason =
-        "the elastic energy exceeds the range of floating-point numbers: check the units of stiffness, loads and "
-        "temperature";
+    reached.reason = fmt::format(
+        "the elastic energy exceeds the range of floating-point numbers: displacements reach {:.3g} under "
+        "forces of up to {:.3g}",
+        largest_component(reached.state), largest_force(reached.state));
   result.converged = reached.reason.empty();
   result.newton_iterations = reached.iterations;
   result.coarse_iterations = reached.coarse_iterations;
@@ -221,9 +229,10 @@ void go_through_steps(std::unique_ptr<const Assembly> assembly, const LargeSlip*
     run.state = std::move(reached.state);
     progress.increment = k;
     progress.reached = solution.increments.back().reached;
-    if (step.automatic)
-      progress.size = next_size(*step.automatic, progress.reached - begin, reached.halvings > 0, reached.changes,
-                                reached.last_iterations);
+    if (step.automatic) {
+      progress.size = next_size(*step.automatic, progress.reached - begin, reached.halvings > 0, reached.changes);
+      if (reached.limit > 0.0) progress.limit = begin + reached.limit * (end - begin);
+    }
     if (options.on_state) options.on_state(prepared, run.state, solution);
     try {
       if (options.on_increment) options.on_increment(solution, solution.increments.back());

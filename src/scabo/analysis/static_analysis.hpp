@@ -63,6 +63,9 @@ struct Energy {
   double external = 0.0;  ///< of loads and of reactions at prescribed displacements
   double elastic = 0.0;   ///< stored in bodies and springs
   double friction = 0.0;  ///< dissipated
+  /// `friction`, and `external` with it, are known to +- this: pairs began or ended to slip within increments in which
+  /// their pressure changed.
+  double friction_error = 0.0;
 };
 
 /// A crack, or a corner at a scaling centre, after an increment.
@@ -148,7 +151,8 @@ struct IncrementResult {
   std::map<std::string, double> factors;  ///< factors of loads and of supports with prescribed displacements
   bool converged = false;
   int newton_iterations = 0;
-  /// On the problems of fewer pairs from which the start was computed (contact/cold_start.hpp); not counted above.
+  /// On the problems of fewer pairs from which the start was computed (contact/starts/cold_start.hpp); not counted
+  /// above.
   int coarse_iterations = 0;
   int halvings = 0;                       ///< number of times that the increment was halved
   std::optional<PairsFound> pairs_found;  ///< of a model with large slip
@@ -176,7 +180,7 @@ struct IncrementResult {
   std::vector<AttemptResult> attempts;         ///< one, or more if the increment was halved
 };
 
-/// The discrete problem of one attempt, as a value that can be saved and solved separately (contact/fclib.hpp).
+/// The discrete problem of one attempt, as a value that can be saved and solved separately (contact/files/fclib.hpp).
 struct DiscreteProblem {
   contact::Problem problem;
   contact::Start start;  ///< the previous accepted state

@@ -206,8 +206,8 @@ std::optional<Warning> undetermined_forces_warning(const Prepared& prepared, con
     unique = fmt::format("Displacements and stresses are unique, and so are the total forces of all contacts except {}",
                          names_of(prepared, totals));
   return Warning{WarningKind::undetermined_force, "",
-                 fmt::format("{}: the forces of {} of {} pairs are not unique, because several bodies meet in a point, "
-                             "or supports hold one side of more pairs than equilibrium needs; {}. {}",
+                 fmt::format("{}: the forces of {} of {} pairs are not unique: other forces there balance every body "
+                             "with the same displacements; {}. {}",
                              names, pairs, prepared.contact.pairs.size(),
                              left_as_they_are(prepared, state, problem) ? "some of many that are possible are given"
                                                                         : "the smoothest ones are given",

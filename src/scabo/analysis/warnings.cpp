@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scabo/base/components.hpp"
+#include "scabo/element/conditioning.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/materials_of.hpp"
 
@@ -120,8 +121,7 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<Warning>&
     const std::string pressing = pressure > 0.0 ? fmt::format(", which presses with {:.3g} there", pressure) : "";
     warnings.push_back({WarningKind::overlap, contacts_of(solution, overlapping),
                         fmt::format("{}: the bodies overlap at the start by up to {:.3g}{}, {:.3g} % of the smaller "
-                                    "body's size{}; small strains "
-                                    "are assumed: check the shapes, 'gap' and the units",
+                                    "body's size{}: small strains are assumed",
                                     contacts_of(solution, overlapping), overlap_of(solution, worst.contact).depth,
                                     in_worst(solution, overlapping), 100.0 * worst.figure, pressing)});
   }
@@ -131,10 +131,23 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<Warning>&
     pressure_strain(solution, worst.contact, pressure);
     warnings.push_back(
         {WarningKind::pressure, contacts_of(solution, pressed),
-         fmt::format("{}: the pressure reaches {:.3g}{}, {:.3g} % of Young's modulus; small strains are assumed: check "
-                     "loads, stiffness and their units",
+         fmt::format("{}: the pressure reaches {:.3g}{}, {:.3g} % of Young's modulus: small strains are assumed",
                      contacts_of(solution, pressed), pressure, in_worst(solution, pressed), 100.0 * worst.figure)});
   }
+}
+
+/// Whether the two sides of a contact touch at this gap but for rounding, or overlap.
+bool touches(const StaticSolution& solution, std::size_t contact, double gap) {
+  constexpr double rounding = 1e-9;  // of the size of a body
+  const auto body = static_cast<std::size_t>(solution.model.contacts[contact].a.body);
+  return gap <= rounding * geometry::outline_size(solution.model.bodies[body].outline);
+}
+
+/// Smallest gap before the first increment.
+double gap_as_drawn(const StaticSolution& solution, std::size_t contact) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const mesh::ContactPair& pair : solution.mesh.interfaces[contact].pairs) smallest = std::min(smallest, pair.gap);
+  return smallest;
 }
 
 /// Smallest gap of a contact that is open at every pair in every increment; nothing for other contacts, and where the
@@ -148,22 +161,37 @@ std::optional<double> smallest_gap(const StaticSolution& solution, std::size_t c
     if (of.first_in_contact) return {};
     smallest = std::min(smallest, of.min_gap);
   }
-  constexpr double rounding = 1e-9;  // of the size of a body
-  const auto body = static_cast<std::size_t>(solution.model.contacts[contact].a.body);
-  const bool touching = smallest <= rounding * geometry::outline_size(solution.model.bodies[body].outline);
-  return std::isfinite(smallest) && !touching ? std::optional(smallest) : std::nullopt;
+  return std::isfinite(smallest) && !touches(solution, contact, smallest) ? std::optional(smallest) : std::nullopt;
 }
 
+/// `; as drawn it is 0.002, so that the loads bring the sides nearer`, of the contact that comes nearest.
+std::string against_drawing(const StaticSolution& solution, const Finding& nearest) {
+  const double drawn = gap_as_drawn(solution, nearest.contact), reached = -nearest.figure;
+  if (solution.pairings > 0 || !std::isfinite(drawn)) return "";  // the pairs are not those of the drawing
+  constexpr double alike = 1e-3;
+  return fmt::format("; as drawn it is {:.3g}: {}", drawn,
+                     std::abs(reached - drawn) <= alike * drawn ? "the loads hardly change it"
+                     : reached < drawn                          ? "the loads bring the sides nearer, but not together"
+                                                                : "the loads take the sides farther apart");
+}
+
+/// Contacts that are open at every pair in every increment: those that were apart as drawn, and those that the loads
+/// open.
 void warn_of_open_contacts(const StaticSolution& solution, std::vector<Warning>& warnings) {
-  std::vector<Finding> open;
+  std::vector<Finding> apart, opened;
   for (std::size_t c = 0; c < solution.model.contacts.size(); ++c)
-    if (const auto gap = smallest_gap(solution, c)) open.push_back({c, -*gap});
-  if (open.empty()) return;
-  warnings.push_back({WarningKind::open_contact, contacts_of(solution, open),
-                      fmt::format("{} never {}: the smallest gap is {:.3g}{}; check 'between', 'gap' and the direction "
-                                  "of the loads, or leave {} out",
-                                  contacts_of(solution, open), open.size() == 1 ? "closes" : "close",
-                                  -worst_of(open).figure, in_worst(solution, open), open.size() == 1 ? "it" : "them")});
+    if (const auto gap = smallest_gap(solution, c))
+      (touches(solution, c, gap_as_drawn(solution, c)) ? opened : apart).push_back({c, -*gap});
+  if (!apart.empty())
+    warnings.push_back({WarningKind::open_contact, contacts_of(solution, apart),
+                        fmt::format("{} never {}: the smallest gap is {:.3g}{}{}", contacts_of(solution, apart),
+                                    apart.size() == 1 ? "closes" : "close", -worst_of(apart).figure,
+                                    in_worst(solution, apart), against_drawing(solution, worst_of(apart)))});
+  if (!opened.empty())
+    warnings.push_back(
+        {WarningKind::open_contact, contacts_of(solution, opened),
+         fmt::format("the loads open {} in the first increment, and no pair closes again: the smallest gap is {:.3g}{}",
+                     contacts_of(solution, opened), -worst_of(opened).figure, in_worst(solution, opened))});
 }
 
 void warn_of_coarse_zones(const StaticSolution& solution, std::vector<Warning>& warnings) {
@@ -253,10 +281,8 @@ void warn_of_lost_loads(const model::Model& model, const system::Structure& stru
                                         : fmt::format("hides what {}", lost.size() == 1 ? "it causes" : "they cause");
   warnings.push_back(
       {WarningKind::rounding, names,
-       fmt::format("{}: the nodal forces are only {:.0e} times those of load '{}', whose rounding {}: check the values "
-                   "and units of these loads and of the materials",
-                   names, least / *largest, model.loads[static_cast<std::size_t>(largest - sizes.begin())].name,
-                   effect)});
+       fmt::format("{}: the nodal forces are only {:.0e} times those of load '{}', whose rounding {}", names,
+                   least / *largest, model.loads[static_cast<std::size_t>(largest - sizes.begin())].name, effect)});
 }
 
 /// Stiffness of a part against the motion of one node alone; 0 of a rigid one.
@@ -309,11 +335,10 @@ double stiffened_in_bending(const mesh::BodyMesh& mesh) {
     }
   }
   if (!(area > 0.0) || order > 2) return 0.0;  // of an unbounded body the ring runs around its hole
-  const double half = 0.25 * perimeter, root = std::sqrt(std::max(half * half - area, 0.0));
-  const double length = half + root, depth = area / length;
-  if (length < least_slenderness * depth) return 0.0;
-  const double ratio = longest / depth, x = order == 1 ? 0.08 * std::pow(ratio * length / depth, 2)
-                                                       : std::min(0.0022 * std::pow(ratio, 3), 0.06);
+  const double slenderness = element::slenderness_of(area, perimeter), depth = std::sqrt(area / slenderness);
+  if (slenderness < least_slenderness) return 0.0;
+  const double ratio = longest / depth,
+               x = order == 1 ? 0.08 * std::pow(ratio * slenderness, 2) : std::min(0.0022 * std::pow(ratio, 3), 0.06);
   return x / (1.0 + x);
 }
 

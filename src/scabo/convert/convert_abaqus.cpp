@@ -9,9 +9,12 @@
 #include <optional>
 #include <set>
 
+#include "scabo/convert/contact_softness.hpp"
+#include "scabo/convert/deck_adjust.hpp"
 #include "scabo/convert/deck_bodies.hpp"
 #include "scabo/convert/deck_content.hpp"
 #include "scabo/convert/deck_elements.hpp"
+#include "scabo/convert/deck_names.hpp"
 #include "scabo/convert/piece_geometry.hpp"
 #include "scabo/convert/write_mesh.hpp"
 #include "scabo/convert/write_model.hpp"
@@ -36,15 +39,17 @@ struct Driven {
 
 class Converter {
  public:
-  Converter(const files::AbaqusDeck& deck, const std::string& deck_name, const std::string& mesh_name)
-      : deck_(deck), mesh_(deck.mesh), deck_name_(deck_name), mesh_name_(mesh_name) {}
+  Converter(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name)
+      : deck_(std::move(deck)), deck_name_(deck_name), mesh_name_(mesh_name) {}
 
   Conversion convert() {
     for (const std::string& remark : mesh_.remarks) mesh_remark(remark);
     content_ = read_content(deck_, remarks_);
+    adjust_nodes(deck_, content_, remarks_);
     plane_strain_ = plane_strain_of(deck_, content_, remarks_).value_or(false);
     GivenMaterials materials = materials_of(deck_, content_, plane_strain_, remarks_);
     parts_.materials = std::move(materials.lines);
+    young_ = std::move(materials.young);
     bodies_ = bodies_of(deck_, content_, materials.of_cell, remarks_);
     if (content_.steps.empty())
       remarks_.essential({deck_name_, 1}, "the deck has no *STEP, so that nothing is analysed; add one with *STATIC");
@@ -152,7 +157,7 @@ class Converter {
   std::optional<int> surface(const std::string& name, const files::DeckPlace& at) {
     const auto [known, is_new] = surfaces_.try_emplace(upper(name));
     if (!is_new) return known->second;
-    const auto sides = sides_named(mesh_, name);
+    const auto sides = sides_named(deck_, name);
     if (!sides || sides->empty()) {
       remarks_.essential(
           at, fmt::format("there is no surface '{}' with sides of plane elements; correct it", files::printable(name)));
@@ -184,7 +189,8 @@ class Converter {
 
   /// A point of the boundary; nothing inside of a body, or where another node has the same place.
   std::optional<std::string> place_of_node(int node, const Given& given, const char* what) {
-    const std::int64_t number = deck_.node_numbers[static_cast<std::size_t>(node)];
+    const std::string number =
+        shown_number(deck_, deck_.node_numbers[static_cast<std::size_t>(node)], DeckNumbers::nodes);
     const int body = bodies_.body_of_node[static_cast<std::size_t>(node)];
     const Vec2& x = mesh_.nodes[static_cast<std::size_t>(node)];
     if (!bodies_.boundary_nodes.contains(node)) {
@@ -318,7 +324,7 @@ class Converter {
 
   void write_body_loads() {
     for (const DeckBodyLoad& load : content_.body_loads) {
-      const auto cells = cells_named(mesh_, load.set);
+      const auto cells = cells_named(deck_, load.set);
       if (!cells) {
         remarks_.essential(load.x.at,
                            fmt::format("there is no element set '{}'; correct its name", files::printable(load.set)));
@@ -378,6 +384,8 @@ class Converter {
                 ? "both surfaces are of one body, and Scabo's contacts join two bodies; leave it out, or part the body"
                 : "the two surfaces do not lie opposite to each other, and the contact is lost; correct them");
       for (const auto& [a, b] : pairs) {
+        if (!contact.tie && interaction != content_.interactions.end())
+          tell_softness(mesh_, bodies_, young_, a->body, b->body, interaction->second, remarks_);
         const std::string between = fmt::format("between: [{}, {}]", place(*a), place(*b));
         const bool bonded = contact.tie || (interaction != content_.interactions.end() && interaction->second.tied);
         const std::string wanted = interaction != content_.interactions.end() && content_.contacts.size() == 1
@@ -425,9 +433,14 @@ class Converter {
       const double first = step.first / step.period,
                    largest = std::min(1.0, step.largest > 0.0 ? step.largest / step.period : 1.0);
       std::string increments = "1";
-      if (step.equal) {
-        const double count = std::round(step.period / step.first);
+      const double count = std::round(step.period / step.first);
+      const bool whole = std::abs(count * step.first - step.period) < 1e-6 * step.period;
+      if (step.at_once) {
+        increments = "1";
+      } else if (step.equal && whole) {
         increments = fmt::format("{}", static_cast<int>(std::clamp(count, 1.0, 100000.0)));
+      } else if (step.equal) {
+        increments = fmt::format("{{first: {0}, smallest: {0}, largest: {0}}}", number_text(std::max(first, 1e-6)));
       } else if (first < 1.0) {
         const double most = std::max(largest, 1e-6), least = std::clamp(step.smallest / step.period, 1e-6, most);
         increments = fmt::format("{{first: {}, smallest: {}, largest: {}}}",
@@ -440,12 +453,13 @@ class Converter {
     }
   }
 
-  const files::AbaqusDeck& deck_;
-  const ImportedMesh& mesh_;
+  files::AbaqusDeck deck_;
+  const ImportedMesh& mesh_ = deck_.mesh;
   std::string deck_name_, mesh_name_;
   Remarks remarks_;
   DeckContent content_;
   DeckBodies bodies_;
+  std::vector<double> young_;  // per cell
   bool plane_strain_ = false;
   std::vector<SideUse> uses_;
   std::map<std::pair<int, int>, std::set<int>> uses_of_;
@@ -475,8 +489,8 @@ bool Conversion::complete() const {
   return std::none_of(remarks.begin(), remarks.end(), [](const Remark& remark) { return remark.essential; });
 }
 
-Conversion convert_abaqus(const files::AbaqusDeck& deck, const std::string& deck_name, const std::string& mesh_name) {
-  return Converter(deck, deck_name, mesh_name).convert();
+Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name) {
+  return Converter(std::move(deck), deck_name, mesh_name).convert();
 }
 
 }  // namespace scabo::convert

@@ -26,6 +26,6 @@ struct Conversion {
 };
 
 /// `deck_name` for the head of both files; `mesh_name` as the model names the mesh file, relative to its own folder.
-Conversion convert_abaqus(const files::AbaqusDeck& deck, const std::string& deck_name, const std::string& mesh_name);
+Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name);
 
 }  // namespace scabo::convert

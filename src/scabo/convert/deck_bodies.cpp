@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scabo/base/disjoint_sets.hpp"
+#include "scabo/convert/deck_names.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/model/imported_body.hpp"
 
@@ -58,7 +59,8 @@ DeckBodies bodies_of(const files::AbaqusDeck& deck, const DeckContent& content,
             fmt::format(
                 "elements {} and others meet at node {} only, which joins bodies by a hinge in the deck and not "
                 "at all in the model; join them by a side, or part them",
-                mesh.cells[c].number, deck.node_numbers[static_cast<std::size_t>(node)]));
+                shown_number(deck, mesh.cells[c].number, DeckNumbers::elements),
+                shown_number(deck, deck.node_numbers[static_cast<std::size_t>(node)], DeckNumbers::nodes)));
       body = made.body_of_cell[c];
     }
 
@@ -68,11 +70,14 @@ DeckBodies bodies_of(const files::AbaqusDeck& deck, const DeckContent& content,
   UniqueNames names;
   for (const std::vector<int>& of_body : cells) {
     DeckBody body;
-    // Sections name the body best, then sets that are exactly its cells, then sections of several bodies.
+    // An instance names the body best, then sections, then sets that are exactly its cells, then sections of several
+    // bodies.
     std::string shared;
+    for (const files::DeckInstance& instance : deck.instances)
+      if (cells_named(deck, instance.name) == of_body) body.name = instance.name;
     for (const bool exactly : {true, false}) {
       for (const DeckSection& section : content.sections) {
-        const auto in_section = cells_named(mesh, section.set);
+        const auto in_section = cells_named(deck, section.set);
         if (!in_section) continue;
         if (exactly && *in_section == of_body && body.name.empty()) body.name = section.set;
         if (!exactly && shared.empty() && std::binary_search(in_section->begin(), in_section->end(), of_body.front()))

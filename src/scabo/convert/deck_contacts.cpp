@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/files/abaqus_lines.hpp"
+#include "scabo/files/text_cursor.hpp"
 
 namespace scabo::convert {
 
@@ -30,61 +33,100 @@ bool ContactReader::read(const DeckBlock& block, bool in_step) {
 void ContactReader::friction(const DeckBlock& block) {
   if (interaction_.empty())
     return remarks_.essential(block.at, "*FRICTION stands before any *SURFACE INTERACTION and is lost");
-  for (const char* unread :
-       {"ROUGH", "TAUMAX", "EXPONENTIALDECAY", "EXPONENTIAL DECAY", "USER", "ANISOTROPIC", "DEPENDENCIES"})
-    if (block.parameters.contains(unread))
-      return remarks_.essential(block.at, fmt::format("*FRICTION with {} is not taken; give a coefficient", unread));
-  if (block.lines.empty() || block.lines[0].fields.empty())
-    return remarks_.essential(block.at, "*FRICTION has no coefficient; add a line with it");
-  if (block.lines.size() > 1)
-    return remarks_.essential(block.lines[1].at,
-                              "a coefficient of friction that depends on something is not taken; give one number");
+  if (block.lines.empty()) return;
   if (const auto mu = number(remarks_, block.lines[0], 0, "the coefficient of friction"))
     content_.interactions[interaction_].friction = *mu;
-  if (block.lines[0].fields.size() > 1)
-    remarks_.note(block.lines[0].at,
-                  "the stiffness of sticking is left out; in Scabo pairs that stick do not slip at all");
+  DeckInteraction& interaction = content_.interactions[interaction_];
+  if (block.lines[0].fields.size() > 1) {
+    interaction.stick_stiffness = number(remarks_, block.lines[0], 1, "the stiffness of sticking", 0.0);
+    interaction.at_stick_stiffness = block.lines[0].at;
+  }
 }
 
 void ContactReader::surface_behavior(const DeckBlock& block) {
   const std::string law = upper(parameter(block, "PRESSURE-OVERCLOSURE", "HARD"));
   if (law == "TIED") {
     if (!interaction_.empty()) content_.interactions[interaction_].tied = true;
-  } else if (law != "HARD") {
-    remarks_.note(
-        block.at,
-        fmt::format("the stiffness of contact (PRESSURE-OVERCLOSURE={}) is left out; in Scabo bodies in contact do "
-                    "not overlap",
-                    files::printable(law)));
   }
-  if (block.parameters.contains("NO SEPARATION"))
-    remarks_.essential(block.at,
-                       "contact that does not open (NO SEPARATION) is not taken; `bond` of a contact may replace it");
+  if (law == "HARD") return;
+  if (interaction_.empty())
+    return remarks_.essential(block.at,
+                              fmt::format("{} stands before any *SURFACE INTERACTION and is lost", block.written));
+  if (!block.has_data && law != "TIED")
+    return remarks_.essential(
+        block.at, fmt::format("{}, PRESSURE-OVERCLOSURE={} has no data lines; add them", block.written, law));
+  if (block.lines.empty()) return;
+  const auto slope = law == "TABULAR" ? least_slope(block) : number(remarks_, block.lines[0], 0, "the stiffness");
+  if (!slope) return;
+  content_.interactions[interaction_].stiffness = slope;
+  content_.interactions[interaction_].at_stiffness = block.lines[0].at;
+}
+
+/// Of a table of pressure and overlap that begins at 0, 0.
+std::optional<double> ContactReader::least_slope(const DeckBlock& block) {
+  std::optional<double> least;
+  std::pair<double, double> before;
+  for (const DeckLine& line : block.lines) {
+    const auto pressure = number(remarks_, line, 0, "the pressure"), overlap = number(remarks_, line, 1, "the overlap");
+    if (!pressure || !overlap) return std::nullopt;
+    const std::pair<double, double> now{*pressure, *overlap};
+    if (&line != &block.lines.front()) {
+      const double slope = (now.first - before.first) / (now.second - before.second);
+      least = std::min(least.value_or(slope), slope);
+    }
+    before = now;
+  }
+  const DeckLine& first = block.lines.front();
+  const double zero = number(remarks_, first, 0, "the pressure", 0.0).value_or(0.0);
+  const double begin = number(remarks_, first, 1, "the overlap", 0.0).value_or(0.0);
+  if (least && *least > 0.0 && zero == 0.0 && begin == 0.0) return least;
+  remarks_.essential(first.at, "a table of PRESSURE-OVERCLOSURE is taken if it begins at 0, 0 and rises; correct it");
+  return std::nullopt;
 }
 
 void ContactReader::pairs(const DeckBlock& block, bool in_step) {
   const bool tie = block.name == "TIE";
   if (in_step)
     return remarks_.essential(
-        block.at, fmt::format("{} within a step is not taken; give it before the first step", shown(block.name)));
-  for (const char* unread : {"TIED", "CYCLIC SYMMETRY", "MULTISTAGE", "NO THICKNESS"})
-    if (block.parameters.contains(unread) && std::string_view(unread) != "NO THICKNESS")
-      return remarks_.essential(block.at, fmt::format("{} with {} is not taken; use *TIE", shown(block.name), unread));
-  if (!tie && block.parameters.contains("ADJUST"))
-    remarks_.note(block.at,
-                  "ADJUST moves nodes onto the other side, which is left out; the gaps are those of the mesh");
-  bool any = false;
+        block.at, fmt::format("{} within a step is not taken; give it before the first step", block.written));
   for (const DeckLine& line : block.lines) {
-    if (line.fields.empty()) continue;
     if (line.fields.size() < 2 || line.fields[1].empty()) {
-      remarks_.essential(line.at, fmt::format("{} needs two surfaces; contact of a surface with itself is not taken",
-                                              shown(block.name)));
+      remarks_.essential(
+          line.at, fmt::format("{} needs two surfaces; contact of a surface with itself is not taken", block.written));
       continue;
     }
-    any = true;
-    content_.contacts.push_back({line.fields[0], line.fields[1], upper(parameter(block, "INTERACTION")), tie, line.at});
+    DeckContact contact;
+    contact.slave = line.fields[0];
+    contact.master = line.fields[1];
+    contact.interaction = upper(parameter(block, "INTERACTION"));
+    contact.tie = tie;
+    contact.at = line.at;
+    adjust(block, contact);
+    content_.contacts.push_back(std::move(contact));
   }
-  if (!any) remarks_.essential(block.at, fmt::format("{} names no surfaces; add a line with two", shown(block.name)));
+}
+
+void ContactReader::adjust(const DeckBlock& block, DeckContact& contact) {
+  const std::string tolerance = parameter(block, "POSITION TOLERANCE"), value = parameter(block, "ADJUST");
+  double distance = 0.0;
+  if (contact.tie) {
+    contact.adjusts = upper(value) != "NO";
+    if (tolerance.empty()) return;
+    if (!files::parse_number(std::string_view(tolerance), distance) || !(distance >= 0.0))
+      return remarks_.essential(
+          block.at, fmt::format("'{}' is no POSITION TOLERANCE; write a length", files::printable(tolerance)));
+    contact.tolerance = distance;
+    return;
+  }
+  if (!block.parameters.contains("ADJUST")) return;
+  if (files::parse_number(std::string_view(value), distance)) {
+    contact.adjust_within = distance;
+  } else if (const auto nodes = nodes_(value)) {
+    contact.adjusted_nodes = {nodes->begin(), nodes->end()};
+  } else {
+    remarks_.essential(block.at, fmt::format("ADJUST={} of {} is neither a distance nor a node set; correct it",
+                                             files::printable(value), block.written));
+  }
 }
 
 }  // namespace scabo::convert

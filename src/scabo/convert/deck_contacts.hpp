@@ -1,7 +1,11 @@
 // Contacts and ties of a deck, and the laws between surfaces.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "scabo/convert/deck_content.hpp"
 
@@ -9,7 +13,10 @@ namespace scabo::convert {
 
 class ContactReader {
  public:
-  ContactReader(DeckContent& content, Remarks& remarks) : content_(content), remarks_(remarks) {}
+  /// `nodes`: of the node set of a name, nothing if there is none.
+  using Nodes = std::function<std::optional<std::vector<int>>(const std::string& name)>;
+  ContactReader(DeckContent& content, Remarks& remarks, Nodes nodes)
+      : content_(content), remarks_(remarks), nodes_(std::move(nodes)) {}
 
   /// Takes a block if it is about contact; false if it is not.
   bool read(const files::DeckBlock& block, bool in_step);
@@ -17,10 +24,13 @@ class ContactReader {
  private:
   void friction(const files::DeckBlock& block);
   void surface_behavior(const files::DeckBlock& block);
+  std::optional<double> least_slope(const files::DeckBlock& block);
   void pairs(const files::DeckBlock& block, bool in_step);
+  void adjust(const files::DeckBlock& block, DeckContact& contact);
 
   DeckContent& content_;
   Remarks& remarks_;
+  Nodes nodes_;
   std::string interaction_;  ///< the last one, in upper case
 };
 

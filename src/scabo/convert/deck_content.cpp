@@ -7,10 +7,13 @@
 #include <map>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "scabo/convert/deck_contacts.hpp"
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/convert/deck_materials.hpp"
+#include "scabo/convert/deck_names.hpp"
+#include "scabo/convert/keyword_rules.hpp"
 #include "scabo/convert/keywords.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 
@@ -30,6 +33,7 @@ struct Growing {
   std::string amplitude;  // of this value, upper case
   bool touched = false;   // in this step
   bool fresh = true;      // new in this step
+  bool released = false;  // by OP=NEW, and not given since: told once
 };
 using Table = std::map<std::pair<int, int>, Growing>;
 
@@ -38,7 +42,6 @@ class ContentReader {
   ContentReader(const files::AbaqusDeck& deck, Remarks& remarks) : deck_(deck), mesh_(deck.mesh), remarks_(remarks) {
     for (std::size_t i = 0; i < deck.node_numbers.size(); ++i)
       node_of_.emplace(deck.node_numbers[i], static_cast<int>(i));
-    for (const files::NodeSet& set : mesh_.node_sets) node_sets_.emplace(upper(set.name), &set);
     for (const files::FacetSet& set : mesh_.facet_sets) facet_sets_.emplace(set.name, &set);
   }
 
@@ -71,25 +74,23 @@ class ContentReader {
 
   /// Nodes of a number or set; a node of no element is lost.
   std::vector<int> nodes_of(const DeckLine& line, const char* what) {
-    if (line.fields.empty()) return {};
     const std::string& name = line.fields[0];
-    std::int64_t number = 0;
-    if (files::parse_number(std::string_view(name), number)) {
-      const auto found = node_of_.find(number);
+    const auto meaning = meaning_of(deck_, name, DeckNumbers::nodes);
+    if (meaning && meaning->number) {
+      const auto found = node_of_.find(*meaning->number);
       if (found != node_of_.end()) return {found->second};
+    } else if (const auto found = meaning ? nodes_named(deck_, name) : std::nullopt) {
+      return *found;
+    }
+    if (meaning && !meaning->number)
+      remarks_.essential(line.at, fmt::format("there is no node set '{}' with nodes of elements, and {} at it is lost; "
+                                              "correct its name",
+                                              files::printable(name), what));
+    else
       remarks_.essential(line.at,
                          fmt::format("{} at node {}, which belongs to no plane element, is lost; give it at a node "
                                      "of a body",
-                                     what, number));
-      return {};
-    }
-    auto found = node_sets_.find(upper(name));
-    const auto dot = name.rfind('.');  // Instance-1.Set-1
-    if (found == node_sets_.end() && dot != std::string::npos) found = node_sets_.find(upper(name.substr(dot + 1)));
-    if (found != node_sets_.end()) return found->second->nodes;
-    remarks_.essential(line.at, fmt::format("there is no node set '{}' with nodes of elements, and {} at it is lost; "
-                                            "correct its name",
-                                            files::printable(name), what));
+                                     what, files::printable(name)));
     return {};
   }
 
@@ -104,12 +105,7 @@ class ContentReader {
     step.name = parameter(block, "NAME");
     step.at = block.at;
     content_.steps.push_back(step);
-    if (is_on(block, "NLGEOM"))
-      remarks_.note(block.at, "NLGEOM asks for large displacements, which are left out; Scabo's are small");
-    if (is_on(block, "PERTURBATION"))
-      remarks_.essential(block.at, "PERTURBATION is a step about the state before it, which Scabo does not have");
-    if (upper(parameter(block, "AMPLITUDE")) == "STEP")
-      remarks_.note(block.at, "AMPLITUDE=STEP applies loads at once; in the model they grow linearly over the step");
+    content_.steps.back().at_once = upper(parameter(block, "AMPLITUDE")) == "STEP";
   }
 
   void static_step(const DeckBlock& block) {
@@ -117,10 +113,6 @@ class ContentReader {
     DeckStep& step = content_.steps.back();
     has_procedure_ = true;
     step.equal = is_on(block, "DIRECT");
-    if (is_on(block, "RIKS"))
-      remarks_.essential(block.at, "RIKS follows a path of unknown loads, which Scabo does not have");
-    if (is_on(block, "STABILIZE"))
-      remarks_.note(block.at, "STABILIZE adds damping, which is left out; Scabo holds bodies by contact alone");
     if (block.lines.empty()) return;
     const DeckLine& line = block.lines.front();
     step.first = number(remarks_, line, 0, "the first increment of *STATIC", 1.0).value_or(1.0);
@@ -133,6 +125,9 @@ class ContentReader {
 
   Leg leg_of(const Growing& growing, double before) {
     if (growing.amplitude.empty()) return {growing.value, {}};
+    if (content_.steps.back().at_once)
+      remarks_.essential(growing.given.at,
+                         "a load by an *AMPLITUDE in a step with AMPLITUDE=STEP is not taken; take out one of the two");
     const Amplitude& amplitude = amplitudes_.at(growing.amplitude);
     const double factor = amplitude.absolute ? 1.0 : growing.value;
     Leg leg = leg_along(amplitude, factor, amplitude.total_time ? total_time_ : 0.0, content_.steps.back().period);
@@ -160,6 +155,31 @@ class ContentReader {
     growing.touched = growing.fresh = false;
   }
 
+  /// One remark for all that OP=NEW releases in a step: a set has many nodes.
+  void note_what_is_released() {
+    if (!new_displacements_) return;
+    std::vector<std::string> labels;
+    const Growing* first = nullptr;
+    for (auto& [key, growing] : displacements_) {
+      if (growing.touched) growing.released = false;
+      if (growing.touched || std::exchange(growing.released, true)) continue;
+      if (first == nullptr) first = &growing;
+      if (std::find(labels.begin(), labels.end(), growing.given.label) == labels.end())
+        labels.push_back(growing.given.label);
+    }
+    if (first == nullptr) return;
+    constexpr std::size_t most = 3;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(labels.size(), most); ++i)
+      names += fmt::format("{}'{}'", i == 0 ? "" : ", ", files::printable(labels[i]));
+    if (labels.size() > most) names += fmt::format(" and {} more", labels.size() - most);
+    remarks_.essential(
+        first->given.at,
+        fmt::format("the displacement{} of {} {} released in step {} by OP=NEW, which supports of Scabo "
+                    "cannot be",
+                    labels.size() == 1 ? "" : "s", names, labels.size() == 1 ? "is" : "are", content_.steps.size()));
+  }
+
   /// What the step has of one of the keywords of distributed loads.
   struct DistributedLoads {
     bool before = false, here = false;       // given in an earlier step, in this one
@@ -167,35 +187,29 @@ class ContentReader {
   };
 
   /// OP=NEW of one keyword takes back the loads of both in CalculiX, those of its own in Abaqus.
-  void note_what_is_removed(const DistributedLoads& loads, const DistributedLoads& others, std::string_view keyword) {
+  void tell_what_is_removed(const DistributedLoads& loads, const DistributedLoads& others, std::string_view keyword) {
     if (loads.new_at && others.before && !others.new_at)
-      remarks_.note(
+      remarks_.essential(
           *loads.new_at,
-          fmt::format("OP=NEW takes back the loads that {} of earlier steps has given as well, as in CalculiX; "
-                      "Abaqus keeps them: there, give them again in this step",
-                      keyword));
+          fmt::format("OP=NEW takes back the loads that {} of earlier steps has given as well in CalculiX, and not in "
+                      "Abaqus; say which is meant by {}, OP=NEW in this step, with the loads that stay",
+                      keyword, keyword));
   }
 
   void end_step() {
     const DeckStep& step = content_.steps.back();
     if (!has_procedure_)
       remarks_.essential(step.at, "the step has no *STATIC, and Scabo converts static steps; add it");
-    for (auto& [key, growing] : displacements_) {
-      if (new_displacements_ && !growing.touched)
-        remarks_.essential(growing.given.at,
-                           fmt::format("the displacement of '{}' is released in step {} by OP=NEW, which "
-                                       "supports of Scabo cannot be",
-                                       files::printable(growing.given.label), content_.steps.size()));
-      finish(growing, false);
-    }
+    note_what_is_released();
+    for (auto& [key, growing] : displacements_) finish(growing, false);
     for (auto& [key, growing] : forces_) finish(growing, new_forces_);
     for (auto& [key, growing] : pressures_) finish(growing, new_pressures_);
     for (GrowingBodyLoad& load : body_loads_) {
       finish(load.x, new_pressures_);
       finish(load.y, new_pressures_);
     }
-    note_what_is_removed(dload_, dsload_, "*DSLOAD");
-    note_what_is_removed(dsload_, dload_, "*DLOAD");
+    tell_what_is_removed(dload_, dsload_, "*DSLOAD");
+    tell_what_is_removed(dsload_, dload_, "*DLOAD");
     for (DistributedLoads* loads : {&dload_, &dsload_}) *loads = {loads->before || loads->here, false, {}};
     total_time_ += step.period;
     in_step_ = false;
@@ -213,14 +227,13 @@ class ContentReader {
     return std::nullopt;
   }
 
-  bool is_new(const DeckBlock& block) { return upper(parameter(block, "OP", "MOD")) == "NEW"; }
+  bool is_new(const DeckBlock& block) { return upper(parameter(block, "OP")) == "NEW"; }
 
   /// `adds`: to what the same step gave before.
   void grow(Growing& growing, double value, const std::string& amplitude, const DeckLine& line, bool adds) {
     if (growing.touched && adds && growing.amplitude != amplitude)
-      remarks_.note(
-          line.at,
-          "two values with different amplitudes act on the same place in one step; the last amplitude holds for both");
+      remarks_.essential(
+          line.at, "two values with different amplitudes act on the same place in one step; give them one amplitude");
     growing.value = growing.touched && adds ? growing.value + value : value;
     growing.amplitude = amplitude;
     growing.touched = true;
@@ -231,13 +244,8 @@ class ContentReader {
   void boundary(const DeckBlock& block) {
     const auto amplitude = amplitude_of(block);
     if (!amplitude) return;
-    for (const char* unread : {"USER", "FIXED", "SUBMODEL", "LOADCASE", "TYPE"})
-      if (block.parameters.contains(unread))
-        return remarks_.essential(
-            block.at, fmt::format("*BOUNDARY with {} is not taken; write displacements as numbers", unread));
     if (in_step_ && is_new(block)) new_displacements_ = true;
     for (const DeckLine& line : block.lines) {
-      if (line.fields.empty()) continue;
       if (line.fields.size() < 2) {
         remarks_.essential(line.at, "the degree of freedom is missing on this line; add it");
         continue;
@@ -291,13 +299,8 @@ class ContentReader {
   void cload(const DeckBlock& block) {
     const auto amplitude = amplitude_of(block);
     if (!amplitude || !needs_step(block)) return;
-    for (const char* unread : {"USER", "SECTOR", "SUBMODEL", "LOADCASE", "FOLLOWER", "OMEGA0"})
-      if (block.parameters.contains(unread))
-        return remarks_.essential(block.at,
-                                  fmt::format("*CLOAD with {} is not taken; write forces along x and y", unread));
     if (is_new(block)) new_forces_ = true;
     for (const DeckLine& line : block.lines) {
-      if (line.fields.empty()) continue;
       const auto dof = number(remarks_, line, 1, "the degree of freedom"),
                  value = number(remarks_, line, 2, "the force");
       if (!dof || !value) continue;
@@ -342,11 +345,10 @@ class ContentReader {
       loads.new_at = block.at;
     }
     for (const DeckLine& line : block.lines) {
-      if (line.fields.empty()) continue;
       const std::string label = line.fields.size() > 1 ? upper(line.fields[1]) : "";
       if (!line.sides.empty() || (of_surface && label == "P")) {
         const auto value = number(remarks_, line, 2, "the pressure");
-        const auto sides = line.sides.empty() ? sides_named(mesh_, line.fields[0]) : sides_of_line(line);
+        const auto sides = line.sides.empty() ? sides_named(deck_, line.fields[0]) : sides_of_line(line);
         if (!sides)
           remarks_.essential(
               line.at, fmt::format("the pressure acts on no side of a plane element ('{}') and is lost; correct it",
@@ -378,15 +380,20 @@ class ContentReader {
 
   bool needs_step(const DeckBlock& block) {
     if (!in_step_)
-      remarks_.essential(
-          block.at, fmt::format("{} stands outside of a step and is lost; give it within *STEP", shown(block.name)));
+      remarks_.essential(block.at,
+                         fmt::format("{} stands outside of a step and is lost; give it within *STEP", block.written));
     return in_step_;
   }
 
   // ---- keywords
 
   void keyword(const DeckBlock& block) {
+    check_block(block, remarks_);
     const std::string& name = block.name;
+    if (block.instance >= 0 && !belongs_to_part(name))
+      remarks_.essential(block.at, fmt::format("{} stands within a part; give it after *END ASSEMBLY, as only meshes, "
+                                               "sections and orientations belong there",
+                                               block.written));
     if (name == "HEADING") {
       if (!block.lines.empty() && content_.title.empty())
         for (const std::string& field : block.lines[0].fields)
@@ -405,10 +412,14 @@ class ContentReader {
       dload(block);
     } else if (name == "INITIALCONDITIONS" && upper(parameter(block, "TYPE")) == "TEMPERATURE") {
       remarks_.note(block.at, "*INITIAL CONDITIONS of temperature are left out; they act by their changes only");
-    } else if (name != "AMPLITUDE" && !read_material_block(block, content_, remarks_) &&
+    } else if (name != "AMPLITUDE" && !read_material_block(deck_, block, content_, remarks_) &&
                !contacts_.read(block, in_step_)) {
       other(block);
     }
+  }
+
+  static bool belongs_to_part(const std::string& name) {
+    return name.ends_with("SECTION") || name == "ORIENTATION" || text_of_keyword(name).loss != KeywordLoss::essential;
   }
 
   void other(const DeckBlock& block) {
@@ -417,16 +428,17 @@ class ContentReader {
     if (text.loss == KeywordLoss::note) left_out_[block.name].push_back(&block);
     if (text.loss != KeywordLoss::essential) return;
     const bool of_material = is_of_material(block.name) && !content_.materials.empty();
-    remarks_.essential(block.at, of_material ? fmt::format("{} of material '{}' {}", shown(block.name),
+    remarks_.essential(block.at, of_material ? fmt::format("{} of material '{}' {}", block.written,
                                                            files::printable(content_.materials.back().name), text.text)
-                                             : fmt::format("{} {}", shown(block.name), text.text));
+                                             : fmt::format("{} {}", block.written, text.text));
   }
 
   /// One sentence for each keyword that nothing depends on, however often it stands in the deck.
   void tell_left_out() {
     for (const auto& [name, blocks] : left_out_) {
       const std::string more = blocks.size() > 1 ? fmt::format(" (and {} more)", blocks.size() - 1) : "";
-      remarks_.note(blocks.front()->at, fmt::format("{}{} {}", shown(name), more, text_of_keyword(name).text));
+      remarks_.note(blocks.front()->at,
+                    fmt::format("{}{} {}", blocks.front()->written, more, text_of_keyword(name).text));
     }
   }
 
@@ -434,58 +446,23 @@ class ContentReader {
   const files::ImportedMesh& mesh_;
   Remarks& remarks_;
   std::unordered_map<std::int64_t, int> node_of_;
-  std::unordered_map<std::string, const files::NodeSet*> node_sets_;
   std::unordered_map<std::string, const files::FacetSet*> facet_sets_;
   const std::map<std::string, Amplitude> amplitudes_ = read_amplitudes(deck_, remarks_);
   std::map<std::string, std::vector<const DeckBlock*>> left_out_;
   DeckContent content_;
   Table displacements_, forces_, pressures_;
   std::vector<GrowingBodyLoad> body_loads_;
-  ContactReader contacts_{content_, remarks_};
+  ContactReader contacts_{content_, remarks_, [this](const std::string& name) { return nodes_named(deck_, name); }};
   bool in_step_ = false, has_procedure_ = false;
   bool new_displacements_ = false, new_forces_ = false, new_pressures_ = false;  // OP=NEW in this step
   DistributedLoads dload_, dsload_;
   double total_time_ = 0.0;
 };
 
-std::string after_dot(const std::string& name) {
-  const auto dot = name.rfind('.');
-  return dot == std::string::npos ? name : name.substr(dot + 1);
-}
-
-template <class Set>
-const Set* set_named(const std::vector<Set>& sets, const std::string& name) {
-  for (const std::string& wanted : {upper(name), upper(after_dot(name))})
-    for (const Set& set : sets)
-      if (upper(set.name) == wanted) return &set;
-  return nullptr;
-}
-
 }  // namespace
 
 DeckContent read_content(const files::AbaqusDeck& deck, Remarks& remarks) {
   return ContentReader(deck, remarks).read();
-}
-
-std::optional<std::vector<files::Facet>> sides_named(const files::ImportedMesh& mesh, const std::string& name) {
-  if (const files::FacetSet* set = set_named(mesh.facet_sets, name)) return set->facets;
-  const files::NodeSet* set = set_named(mesh.node_sets, name);
-  if (set == nullptr) return std::nullopt;
-  const std::unordered_set<int> nodes(set->nodes.begin(), set->nodes.end());
-  std::vector<files::Facet> sides;
-  for (const files::BoundaryLoop& loop : files::boundary_facets(mesh))
-    for (const files::Facet& side : loop.facets)
-      if (nodes.contains(side.start) && nodes.contains(side.end)) sides.push_back(side);
-  return sides;
-}
-
-std::optional<std::vector<int>> cells_named(const files::ImportedMesh& mesh, const std::string& name) {
-  if (const files::CellSet* set = set_named(mesh.cell_sets, name)) return set->cells;
-  std::int64_t number = 0;
-  if (files::parse_number(std::string_view(name), number))
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      if (mesh.cells[c].number == number) return std::vector<int>{static_cast<int>(c)};
-  return std::nullopt;
 }
 
 }  // namespace scabo::convert

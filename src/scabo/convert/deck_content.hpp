@@ -8,6 +8,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,24 +37,32 @@ struct DeckSection {
   std::string set, material, orientation;
   double thickness = 1.0;
   files::DeckPlace at;
+  bool turned = false;  ///< within an instance that is turned
 };
 
 struct DeckInteraction {
   std::string name;
   double friction = 0.0;
   bool tied = false;
+  std::optional<double> stiffness, stick_stiffness;  ///< pressure per overlap, shear stress per slip; none: rigid
+  files::DeckPlace at_stiffness, at_stick_stiffness;
 };
 
 struct DeckContact {
   std::string slave, master, interaction;
   bool tie = false;
   files::DeckPlace at;
+  std::optional<double> adjust_within;          ///< of a contact: nodes with at most this gap are moved onto the master
+  std::optional<std::set<int>> adjusted_nodes;  ///< of a contact: or these, whatever their gap
+  bool adjusts = true;                          ///< of a tie: nodes within the tolerance are moved onto the master
+  std::optional<double> tolerance;              ///< of a tie
 };
 
 struct DeckStep {
   std::string name;
   double first = 1.0, period = 1.0, smallest = 0.0, largest = 0.0;  ///< of *STATIC; 0: not given
   bool equal = false;                                               ///< DIRECT
+  bool at_once = false;  ///< AMPLITUDE=STEP: loads jump at its begin, so that one increment is the whole step
   files::DeckPlace at;
 };
 
@@ -79,11 +88,6 @@ struct DeckContent {
 };
 
 DeckContent read_content(const files::AbaqusDeck& deck, Remarks& remarks);
-
-/// Sides of the facet set, or between nodes of the node set, of this name in any case; nothing if there is neither.
-std::optional<std::vector<files::Facet>> sides_named(const files::ImportedMesh& mesh, const std::string& name);
-/// Cells of the cell set of this name; nothing if there is none. Every cell for one that is called as all elements are.
-std::optional<std::vector<int>> cells_named(const files::ImportedMesh& mesh, const std::string& name);
 
 /// As the key of DeckContent::pressures.
 inline std::pair<int, int> key_of(const files::Facet& side) { return std::minmax(side.start, side.end); }

@@ -56,8 +56,6 @@ std::map<std::string, Amplitude> read_amplitudes(const files::AbaqusDeck& deck, 
     const std::string definition = upper(parameter(block, "DEFINITION", "TABULAR"));
     const std::string name = upper(parameter(block, "NAME"));
     bool usable = definition == "TABULAR" && !name.empty();
-    for (const char* unread : {"SHIFTX", "SHIFTY", "USER", "SMOOTH"})
-      usable = usable && !block.parameters.contains(unread);
     if (!usable) {
       remarks.essential(block.at, "only an *AMPLITUDE with a name and a table of times and values is taken; write one");
       continue;

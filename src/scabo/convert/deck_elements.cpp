@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "scabo/convert/deck_bodies.hpp"
+#include "scabo/convert/deck_names.hpp"
 #include "scabo/convert/write_model.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/text_cursor.hpp"
@@ -24,6 +25,27 @@ const DeckMaterial* material_named(const DeckContent& content, const std::string
   for (const DeckMaterial& material : content.materials)
     if (upper(material.name) == upper(name)) return &material;
   return nullptr;
+}
+
+double least_young(const DeckMaterial& material) {
+  if (material.isotropic) return material.isotropic->first;
+  return material.orthotropic ? std::min((*material.orthotropic)[0], (*material.orthotropic)[1]) : 0.0;
+}
+
+/// Hybrid elements (H) are for materials that hardly change their volume, which elements for displacements lock at.
+void tell_incompressible(const files::AbaqusDeck& deck, const DeckMaterial& material, const std::vector<int>& cells,
+                         const files::DeckPlace& at, Remarks& remarks) {
+  constexpr double most_poisson = 0.45;
+  if (!material.isotropic || material.isotropic->second <= most_poisson) return;
+  for (const int c : cells) {
+    const int type = deck.type_of_cell.at(deck.mesh.cells[static_cast<std::size_t>(c)].number);
+    if (deck.elements[static_cast<std::size_t>(type)].type.find('H', 4) == std::string::npos) continue;
+    return remarks.essential(
+        at,
+        fmt::format("hybrid elements of a material with Poisson's ratio {:g} are not taken: Scabo's finite elements "
+                    "are for displacements alone; use one up to {:g}",
+                    material.isotropic->second, most_poisson));
+  }
 }
 
 /// Empty if its law is not taken.
@@ -103,12 +125,13 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
                             Remarks& remarks) {
   GivenMaterials given;
   given.of_cell.assign(deck.mesh.cells.size(), "");
+  given.young.assign(deck.mesh.cells.size(), 0.0);
   UniqueNames names;
   std::map<std::string, std::string> made;
   std::set<std::string> used;
   for (const DeckSection& section : content.sections) {
     const DeckMaterial* material = material_named(content, section.material);
-    const auto cells = cells_named(deck.mesh, section.set);
+    const auto cells = cells_named(deck, section.set);
     if (!cells) continue;  // of elements that are left out
     if (material == nullptr) {
       if (!section.material.empty())
@@ -126,13 +149,20 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
                                                   files::printable(section.orientation)));
       if (found != content.orientations.end() && material->orthotropic) angle = found->second;
     }
+    if (section.orientation.empty() && section.turned && material->orthotropic)
+      remarks.essential(section.at,
+                        "an orthotropic material in an instance that is turned needs an *ORIENTATION; add one");
     if (angle != 0.0) key += " " + number_text(angle);
     const auto [entry, is_new] = made.try_emplace(key);
     if (is_new) {
       entry->second = names.take(material->name);
       given.lines += material_line(*material, angle, entry->second, plane_strain, remarks);
     }
-    for (const int c : *cells) given.of_cell[static_cast<std::size_t>(c)] = entry->second;
+    tell_incompressible(deck, *material, *cells, section.at, remarks);
+    for (const int c : *cells) {
+      given.of_cell[static_cast<std::size_t>(c)] = entry->second;
+      given.young[static_cast<std::size_t>(c)] = least_young(*material);
+    }
   }
   for (const DeckMaterial& material : content.materials)
     if (!used.contains(upper(material.name)))

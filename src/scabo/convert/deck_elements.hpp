@@ -15,6 +15,7 @@ std::optional<bool> plane_strain_of(const files::AbaqusDeck& deck, const DeckCon
 
 struct GivenMaterials {
   std::vector<std::string> of_cell;  ///< names of the model; empty for a cell without one
+  std::vector<double> young;         ///< per cell, the smallest of its directions; 0 for a cell without a material
   std::string lines;                 ///< of the section `materials` of the model
 };
 

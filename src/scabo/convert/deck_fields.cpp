@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 
 #include "scabo/files/abaqus_lines.hpp"
 
@@ -12,35 +11,6 @@ namespace scabo::convert {
 using files::DeckBlock;
 using files::DeckLine;
 using files::upper;
-
-std::string shown(const std::string& name) {
-  static const std::map<std::string, std::string> spaced = {{"CONTACTPAIR", "CONTACT PAIR"},
-                                                            {"SURFACEINTERACTION", "SURFACE INTERACTION"},
-                                                            {"SURFACEBEHAVIOR", "SURFACE BEHAVIOR"},
-                                                            {"SOLIDSECTION", "SOLID SECTION"},
-                                                            {"NODEFILE", "NODE FILE"},
-                                                            {"ELFILE", "EL FILE"},
-                                                            {"NODEPRINT", "NODE PRINT"},
-                                                            {"ELPRINT", "EL PRINT"},
-                                                            {"NODEOUTPUT", "NODE OUTPUT"},
-                                                            {"ELEMENTOUTPUT", "ELEMENT OUTPUT"},
-                                                            {"CONTACTFILE", "CONTACT FILE"},
-                                                            {"CONTACTPRINT", "CONTACT PRINT"},
-                                                            {"CONTACTOUTPUT", "CONTACT OUTPUT"},
-                                                            {"CONTACTCONTROLS", "CONTACT CONTROLS"},
-                                                            {"RIGIDBODY", "RIGID BODY"},
-                                                            {"MODELCHANGE", "MODEL CHANGE"},
-                                                            {"INITIALCONDITIONS", "INITIAL CONDITIONS"},
-                                                            {"SHELLSECTION", "SHELL SECTION"},
-                                                            {"MEMBRANESECTION", "MEMBRANE SECTION"},
-                                                            {"CHANGEFRICTION", "CHANGE FRICTION"},
-                                                            {"HEATTRANSFER", "HEAT TRANSFER"},
-                                                            {"USERMATERIAL", "USER MATERIAL"},
-                                                            {"SPECIFICHEAT", "SPECIFIC HEAT"},
-                                                            {"CONTACTDAMPING", "CONTACT DAMPING"}};
-  const auto found = spaced.find(name);
-  return "*" + (found == spaced.end() ? files::printable(name) : found->second);
-}
 
 bool is_on(const DeckBlock& block, const std::string& parameter) {
   const auto found = block.parameters.find(parameter);

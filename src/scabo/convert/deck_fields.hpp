@@ -10,10 +10,6 @@
 
 namespace scabo::convert {
 
-/// A keyword as the manuals write it, `*NODE FILE`, from its name without spaces; of names that are not known, as it
-/// is.
-std::string shown(const std::string& name);
-
 /// Value of a parameter as written.
 std::string parameter(const files::DeckBlock& block, const std::string& name, const std::string& otherwise = "");
 /// Whether a parameter is there and not NO.

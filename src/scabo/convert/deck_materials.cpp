@@ -7,6 +7,7 @@
 
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/convert/keywords.hpp"
+#include "scabo/files/abaqus_instances.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 
 namespace scabo::convert {
@@ -18,7 +19,8 @@ using files::upper;
 
 class MaterialReader {
  public:
-  MaterialReader(DeckContent& content, Remarks& remarks) : content_(content), remarks_(remarks) {}
+  MaterialReader(const files::AbaqusDeck& deck, DeckContent& content, Remarks& remarks)
+      : deck_(deck), content_(content), remarks_(remarks) {}
 
   bool read(const DeckBlock& block) {
     const std::string& name = block.name;
@@ -65,7 +67,7 @@ class MaterialReader {
   DeckMaterial* material_of(const DeckBlock& block) {
     if (!content_.materials.empty()) return &content_.materials.back();
     remarks_.essential(block.at,
-                       fmt::format("{} stands before any *MATERIAL and is lost; name the material", shown(block.name)));
+                       fmt::format("{} stands before any *MATERIAL and is lost; name the material", block.written));
     return nullptr;
   }
 
@@ -103,49 +105,72 @@ class MaterialReader {
     return std::vector<double>{1.0 / S11, 1.0 / S22, 1.0 / S33, -S12 / S11, -S13 / S11, -S23 / S22, D[6]};
   }
 
-  void orientation(const DeckBlock& block) {
-    const std::string name = upper(parameter(block, "NAME")), system = upper(parameter(block, "SYSTEM", "RECTANGULAR"));
-    if ((system != "RECTANGULAR" && system != "R") || block.lines.empty() || block.lines.size() > 1)
-      return remarks_.essential(block.at, "only a rectangular *ORIENTATION by two points is taken; write one");
-    Vec2 a = Vec2::Zero();
-    double out = 0.0;
+  std::string full_name(const DeckBlock& block, const std::string& name) const {
+    return block.instance < 0 || name.empty()
+               ? name
+               : deck_.instances[static_cast<std::size_t>(block.instance)].name + "." + name;
+  }
+
+  /// Three numbers of a line from `first` on.
+  std::optional<files::Vec3> point(const files::DeckLine& line, std::size_t first) {
+    files::Vec3 x = files::Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto value = number(remarks_, block.lines[0], k, "a point of *ORIENTATION");
-      if (!value) return;
-      k < 2 ? a[static_cast<Eigen::Index>(k)] = *value : out = *value;
+      const auto value = number(remarks_, line, first + k, "a point of *ORIENTATION");
+      if (!value) return std::nullopt;
+      x[static_cast<Eigen::Index>(k)] = *value;
     }
-    for (std::size_t k = 3; k < 6; ++k) {
-      const auto value = number(remarks_, block.lines[0], k, "a point of *ORIENTATION");
-      if (!value) return;
-      if (k == 5 && *value != 0.0) out = *value;
+    return x;
+  }
+
+  /// Axis 1 goes to the first point, axis 2 lies with it in the plane of both, towards the second; a second line turns
+  /// both about one of the three axes. Within an instance all this turns with it.
+  void orientation(const DeckBlock& block) {
+    if (block.lines.empty()) return;
+    const auto a = point(block.lines[0], 0), b = point(block.lines[0], 3);
+    if (!a || !b) return;
+    files::Vec3 first = a->normalized(), third = a->cross(*b).normalized();
+    if (block.lines.size() > 1) {
+      const auto axis = number(remarks_, block.lines[1], 0, "the axis of the second turn", 1.0),
+                 angle = number(remarks_, block.lines[1], 1, "the angle of the second turn", 0.0);
+      if (!axis || !angle) return;
+      if (*angle != 0.0 && *axis != 3.0)
+        return remarks_.essential(block.lines[1].at, "a turn of *ORIENTATION is taken about axis 3 only; correct it");
+      if (*angle != 0.0 && third.norm() > 0.0) first = *files::turn_about(files::Vec3::Zero(), third, *angle) * first;
     }
-    if (out != 0.0 || !(a.norm() > 0.0))
+    if (block.instance >= 0) {
+      const Eigen::Matrix3d& turn = deck_.instances[static_cast<std::size_t>(block.instance)].turn;
+      first = turn * first;
+      third = turn * third;
+    }
+    if (!(third.norm() > 0.0) || std::abs(first.z()) > 1e-9 || third.head<2>().norm() > 1e-9)
       return remarks_.essential(block.at, "the axes of *ORIENTATION do not lie in the plane; turn them");
-    content_.orientations[name] = std::atan2(a.y(), a.x()) * 180.0 / std::numbers::pi;
+    content_.orientations[upper(full_name(block, parameter(block, "NAME")))] =
+        std::atan2(first.y(), first.x()) * 180.0 / std::numbers::pi;
   }
 
   void section(const DeckBlock& block) {
     if (block.name != "SOLIDSECTION")
       return remarks_.essential(
-          block.at,
-          fmt::format("{} is not taken; use plane elements (CPS, CPE) with *SOLID SECTION", shown(block.name)));
-    if (block.parameters.contains("COMPOSITE"))
-      return remarks_.essential(block.at, "a composite section is not taken; give one material");
-    DeckSection read{parameter(block, "ELSET"), parameter(block, "MATERIAL"), upper(parameter(block, "ORIENTATION")),
-                     1.0, block.at};
-    if (read.material.empty()) remarks_.essential(block.at, "*SOLID SECTION names no material; add MATERIAL=name");
+          block.at, fmt::format("{} is not taken; use plane elements (CPS, CPE) with *SOLID SECTION", block.written));
+    DeckSection read{full_name(block, parameter(block, "ELSET")), parameter(block, "MATERIAL"),
+                     upper(full_name(block, parameter(block, "ORIENTATION"))), 1.0, block.at};
+    read.turned = block.instance >= 0 && !deck_.instances[static_cast<std::size_t>(block.instance)].turn.isIdentity();
+    if (read.material.empty() && !block.parameters.contains("COMPOSITE"))
+      remarks_.essential(block.at, "*SOLID SECTION names no material; add MATERIAL=name");
     if (!block.lines.empty()) read.thickness = number(remarks_, block.lines[0], 0, "the thickness", 1.0).value_or(1.0);
     content_.sections.push_back(std::move(read));
   }
 
+  const files::AbaqusDeck& deck_;
   DeckContent& content_;
   Remarks& remarks_;
 };
 
 }  // namespace
 
-bool read_material_block(const DeckBlock& block, DeckContent& content, Remarks& remarks) {
-  return MaterialReader(content, remarks).read(block);
+bool read_material_block(const files::AbaqusDeck& deck, const DeckBlock& block, DeckContent& content,
+                         Remarks& remarks) {
+  return MaterialReader(deck, content, remarks).read(block);
 }
 
 }  // namespace scabo::convert

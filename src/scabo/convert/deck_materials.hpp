@@ -6,6 +6,7 @@
 namespace scabo::convert {
 
 /// Takes a block if it is about materials, orientations or sections; false if it is not.
-bool read_material_block(const files::DeckBlock& block, DeckContent& content, Remarks& remarks);
+bool read_material_block(const files::AbaqusDeck& deck, const files::DeckBlock& block, DeckContent& content,
+                         Remarks& remarks);
 
 }  // namespace scabo::convert

@@ -12,6 +12,7 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/batch.hpp"
+#include "scabo/element/conditioning.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/ill_posed.hpp"
 #include "scabo/linalg/parallel.hpp"
@@ -44,14 +45,15 @@ bool are_same(const SolvedSuperElement& a, const SolvedSuperElement& b) {
 }
 
 /// The error of a super-element in the terms of the model file.
-Diagnostic ill_posed(const model::Body& body, const IllPosed& error) {
-  return {
-      body.source,
-      fmt::format(
-          "{}; its material constants differ too much for double precision (Poisson's ratio too close to 1/2, or "
-          "moduli that differ by a factor of 1e12 or more), the body is too slender (3000:1 or more), or the scaling "
-          "centre is too close to the boundary",
-          error.what())};
+Diagnostic ill_posed(const model::Body& body, const SolvedSuperElement& super_element, const IllPosed& error) {
+  Conditioning found;
+  std::vector<Mat3> D;
+  for (std::size_t e = 0; e < super_element.ring.elements.size(); ++e) D.push_back(super_element.sectors.D.of(e));
+  measure(D, found);
+  const Vec2 centre = Vec2::Zero();
+  const bool corner = super_element.ring.is_open();  // the centre of one lies on its boundary
+  measure(super_element.ring.elements, super_element.ring.nodes, corner ? nullptr : &centre, found);
+  return {body.source, fmt::format("{}: {}", error.what(), causes_in_words(found))};
 }
 
 // A stiffness from a batch has a rounding error of 1e-14 instead of 4e-15, which energies of small models show; alone,
@@ -102,7 +104,7 @@ void solve_all(const model::Model& model, const std::vector<std::shared_ptr<Solv
       super_element.set(solve_super_element(super_element.ring, super_element.sectors.D, super_element.thickness,
                                             many ? 1 : threads, super_element.domain));
     } catch (const IllPosed& error) {
-      throw InputError(model.file, {ill_posed(model.bodies[bodies[at]], error)});
+      throw InputError(model.file, {ill_posed(model.bodies[bodies[at]], super_element, error)});
     }
   };
   linalg::parallel_for(count, many ? threads : 1, solve);

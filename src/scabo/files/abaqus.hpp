@@ -23,7 +23,9 @@ using ReadInclude = std::function<std::optional<IncludedFile>(const std::string&
 /// The mesh in the text of a file of that name. The region of an element is the element set of its last section, which
 /// gives the material as well; without a section the set of its *ELEMENT line, then the first *ELSET with it, then
 /// `elements`. Element sets become cell sets, node sets and surfaces of TYPE=NODE node sets, surfaces of TYPE=ELEMENT
-/// facet sets. Trusses and beams without a section (as Gmsh writes curves) become facet sets. Throws InputError.
+/// facet sets. Trusses and beams without a section (as Gmsh writes curves) become facet sets. Each instance of a part
+/// has nodes and elements of its own; its sets are `Set`, or `Instance.Set` where another set is called so. Throws
+/// InputError.
 ImportedMesh parse_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include = {});
 
 struct DeckPlace {
@@ -31,20 +33,42 @@ struct DeckPlace {
   int line = 0;  ///< from 1
 };
 
+/// Names of parameters are the same with and without blanks: `NO SEPARATION`, `NOSEPARATION`.
+struct LessWithoutBlanks {
+  bool operator()(const std::string& a, const std::string& b) const;
+};
+/// Parameters of a keyword: names in upper case, values as written but without quotes.
+using KeyParameters = std::map<std::string, std::string, LessWithoutBlanks>;
+
 struct DeckLine {
   std::vector<std::string> fields;
   DeckPlace at;
-  /// Of a pressure on sides of elements (*DLOAD with P1 to P4): the facet set of the mesh that these sides are, whose name
-  /// begins with `*`.
+  /// Of a pressure on sides of elements (*DLOAD with P1 to P4): the facet set of the mesh that these sides are, whose
+  /// name begins with `*`.
   std::string sides;
 };
 
-/// A keyword that is not part of the mesh, or a section, with its data lines.
+/// A keyword with its data lines; those of the mesh itself (*NODE, *ELEMENT, *NSET, *ELSET, *SURFACE) are left out.
 struct DeckBlock {
-  std::string name;                               ///< upper case, without spaces: `CONTACTPAIR`
-  std::map<std::string, std::string> parameters;  ///< names in upper case, values as written
+  std::string name;     ///< upper case, without blanks: `CONTACTPAIR`
+  std::string written;  ///< as messages show it: `*CONTACT PAIR`
+  KeyParameters parameters;
   DeckPlace at;
   std::vector<DeckLine> lines;
+  bool has_data = false;  ///< data lines that are not empty, those of the mesh too
+  int instance = -1;      ///< index into AbaqusDeck::instances: that it stands in, with its part
+};
+
+/// A part where it is in the assembly. Its sets are called `Instance.Set` in the mesh of the deck, and its elements are
+/// the cell set `Instance`.
+struct DeckInstance {
+  /// The number k of the part, up to `largest`, is k + offset in the mesh.
+  struct Numbers {
+    std::int64_t offset = 0, largest = 0;
+  };
+  std::string name;
+  Eigen::Matrix3d turn;  ///< from the axes of the part to those of the assembly
+  Numbers nodes, elements;
 };
 
 /// A whole deck: its mesh, and all that the mesh does not hold, in the order of the file.
@@ -54,13 +78,15 @@ struct AbaqusDeck {
     DeckPlace at;      ///< of their *ELEMENT line
   };
   ImportedMesh mesh;
-  std::vector<std::int64_t> node_numbers;     ///< per node of the mesh: as in the file
-  std::vector<Elements> elements;             ///< of all *ELEMENT lines with cells
-  std::map<std::int64_t, int> type_of_cell;   ///< number of a cell in the file: index into `elements`
+  std::vector<DeckInstance> instances;
+  std::vector<std::int64_t> node_numbers;    ///< per node of the mesh: as in the file, of an instance with its offset
+  std::vector<Elements> elements;            ///< of all *ELEMENT lines with cells
+  std::map<std::int64_t, int> type_of_cell;  ///< number of a cell in the file: index into `elements`
   std::vector<DeckBlock> blocks;
 };
 
-/// As parse_abaqus, with everything else. Throws InputError for what no mesh can be read from.
+/// As parse_abaqus, with everything else. Sets keep the full names that the deck may use. Throws InputError for what no
+/// mesh can be read from.
 AbaqusDeck parse_abaqus_deck(std::string_view text, const std::string& file, const ReadInclude& read_include = {});
 
 }  // namespace scabo::files

@@ -12,11 +12,8 @@ AbaqusSet& AbaqusSets::named(const std::string& name) {
   return all_[entry->second];
 }
 
-const AbaqusSet* AbaqusSets::find(std::string name) const {
-  name = upper(name);
-  auto found = by_name_.find(name);
-  const auto dot = name.rfind('.');
-  if (found == by_name_.end() && dot != std::string::npos) found = by_name_.find(name.substr(dot + 1));
+const AbaqusSet* AbaqusSets::find(const std::string& name) const {
+  const auto found = by_name_.find(upper(name));
   return found == by_name_.end() ? nullptr : &all_[found->second];
 }
 

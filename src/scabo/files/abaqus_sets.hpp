@@ -23,8 +23,8 @@ class AbaqusSets {
   /// The set `name`, empty if it is new. Valid until the next new one.
   AbaqusSet& named(const std::string& name);
 
-  /// The set `name`, or the one after the last dot of it, as in Instance-1.Set-1; null if there is none.
-  const AbaqusSet* find(std::string name) const;
+  /// Null if there is none.
+  const AbaqusSet* find(const std::string& name) const;
 
  private:
   std::vector<AbaqusSet> all_;

@@ -46,8 +46,7 @@ bool has_own_sizes(const std::string& path) { return extension_of(path) == ".geo
 ImportedMesh mesh_cad_file(const std::string& path, const CadOptions& options) {
   ensure(options.order == 1 || options.order == 2, "the order of a CAD mesh is 1 or 2");
   std::error_code error;
-  if (!fs::is_regular_file(path, error) || !std::ifstream(path))
-    fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
+  if (!fs::is_regular_file(path, error) || !std::ifstream(path)) fail_in_file(path, 0, 0, why_unreadable(path));
   if (has_own_sizes(path)) refuse_commands(path);
   if (extension_of(path) == ".brep") refuse_truncated_brep(path);
   return mesh_by_gmsh(path, options);

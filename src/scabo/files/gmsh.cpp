@@ -45,6 +45,8 @@ std::int64_t magnitude(std::int64_t tag) {
   return tag < 0 ? -std::max(tag, -std::numeric_limits<std::int64_t>::max()) : tag;
 }
 
+constexpr int no_dimension = -1;  // of physical names in version 2.0
+
 constexpr std::int64_t most_groups = 100;  // of one entity: each takes memory for every cell of it
 
 class GmshReader {
@@ -58,6 +60,7 @@ class GmshReader {
 
   void read_format();
   void read_names();
+  void read_name();
   void read_entities();
   void read_nodes_2();
   void read_elements_2();
@@ -93,7 +96,7 @@ class GmshReader {
   MeshBuilder builder_;
   bool binary_ = false;
   int version_ = 0;                                            // 2 or 4
-  std::map<std::pair<int, std::int64_t>, std::string> names_;  // by dimension and tag
+  std::map<std::pair<int, std::int64_t>, std::string> names_;  // by dimension, or no_dimension, and tag
   std::map<std::pair<int, std::int64_t>, Tags> groups_of_;     // version 4: by dimension and entity
   bool has_nodes_ = false, has_elements_ = false;
 
@@ -195,19 +198,36 @@ void GmshReader::read_names() {
   // Text in binary files, too.
   const int line = in_.line();
   const std::int64_t names = count(in_.integer("the count of physical names"), "the count of physical names");
-  for (std::int64_t i = 0; i < names; ++i) {
-    const std::int64_t dimension = in_.integer("the dimension of a physical group");
-    const std::int64_t tag = in_.integer("the tag of a physical group");
-    in_.skip_white();
-    const std::string_view rest = in_.rest_of_line();
-    const auto first = rest.find('"'), last = rest.rfind('"');
-    if (first == std::string_view::npos || last == first || dimension < 0 || dimension > 3) {
-      fail(
-          fmt::format("a physical name of line {} must read: dimension (0 to 3), tag, name in quotes", in_.line() - 1));
-    }
-    names_[{static_cast<int>(dimension), tag}] = rest.substr(first + 1, last - first - 1);
-  }
+  for (std::int64_t i = 0; i < names; ++i) read_name();
   end_section("$PhysicalNames", line);
+}
+
+/// Dimension, tag and name; in version 2.0 tag and name only, whose dimension then shows in the elements. The line
+/// itself says which it is: some programs write version 2.0 in files of 2.1 or later.
+void GmshReader::read_name() {
+  std::int64_t dimension = no_dimension;
+  std::int64_t tag = in_.integer("the number of a physical group");
+  in_.skip_white();
+  if (version_ != 2 || in_.rest().substr(0, 1) != "\"") {
+    dimension = tag;
+    tag = in_.integer("the tag of a physical group");
+    in_.skip_white();
+  }
+  const int line = in_.line();
+  const std::string_view rest = in_.rest_of_line();
+  const auto first = rest.find('"'), last = rest.rfind('"');
+  if (first == std::string_view::npos || last == first || dimension < no_dimension || dimension > 3) {
+    fail(fmt::format("a physical name of line {} must read: dimension (0 to 3), tag, name in quotes", line));
+  }
+  std::string& name = names_[{static_cast<int>(dimension), tag}];
+  const std::string_view found = rest.substr(first + 1, last - first - 1);
+  if (dimension == no_dimension && !name.empty() && name != found) {
+    fail(
+        fmt::format("the physical groups '{}' and '{}' both have the tag {}, and without dimensions it is not known "
+                    "which is which; save as 4.1 or 2.2 (in Gmsh: -format msh41)",
+                    printable(name), printable(found), tag));
+  }
+  name = found;
 }
 
 void GmshReader::read_entities() {
@@ -305,8 +325,8 @@ const GmshElement& GmshReader::element(std::int64_t type, std::int64_t number) {
 }
 
 std::string GmshReader::group_name(int dimension, std::int64_t tag) const {
-  const auto name = names_.find({dimension, tag});
-  if (name != names_.end() && !name->second.empty()) return name->second;
+  for (const int of : {dimension, no_dimension})
+    if (const auto name = names_.find({of, tag}); name != names_.end() && !name->second.empty()) return name->second;
   constexpr std::array<const char*, 3> prefix{"points", "boundary", "region"};
   return fmt::format("{}_{}", prefix[static_cast<std::size_t>(dimension)], tag);
 }
@@ -461,9 +481,9 @@ ImportedMesh GmshReader::read() {
       skip_section(section);
     }
   }
-  if (version_ == 0) fail("the file has no $MeshFormat: it is not a mesh of Gmsh, or empty");
-  if (!has_nodes_) fail("the file has no $Nodes: it is truncated, or nothing was meshed; save the mesh again");
-  if (!has_elements_) fail("the file has no $Elements: it is truncated, or nothing was meshed; save the mesh again");
+  if (version_ == 0) fail("the file has no $MeshFormat, with which a mesh of Gmsh begins");
+  if (!has_nodes_) fail("the file has no $Nodes; save the mesh again, after meshing it (in Gmsh: -2)");
+  if (!has_elements_) fail("the file has no $Elements; save the mesh again, after meshing it (in Gmsh: -2)");
   return builder_.finish();
 }
 

@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "scabo/files/cell_shape.hpp"
+#include "scabo/files/folded_cell.hpp"
 #include "scabo/files/side_table.hpp"
 #include "scabo/files/text_cursor.hpp"
 
@@ -69,8 +70,14 @@ void MeshBuilder::fail(const FilePlace& at, const std::string& message) const {
   fail_in_file(files_[index(at.file)], at.line, 1, message);
 }
 
+std::string MeshBuilder::shown(std::int64_t number) const {
+  const std::size_t copy = copies_.empty() || number < 0 ? 0 : static_cast<std::size_t>(number / spacing_);
+  if (copy == 0 || copy > copies_.size()) return fmt::format("{}", number);
+  return fmt::format("{} of '{}'", number % spacing_, printable(copies_[copy - 1]));
+}
+
 std::string MeshBuilder::label(const RawCell& cell) const {
-  return fmt::format("cell {}{}", cell.number, from_zero_ ? " (counted from 0)" : "");
+  return fmt::format("cell {}{}", shown(cell.number), from_zero_ ? " (counted from 0)" : "");
 }
 
 void MeshBuilder::fail(const RawCell& cell, const std::string& message) const {
@@ -189,7 +196,8 @@ void MeshBuilder::find_nodes(ImportedMesh& mesh) const {
   const NumberIndex by_number(numbers_);
   if (const auto& repeated = by_number.repeated()) {
     fail(node_places_[index(repeated->second)],
-         fmt::format("node {} is defined twice{}; give each node its own number", numbers_[index(repeated->first)],
+         fmt::format("node {} is defined twice{}; give each node its own number",
+                     shown(numbers_[index(repeated->first)]),
                      node_places_[index(repeated->first)].line > 0
                          ? fmt::format(" (first in line {})", node_places_[index(repeated->first)].line)
                          : ""));
@@ -207,7 +215,7 @@ void MeshBuilder::find_nodes(ImportedMesh& mesh) const {
       const std::int64_t number = cell_nodes_[raw.first + i];
       cell.nodes[i] = by_number.find(number);
       if (cell.nodes[i] < 0) {
-        fail(raw, fmt::format("has node {}, which is not in the file; add the node or remove the cell", number));
+        fail(raw, fmt::format("has node {}, which is not in the file; add the node or remove the cell", shown(number)));
       }
     }
     if (has_repeated_node(cell.nodes)) {
@@ -261,7 +269,7 @@ void MeshBuilder::check_plane(const std::vector<int>& original) const {
   const bool other = high[0] - low[0] <= plane_tolerance * size || high[1] - low[1] <= plane_tolerance * size;
   fail(node_places_[highest],
        fmt::format("the mesh is not in a plane z = constant: node {} has z = {}, node {} has z = {}; {}",
-                   numbers_[lowest], low[2], numbers_[highest], high[2],
+                   shown(numbers_[lowest]), low[2], shown(numbers_[highest]), high[2],
                    other ? "turn it into the xy plane" : "Scabo reads plane meshes only"));
 }
 
@@ -277,23 +285,18 @@ void MeshBuilder::check_shapes(ImportedMesh& mesh, const std::vector<int>& origi
     for (const int node : cell.nodes) points.push_back(mesh.nodes[index(node)]);
     const auto folded = folded_at(cell.kind, points);
     if (!folded) continue;
-    const bool polygon = cell.kind == CellKind::polygon || cell.kind == CellKind::quadratic_polygon;
-    const bool middle = *folded >= cell.corners();
-    std::string numbers;
+    std::vector<std::int64_t> nodes;
     for (const int node : cell.nodes) {
-      if (numbers.size() > 100) {
-        numbers += " ...";
-        break;
-      }
-      numbers += fmt::format(" {}", numbers_[index(original[index(node)])]);
+      const std::int64_t number = numbers_[index(original[index(node)])];
+      nodes.push_back(copies_.empty() ? number : number % spacing_);
     }
-    const std::int64_t node = numbers_[index(original[index(cell.nodes[index(*folded)])])];
+    std::string list;
+    for (const std::int64_t node : nodes) {
+      list += list.size() > 100 ? " ..." : fmt::format(" {}", node);
+      if (list.ends_with("...")) break;
+    }
     fail(cells_[c],
-         fmt::format("({}, nodes{}) is folded: {} at {}node {}; {}", name_of(cell.kind), numbers,
-                     polygon ? "its boundary meets itself or has no area" : "its Jacobian is not positive",
-                     middle ? "middle " : "", node,
-                     is_quadratic(cell.kind) ? "move its nodes: a middle node belongs between the quarters of its side"
-                                             : "put its nodes in order around it, or mesh again"));
+         fmt::format("({}, nodes{}) {}", name_of(cell.kind), list, why_folded(cell.kind, points, nodes, *folded)));
   }
 }
 
@@ -303,7 +306,7 @@ void MeshBuilder::make_sets(ImportedMesh& mesh, const std::vector<int>& original
   if (const auto conflict = table.conflict()) {
     const RawCell& first = cells_[index(conflict->first.cell)];
     const Facet side = side_of(mesh.cells[index(conflict->first.cell)], conflict->first.side);
-    const auto number = [&](int node) { return numbers_[index(original[index(node)])]; };
+    const auto number = [&](int node) { return shown(numbers_[index(original[index(node)])]); };
     const std::string where = fmt::format("and {} share the side from node {} to node {}", label(first),
                                           number(side.start), number(side.end));
     const RawCell& second = cells_[index(conflict->second.cell)];

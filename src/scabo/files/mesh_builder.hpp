@@ -74,6 +74,12 @@ class MeshBuilder {
   /// The nodes of a cell as they were given.
   std::span<const std::int64_t> cell_nodes(int cell) const;
 
+  /// In messages the number k + (i + 1) spacing is `k of 'names[i]'`.
+  void name_copies(std::int64_t spacing, const std::vector<std::string>& names) {
+    spacing_ = spacing;
+    copies_ = names;
+  }
+
   /// Throws InputError for what the header of ImportedMesh excludes.
   ImportedMesh finish();
   /// After `finish`: number in the file of each node of the mesh.
@@ -111,6 +117,7 @@ class MeshBuilder {
     return entry->second;
   }
 
+  std::string shown(std::int64_t number) const;
   std::string label(const RawCell& cell) const;
   [[noreturn]] void fail(const RawCell& cell, const std::string& message) const;
 
@@ -126,6 +133,8 @@ class MeshBuilder {
 
   std::vector<std::string> files_;
   bool from_zero_;
+  std::int64_t spacing_ = 0;
+  std::vector<std::string> copies_;
   std::vector<std::int64_t> numbers_, kept_numbers_;
   std::vector<double> coordinates_;  // three per node
   std::vector<FilePlace> node_places_;

@@ -2,14 +2,14 @@
 
 #include <png.h>
 
-#include <cerrno>
 #include <csetjmp>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "scabo/base/error.hpp"
+#include "scabo/files/bytes_of_file.hpp"
 
 namespace scabo::files {
 
@@ -79,8 +79,10 @@ Image read_png(const std::string& file) {
   const auto refuse = [&](const std::string& reason) -> InputError {
     return InputError(file, {{{}, "the image cannot be read: " + reason}});
   };
-  const std::unique_ptr<std::FILE, CloseFile> input(std::fopen(file.c_str(), "rb"));
-  if (!input) throw refuse(std::strerror(errno));
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(file, error);
+  const std::unique_ptr<std::FILE, CloseFile> input(is_file ? std::fopen(file.c_str(), "rb") : nullptr);
+  if (!input) throw refuse(why_unreadable(file));
   unsigned char signature[8] = {};
   if (std::fread(signature, 1, 8, input.get()) != 8 || png_sig_cmp(signature, 0, 8) != 0)
     throw refuse("it is not a PNG file");

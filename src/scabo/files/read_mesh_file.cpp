@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "scabo/base/impossible_path.hpp"
 #include "scabo/files/abaqus.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/bytes_of_file.hpp"
@@ -36,9 +35,8 @@ std::string_view readable(std::string_view bytes, const std::string& path) {
 }
 
 std::string bytes_at(const std::string& path) {
-  if (const std::string why = impossible_path(path); !why.empty()) fail_in_file(path, 0, 0, why);
   std::optional<std::string> bytes = bytes_of_file(path);
-  if (!bytes) fail_in_file(path, 0, 0, "there is no such file, or it cannot be read; correct its name");
+  if (!bytes) fail_in_file(path, 0, 0, why_unreadable(path));
   return std::move(*bytes);
 }
 

@@ -51,7 +51,7 @@ class VtuDecoder {
 
  private:
   static constexpr const char* truncated =
-      "ends too early: the file is truncated, or its sizes are wrong; write it again";
+      "ends before the size that it announces; write it again";
   static constexpr const char* too_many =
       "has more values than NumberOfPoints and NumberOfCells allow; write the file again";
 

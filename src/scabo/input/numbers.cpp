@@ -96,16 +96,16 @@ std::variant<double, std::string> parse_number(std::string_view text) {
     // from_chars does not report which end of the range was exceeded.
     const auto exponent = lower(digits).find("e-");
     if (exponent != std::string::npos)
-      return fmt::format("'{}' is smaller in size than 1e-100: write 0, or check the units", shown);
-    return fmt::format("'{}' is larger in size than 1e100: check the value and its units", shown);
+      return fmt::format("'{}' is smaller in size than 1e-100: write 0 or a larger number", shown);
+    return fmt::format("'{}' is larger in size than 1e100: write a smaller number", shown);
   }
   if (code != std::errc() || end != digits.data() + digits.size()) {
     return fmt::format("must be a number, not '{}'", shown);
   }
   if (std::abs(value) > 1e100)
-    return fmt::format("'{}' is larger in size than 1e100: check the value and its units", shown);
+    return fmt::format("'{}' is larger in size than 1e100: write a smaller number", shown);
   if (value != 0.0 && std::abs(value) < 1e-100)
-    return fmt::format("'{}' is smaller in size than 1e-100: write 0, or check the units", shown);
+    return fmt::format("'{}' is smaller in size than 1e-100: write 0 or a larger number", shown);
   return value == 0.0 ? 0.0 : value;  // no -0
 }
 

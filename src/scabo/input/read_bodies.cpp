@@ -22,9 +22,7 @@ int corner_at(const Outline& outline, const Vec2& point) {
 }
 
 /// `size: auto`.
-bool is_automatic(const Value& value) {
-  return value.node->kind == Node::Kind::scalar && value.node->text == "auto";
-}
+bool is_automatic(const Value& value) { return value.node->kind == Node::Kind::scalar && value.node->text == "auto"; }
 
 /// Of the first mesh of a body whose size follows from a wanted error.
 double first_size(const Outline* outline) {
@@ -36,8 +34,9 @@ double first_size(const Outline* outline) {
 
 void check_automatic_sizes(Reading& reading) {
   for (const Value& size : reading.automatic_sizes)
-    reading.report.error(size, "follows from a wanted error, and none is given: add 'tolerance' to this mesh, as in "
-                               "tolerance: 0.01, or a tolerance of one number to the model");
+    reading.report.error(size,
+                         "follows from a wanted error, and none is given: add 'tolerance' to this mesh, as in "
+                         "tolerance: 0.01, or a tolerance of one number to the model");
 }
 
 /// `refine: [{near: [0, 0], size: 0.01}, {on: bore, size: 0.02, growth: 0.1}]`.
@@ -298,7 +297,19 @@ void read_body(Reading& reading, const Entry& entry) {
     reading.rigid_known = false;
     state.touched = true;
   } else if (from_file) {
-    read_imported_body(reading, map, *map.get("mesh"), body, state);
+    std::vector<ReadBody> parts =
+        read_imported_bodies(reading, map, *map.get("mesh"), {std::move(body), std::move(state)});
+    if (parts.size() > 1) {
+      if (const auto states = read_stages(reading, map, parts.front().state, 0, 0))
+        for (ReadBody& part : parts) {
+          part.state.added = states->front().added;
+          part.state.removed = states->front().removed;
+        }
+      for (ReadBody& part : parts) add_body(reading, std::move(part.body), part.state);
+      return;
+    }
+    body = std::move(parts.front().body);
+    state = std::move(parts.front().state);
   } else {
     // Also an image that could not be read names the materials.
     if (image != nullptr) map.refuse("material", "the image names the materials: leave 'material' out");

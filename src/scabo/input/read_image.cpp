@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iterator>
+#include <string_view>
 
 #include "scabo/files/png.hpp"
 #include "scabo/input/reading.hpp"
@@ -12,49 +14,128 @@ namespace {
 
 constexpr const char* image_example = "{file: core.png, pixel: 1e-4, materials: {0: matrix, 255: aggregate}}";
 
-/// Labels of an image and how many pixels have them.
-std::map<int, long> labels_of(const files::Image& image) {
+/// Levels of an image and how many pixels have them.
+std::map<int, long> levels_of(const files::Image& image) {
   std::map<int, long> count;
-  for (const int label : image.labels) ++count[label];
+  for (const int level : image.labels) ++count[level];
   return count;
 }
 
-std::string list_of(const std::map<int, long>& labels) {
+/// `0, 3-7, 255`: levels that follow each other are one range.
+std::string list_of(const std::map<int, long>& levels) {
   std::string text;
   int shown = 0;
-  for (const auto& [label, count] : labels) {
+  for (auto first = levels.begin(); first != levels.end();) {
+    auto last = first;
+    auto next = std::next(last);
+    while (next != levels.end() && next->first == last->first + 1) last = next++;
     if (shown++ == 8) return text + ", ...";
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", label);
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", first->first);
+    if (last != first) text += fmt::format("-{}", last->first);
+    first = next;
   }
   return text;
 }
 
-/// A material for each label.
-std::map<int, int> read_materials_of_labels(Reading& reading, const Value& value, const files::Image* image) {
-  std::map<int, int> materials;
-  if (value.node->kind != Node::Kind::map || value.node->entries.empty()) {
-    reading.report.error(value, "must be a map from levels of grey to materials, as in {0: matrix, 255: aggregate}");
-    return materials;
-  }
-  const std::map<int, long> labels = image != nullptr ? labels_of(*image) : std::map<int, long>{};
-  for (const MapEntry& entry : value.node->entries) {
-    const Value named{entry.value, value.path + "." + entry.key};
-    const bool number =
-        !entry.key.empty() && entry.key.size() < 6 && entry.key.find_first_not_of("0123456789") == std::string::npos;
-    if (!number) {
-      reading.report.error(named,
-                           fmt::format("'{}' is not a level of grey: write a whole number, 0 to 255", entry.key));
-      continue;
-    }
-    const int label = std::stoi(entry.key);
-    const auto material = read_material_name(reading, named);
-    if (image != nullptr && !labels.contains(label))
-      reading.report.error(named,
-                           fmt::format("no pixel of the image has the level {}: it has {}", label, list_of(labels)));
-    if (material) materials[label] = *material;
-  }
-  return materials;
+/// A key of `materials`: `128`, or `0-127` for all levels from 0 to 127.
+struct Levels {
+  int first = 0, last = 0;
+};
+
+std::optional<int> level_of(std::string_view text) {
+  if (text.empty() || text.size() > 5 || text.find_first_not_of("0123456789") != std::string_view::npos) return {};
+  return std::stoi(std::string(text));
 }
+
+std::optional<Levels> levels_of(std::string_view key) {
+  const std::size_t dash = key.find('-');
+  const auto first = level_of(key.substr(0, dash));
+  const auto last = dash == std::string_view::npos ? first : level_of(key.substr(dash + 1));
+  if (!first || !last || *last < *first) return {};
+  return Levels{*first, *last};
+}
+
+/// The materials of the levels that the image has, and the levels that are named.
+class LevelReader {
+ public:
+  LevelReader(Reading& reading, const files::Image* image) : reading_(reading) {
+    if (image != nullptr) present_ = levels_of(*image);
+  }
+
+  std::map<int, int> read(const Value& value) {
+    if (value.node->kind != Node::Kind::map || value.node->entries.empty()) {
+      reading_.report.error(value, "must be a map from levels of grey to materials, as in {0: matrix, 255: aggregate}");
+      return {};
+    }
+    const std::size_t before = reading_.report.count();
+    for (const MapEntry& entry : value.node->entries) read(entry.key, Value{entry.value, value.path + "." + entry.key});
+    if (reading_.report.count() == before && materials_.empty() && !present_.empty())
+      reading_.report.error(value, "no pixel of the image gets a material: name one for a level that it has");
+    tell_of_empty_pixels(value);
+    return materials_;
+  }
+
+ private:
+  void read(const std::string& key, const Value& named) {
+    const auto levels = levels_of(key);
+    if (!levels)
+      return reading_.report.error(named, fmt::format("'{}' is not a level of grey: write a whole number, 0 to 255, or "
+                                                      "a range as in 0-127",
+                                                      key));
+    const bool empty = stands_for_empty(named);
+    const auto material = empty ? std::nullopt : read_material_name(reading_, named);
+    const auto first = present_.lower_bound(levels->first), last = present_.upper_bound(levels->last);
+    if (first == last) tell_of_absence(key, *levels, named);
+    for (auto level = first; level != last; ++level) {
+      const auto [before, is_new] = named_in_.emplace(level->first, key);
+      if (!is_new)
+        return reading_.report.error(named, fmt::format("the level {} is also one of '{}': give every level once",
+                                                        level->first, before->second));
+      if (material) materials_[level->first] = *material;
+    }
+  }
+
+  /// Pixels that are meant to be empty, unless a material has this name.
+  bool stands_for_empty(const Value& named) const {
+    return named.node->kind == Node::Kind::scalar && named.node->text == "empty" &&
+           !reading_.index_of_material.contains(named.node->text);
+  }
+
+  /// A range may be a threshold for several images; a single level is meant to exist.
+  void tell_of_absence(const std::string& key, const Levels& levels, const Value& named) {
+    if (present_.empty()) return;
+    if (levels.first == levels.last)
+      return reading_.report.error(
+          named, fmt::format("no pixel of the image has the level {}: it has {}", key, list_of(present_)));
+    reading_.model.warnings.push_back(
+        {WarningKind::input, named.path,
+         fmt::format("{}: no pixel of the image has one of these levels: it has {}", named.path, list_of(present_))});
+  }
+
+  void tell_of_empty_pixels(const Value& value) {
+    std::map<int, long> left;
+    long pixels = 0, all = 0;
+    for (const auto& [level, count] : present_) {
+      all += count;
+      if (named_in_.contains(level)) continue;
+      left.emplace(level, count);
+      pixels += count;
+    }
+    if (left.empty()) return;
+    reading_.model.warnings.push_back(
+        {WarningKind::input, value.path,
+         fmt::format("{}: {} of {} pixels are empty, because their {} no material: give them one, alone or in a range "
+                     "as in 0-127, or write 'empty' for levels that are to stay so",
+                     value.path, pixels, all,
+                     left.size() == 1 ? fmt::format("level, {}, has", list_of(left))
+                                      : fmt::format("{} levels, {}, have", left.size(), list_of(left)))});
+  }
+
+  Reading& reading_;
+  std::map<int, long> present_;          // levels of the image; empty if it could not be read
+  std::map<int, std::string> named_in_;  // the key with a level
+  std::map<int, int> materials_;
+};
 
 }  // namespace
 
@@ -78,15 +159,16 @@ std::optional<Outline> read_image(Reading& reading, const Value& value, Body& bo
     shape.pixel = read_number(report, *pixel).value_or(1.0);
     if (!(shape.pixel > 0.0)) report.error(*pixel, "must be greater than 0: it is the length of the side of a pixel");
   }
-  Vec2 corner = Vec2::Zero();
-  if (const auto at = map.get("corner")) corner = read_vector(report, *at).value_or(Vec2::Zero());
+  if (const auto at = map.get("corner")) shape.corner = read_vector(report, *at).value_or(Vec2::Zero());
   if (const auto materials = map.need("materials"))
-    shape.materials = read_materials_of_labels(reading, *materials, image.get());
+    shape.materials = LevelReader(reading, image.get()).read(*materials);
   if (report.count() > before || image == nullptr) return {};
   shape.image = image;
   body.image = shape;
   body.material = shape.materials.begin()->second;
-  return rectangle_outline(corner, shape.pixel * Vec2(image->width, image->height), value.source());
+  const PixelRectangle all = rectangle_of(shape);
+  return rectangle_outline(shape.corner + shape.pixel * Vec2(all.left, all.bottom),
+                           shape.pixel * Vec2(all.right - all.left, all.top - all.bottom), value.source());
 }
 
 }  // namespace scabo::input

@@ -92,6 +92,12 @@ constexpr const char* about_units =
     "leave it out, and write all numbers in one consistent set of units, such as m, N, Pa, kg/m3 or mm, N, MPa, t/mm3; "
     "`scabo plot --units m,N` and `scabo report --units m,N` label pictures";
 
+void collect_texts(const Node& node, std::set<std::string>& texts) {
+  if (node.kind == Node::Kind::scalar) texts.insert(node.text);
+  for (const NodePtr& item : node.items) collect_texts(*item, texts);
+  for (const MapEntry& entry : node.entries) collect_texts(*entry.value, texts);
+}
+
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(
@@ -110,6 +116,8 @@ void read_sections(Reading& reading, const Value& root) {
 
   reading.materials_known = map.has("materials");
   if (const auto materials = map.get("materials")) read_materials(reading, *materials);
+  for (const char* section : {"contacts", "ties"})
+    if (const MapEntry* entry = root.node->find(section)) collect_texts(*entry->value, reading.texts_of_contacts);
   if (const auto bodies = map.need("bodies")) {
     read_bodies(reading, *bodies);
   } else {
@@ -235,6 +243,7 @@ Model read_tree(Reading& reading, const NodePtr& tree, const std::string& file) 
 Document parse_document(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
   Reading reading;
   reading.model.file = file;
+  reading.model.text = std::make_shared<const std::string>(text);
   std::vector<Diagnostic> mistakes;
   NodePtr root = parse_yaml(text, mistakes);
   for (const Diagnostic& mistake : mistakes) reading.report.error(mistake.at, mistake.message);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "scabo/input/foreign_keys.hpp"
 #include "scabo/input/numbers.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/model/wording.hpp"
@@ -404,6 +405,11 @@ MapReader::MapReader(Report& report, Value map, std::vector<std::string> known, 
       continue;
     }
     const std::string synonym = key_of_synonym(entry.key, absent);
+    if (const std::string about = synonym.empty() ? about_foreign_key(entry.key, known) : ""; !about.empty()) {
+      broken_ = true;
+      report_.error(at, fmt::format("unknown key {}: {}", quoted_name(entry.key), about));
+      continue;
+    }
     const std::string nearest = synonym.empty() ? nearest_name(entry.key, absent) : synonym;
     const std::string hint = nearest.empty() ? suggestion("", known) : fmt::format(" (did you mean '{}'?)", nearest);
     if (nearest.empty()) broken_ = true;

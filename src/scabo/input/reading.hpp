@@ -83,6 +83,9 @@ struct Reading {
   /// `fit_in` of contacts, by their entry: the names of steps, which are read after contacts.
   std::vector<std::pair<std::string, Value>> fits_of_contacts;
 
+  /// All texts within `contacts` and `ties`, which are read after the bodies whose sides they name.
+  std::set<std::string> texts_of_contacts;
+
   /// Mesh files by their paths; null for a broken one, which has been reported.
   std::map<std::string, std::shared_ptr<const files::ImportedMesh>> mesh_files;
 
@@ -142,8 +145,16 @@ void read_regions(Reading& reading, const Value& value, Body& body);
 MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outline, const Crack* crack);
 /// Whether the `mesh` of a body names a file.
 bool is_from_file(const std::optional<Value>& mesh);
+/// A body, and what the reader knows about it.
+struct ReadBody {
+  Body body;
+  BodyState state;
+};
 /// Shape, mesh and materials of an elastic body from a mesh file. `of_body`: the map of the body; `value`: its `mesh`.
-void read_imported_body(Reading& reading, const MapReader& of_body, const Value& value, Body& body, BodyState& state);
+/// `read` has what is known before. Several bodies, `wall_1`, `wall_2`, ..., where the cells are not all joined by
+/// sides.
+std::vector<ReadBody> read_imported_bodies(Reading& reading, const MapReader& of_body, const Value& value,
+                                           ReadBody read);
 /// `added` and `removed` of a body and its `copies` (0: none; with rows and columns `rows`, else 0): the names of
 /// steps. One state for each copy; nothing if they are broken.
 std::optional<std::vector<BodyState>> read_stages(Reading& reading, const MapReader& map, const BodyState& state,

@@ -6,8 +6,8 @@
 
 namespace scabo::linalg {
 
-/// min |v - aim| subject to B v >= h, where v = 0 is admissible (h <= 0); a point on the way from 0 to it where
-/// rounding leaves it outside.
+/// min |v - aim| subject to B v >= h. The active conditions that non-negative least squares finds are put right where
+/// rounding has left one out; where no v is admissible, one that is by little outside.
 Vector nearest_within(const Matrix& B, const Vector& h, const Vector& aim);
 
 }  // namespace scabo::linalg

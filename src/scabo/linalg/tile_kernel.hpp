@@ -1,9 +1,9 @@
 // Products and triangular solves for matrices of up to a few hundred rows, in tiles that fit in the vector registers.
 //
 // BLAS first packs its operands and solves triangular systems slowly: at 40 rows it reaches a quarter of the speed of
-// these kernels, at 160 half (docs/methods/02). The same source (tile_kernel_lanes.hpp) is compiled once for each
-// instruction set; those that the processor supports are determined at run time. Matrices are column-major; a stride is
-// the distance between columns.
+// these kernels, at 160 half (docs/methods/02_ring_doubling.md). The same source (tile_kernel_lanes.hpp) is compiled
+// once for each instruction set; those that the processor supports are determined at run time. Matrices are
+// column-major; a stride is the distance between columns.
 #pragma once
 
 namespace scabo::linalg {

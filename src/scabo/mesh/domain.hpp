@@ -1,5 +1,5 @@
 // What a mesher of many cells is given, and what it gives: straight-sided polygons. Their sides are made line elements
-// of any order, curved where they lie on arcs, afterwards (cells.hpp).
+// of any order, curved where they lie on arcs, afterwards (many_cells.hpp).
 #pragma once
 
 #include <functional>

@@ -141,9 +141,56 @@ class Blocks {
   std::vector<Level> levels_;
 };
 
+/// A side of a cell on the rectangle, counter-clockwise around the cells.
+struct SideOnRectangle {
+  int from = -1, to = -1;
+  double at = 0.0;  // of `from`, along its side of the rectangle
+};
+
+/// The sides of cells on the four sides of the smallest rectangle around them, each from its start on.
+std::array<std::vector<SideOnRectangle>, 4> sides_on_rectangle(const PolygonMesh& mesh, const Vec2& low,
+                                                               const Vec2& high) {
+  std::array<std::vector<SideOnRectangle>, 4> sides;
+  for (const PolygonCell& cell : mesh.cells)
+    for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+      const int from = cell.nodes[i], to = cell.nodes[(i + 1) % cell.nodes.size()];
+      const Vec2 &a = mesh.nodes[static_cast<std::size_t>(from)], &b = mesh.nodes[static_cast<std::size_t>(to)];
+      // Nodes are whole multiples of half the smallest cell, so that these comparisons are exact.
+      if (a.y() == low.y() && b.y() == low.y()) sides[0].push_back({from, to, a.x()});
+      if (a.x() == high.x() && b.x() == high.x()) sides[1].push_back({from, to, a.y()});
+      if (a.y() == high.y() && b.y() == high.y()) sides[2].push_back({from, to, -a.x()});
+      if (a.x() == low.x() && b.x() == low.x()) sides[3].push_back({from, to, -a.y()});
+    }
+  for (auto& side : sides)
+    std::sort(side.begin(), side.end(), [](const SideOnRectangle& a, const SideOnRectangle& b) { return a.at < b.at; });
+  return sides;
+}
+
+/// The chains of sides along the rectangle, and the nodes at its corners.
+void add_lines(ImageMesh& mesh) {
+  Vec2 low = mesh.nodes.front(), high = low;
+  for (const Vec2& node : mesh.nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  const auto sides = sides_on_rectangle(mesh, low, high);
+  const std::array<Vec2, 4> corners{low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())};
+  for (std::size_t side = 0; side < sides.size(); ++side)
+    for (const SideOnRectangle& at : sides[side]) {
+      std::vector<std::size_t>& lines = mesh.lines_of_side[side];
+      if (lines.empty() || mesh.left[lines.back()].back() != at.from) {
+        lines.push_back(mesh.left.size());
+        mesh.left.push_back({at.from});
+      }
+      mesh.left[lines.back()].push_back(at.to);
+      if (mesh.nodes[static_cast<std::size_t>(at.from)] == corners[side]) mesh.corners[side] = at.from;
+    }
+  mesh.right = mesh.left;
+}
+
 }  // namespace
 
-PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options) {
+ImageMesh image_mesh(const files::Image& image, const ImageOptions& options) {
   ensure(image.width > 0 && image.height > 0 && image.labels.size() == std::size_t(image.width) * image.height,
          "an image without pixels, or with a wrong number of labels");
   const double largest = options.size > 0.0 ? options.size / options.pixel * (1.0 + 1e-9) : 1e9;
@@ -166,7 +213,7 @@ PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options) {
 
   const std::vector<int> leaves = forest.leaves();
   const quadtree::ForestNodes nodes(forest, leaves);
-  PolygonMesh mesh;
+  ImageMesh mesh;
   mesh.nodes = nodes.positions;
   std::vector<int> polygon;
   for (int index : leaves) {
@@ -177,19 +224,7 @@ PolygonMesh image_mesh(const files::Image& image, const ImageOptions& options) {
   }
   if (mesh.cells.empty()) throw InputError({}, {{{}, "the image has no pixel of any material"}});
 
-  // Nodes are whole multiples of half the smallest cell, so that these comparisons are exact.
-  const Vec2 size = options.pixel * Vec2(image.width, image.height);
-  mesh.left.resize(4);
-  for (int line = 0; line < 4; ++line) {
-    const int along = line % 2;  // x on the bottom and top
-    const double across = line == 1 || line == 2 ? size[1 - along] : 0.0;
-    for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
-      if (mesh.nodes[k][1 - along] == across) mesh.left[line].push_back(int(k));
-    }
-    std::sort(mesh.left[line].begin(), mesh.left[line].end(), [&](int a, int b) {
-      return line < 2 ? mesh.nodes[a][along] < mesh.nodes[b][along] : mesh.nodes[a][along] > mesh.nodes[b][along];
-    });
-  }
+  add_lines(mesh);
   mesh.right = mesh.left;
   return mesh;
 }

@@ -52,8 +52,8 @@ struct MatchedSide {
   }
 };
 
-/// The side of a contact at `place`, an edge of an elastic body, moved by `moved`.
-MatchedSide side_of(const model::Model& model, const model::Place& place, const std::vector<BodyMesh>& bodies,
+/// The side of a contact at an edge of an elastic body, moved by `moved`.
+MatchedSide side_of(const model::Model& model, int body, int edge, const std::vector<BodyMesh>& bodies,
                     const FixedNodes& fixed, const Vec2& moved);
 
 /// The two sides of a contact between elastic bodies, always in the same order, however the contact names them.

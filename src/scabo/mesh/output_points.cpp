@@ -131,7 +131,8 @@ void add_grid(const model::Model& model, const std::vector<Box>& boxes, const mo
   if (grid.spacing) {
     Box box;
     for (std::size_t b = 0; b < model.bodies.size(); ++b)
-      if (grid.body < 0 ? !model.bodies[b].rigid : static_cast<int>(b) == grid.body) box.add(geometry::box_of(model.bodies[b].outline));
+      if (grid.body < 0 ? !model.bodies[b].rigid : static_cast<int>(b) == grid.body)
+        box.add(geometry::box_of(model.bodies[b].outline));
     std::array<double, 2> counts{};
     for (const int k : {0, 1})
       counts[static_cast<std::size_t>(k)] =
@@ -161,15 +162,12 @@ void add_grid(const model::Model& model, const std::vector<Box>& boxes, const mo
 
 namespace {
 
-/// Whether the pixel at a point has a material.
+/// Whether the pixel at a point of the outline has a material.
 bool shows_material(const model::Body& body, const Vec2& point) {
-  const files::Image& image = *body.image->image;
-  const Vec2 at = (point - body.outline.edges.front().start) / body.image->pixel;
-  const int column = std::clamp(static_cast<int>(at.x()), 0, image.width - 1);
-  const int row = image.height - 1 - std::clamp(static_cast<int>(at.y()), 0, image.height - 1);
-  return body.image->materials.contains(
-      image.labels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                   static_cast<std::size_t>(column)]);
+  const model::ImageShape& shape = *body.image;
+  const Vec2 at = (point - shape.corner) / shape.pixel;
+  return shape.has_material(std::clamp(static_cast<int>(at.x()), 0, shape.image->width - 1),
+                            std::clamp(static_cast<int>(at.y()), 0, shape.image->height - 1));
 }
 
 }  // namespace

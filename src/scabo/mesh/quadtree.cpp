@@ -48,6 +48,7 @@ class Grower {
       std::vector<Vec2> trouble;
       const std::vector<int> leaves = forest_.leaves();
       Pieces pieces = cut_leaves(forest_, leaves, lists_, curves_, regions_, patches_, trouble);
+      if (options_.curved_sides) pieces.curved = domain_.lines;
       if (trouble.empty()) {
         collapse_short_sides(pieces, options_.shortest_side);
         divide_unseen_cells(pieces);
@@ -58,7 +59,7 @@ class Grower {
       last_trouble_ = trouble.front();
       if (!divide_at(trouble)) break;
     }
-    give_up("lines are too close to each other, or meet elsewhere than at their ends,");
+    give_up("no division of the squares was found in which lines cut each into sound cells,");
   }
 
  private:

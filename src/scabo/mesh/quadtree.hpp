@@ -21,6 +21,8 @@ struct QuadtreeOptions {
   /// In parts of the size of a cell, 0 to 0.3: sides that cutting makes shorter than this are collapsed where the cells
   /// around remain well shaped.
   double shortest_side = 0.15;
+  /// Sides on arcs are going to be arcs: cells see their hollow sides, too. Otherwise they see the chords.
+  bool curved_sides = false;
   /// Wanted size from which the roots are made; empty: that of the domain. Meshes of the same roots are nested where no
   /// line cuts them.
   std::function<double(const Vec2&)> size_of_roots = {};
@@ -35,7 +37,8 @@ struct QuadtreeOptions {
 /// there have no nodes inside this cell; its sides know their regions. Points at which more than one crack or part of
 /// the outside ends keep their node.
 ///
-/// Throws InputError if lines are too close to each other, or meet elsewhere than at their ends.
+/// Throws InputError if lines cut squares of every size into parts that are no cells: they are too close to each other,
+/// or meet elsewhere than at their ends.
 PolygonMesh quadtree_mesh(const Domain& domain, const QuadtreeOptions& options = {});
 
 }  // namespace scabo::mesh

@@ -9,9 +9,9 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/types.hpp"
-#include "scabo/files/image.hpp"
 #include "scabo/files/imported_mesh.hpp"
 #include "scabo/geometry/outline.hpp"
+#include "scabo/model/image_shape.hpp"
 
 namespace scabo::model {
 
@@ -75,13 +75,6 @@ struct Region {
   Source source;
 };
 
-/// A body that an image shows: labels of pixels stand for materials.
-struct ImageShape {
-  std::shared_ptr<const files::Image> image;
-  double pixel = 0.0;            ///< length of the side of a pixel, > 0
-  std::map<int, int> materials;  ///< index into Model::materials of each label; other labels are empty
-};
-
 struct Body {
   std::string name;
   bool rigid = false;                 ///< an obstacle or a punch, without material and mesh
@@ -95,7 +88,7 @@ struct Body {
   /// their order.
   std::shared_ptr<const files::ImportedMesh> imported;
   std::vector<int> region_materials;  ///< of imported->regions, index into Model::materials
-  std::optional<ImageShape> image;    ///< divided by a quadtree; the outline is its rectangle
+  std::optional<ImageShape> image;    ///< divided by a quadtree; the outline is its rectangle_of()
   bool outside = false;               ///< unbounded: the material lies outside the shape; the outline runs clockwise
   std::optional<Vec2> reference;      ///< outside body: displacements are relative to this point
   /// Staged construction: index into Model::steps of the step in which the body is put in place (0: it is there from

@@ -49,6 +49,20 @@ bool check_side(Checking& checking, const std::string& path, const char* what, c
   return true;
 }
 
+/// Sides of elastic bodies are matched as one line each: empty pixels must not interrupt the edge of an image.
+bool check_unbroken(Checking& checking, const std::string& path, const char* what, const Place& side,
+                    const Place& other) {
+  const Body& body = checking.body(side.body);
+  if (side.kind != Place::Kind::edge || !body.image || checking.body(other.body).rigid) return true;
+  if (is_unbroken(*body.image, side.index)) return true;
+  checking.error(
+      path, "",
+      fmt::format("empty pixels interrupt '{}', but the {} of two elastic bodies needs an unbroken edge: give "
+                  "these pixels a material, or draw the body as a polygon",
+                  text_of(checking.model, side), what));
+  return false;
+}
+
 /// A contact with a face of a crack is one between its two faces.
 bool check_faces(Checking& checking, const std::string& path, const char* what, const Place& a, const Place& b) {
   if (std::string_view(what) == "tie") {
@@ -83,7 +97,8 @@ bool check_sides(Checking& checking, const std::string& path, const char* what, 
                     std::string_view(what) == "tie" ? "tied to" : "in contact with", checking.body(side_a.body).name));
     return false;
   }
-  return a && b;
+  return a && b && check_unbroken(checking, path + ".between.0", what, side_a, side_b) &&
+         check_unbroken(checking, path + ".between.1", what, side_b, side_a);
 }
 
 /// The bodies of a contact are not both rigid.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/outline_checks.hpp"
 #include "scabo/geometry/pieces.hpp"
 #include "scabo/model/body_check.hpp"

@@ -29,6 +29,12 @@ bool check_corner(Checking& checking, const std::string& path, const Place& plac
                                text_of(checking.model, place)));
     return false;
   }
+  if (body.image && !corners_with_material(*body.image)[static_cast<std::size_t>(place.index)]) {
+    checking.error(path, "",
+                   fmt::format("the pixel of the image at '{}' is empty: name an edge, or a point by 'near'",
+                               text_of(checking.model, place)));
+    return false;
+  }
   for (const Crack& crack : body.cracks)
     if (crack.at == 0.0 && crack.edge == place.index) {
       checking.error(path, "",

@@ -11,7 +11,9 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "scabo/base/disjoint_sets.hpp"
 #include "scabo/geometry/box.hpp"
+#include "scabo/model/equal_sides.hpp"
 #include "scabo/model/wording.hpp"
 
 namespace scabo::model {
@@ -127,8 +129,6 @@ class OutlineMaker {
     for (const auto& set : whole.node_sets)
       if (set.nodes.size() == 1) points_.emplace(set.nodes.front(), name_from(set.name));
   }
-
-  int outer_loops() const { return outer_loops_; }
 
   ImportedBody make() {
     for (const std::string& name : names_) used_.insert(name);
@@ -357,23 +357,29 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return name_list(quoted);
 }
 
-/// `what`: the chosen cells, as in `the file`.
-std::variant<ImportedBody, std::string> body_of(const ImportedMesh& mesh, const Chosen& chosen,
-                                                const std::string& what) {
+/// Which of the chosen cells sides join: the number of the part of each, in the order of their first cells; -1 for
+/// others.
+std::vector<int> parts_of(const ImportedMesh& mesh, const Chosen& chosen, int& count) {
+  std::unordered_map<std::uint64_t, std::size_t> first;
+  DisjointSets sets(mesh.cells.size());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (int i = 0; chosen[c] && i < mesh.cells[c].corners(); ++i) {
+      const Facet side = files::side_of(mesh.cells[c], i);
+      const auto [found, is_new] = first.emplace(key_of(side.start, side.end), c);
+      if (!is_new) sets.join(found->second, c);
+    }
+  std::vector<int> part(mesh.cells.size(), -1);
+  std::unordered_map<std::size_t, int> number;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (chosen[c]) part[c] = number.emplace(sets.root(c), static_cast<int>(number.size())).first->second;
+  count = static_cast<int>(number.size());
+  return part;
+}
+
+ImportedBody body_of(const ImportedMesh& mesh, const Chosen& chosen) {
   std::vector<int> original;
   ImportedMesh part = part_of(mesh, chosen, original);
   OutlineMaker maker(mesh, chosen, part, original);
-  if (maker.outer_loops() != 1) {
-    const std::string parts =
-        fmt::format("{} has {} parts that have no side in common, but a body is connected", what, maker.outer_loops());
-    if (part.cells.size() == mesh.cells.size() && mesh.regions.size() > 1)
-      return fmt::format("{}: give one of the regions with 'region': {}", parts, quoted_list(mesh.regions));
-    std::vector<std::string> sets;
-    for (const files::CellSet& set : mesh.cell_sets)
-      if (set.cells.size() < part.cells.size()) sets.push_back(set.name);
-    return fmt::format("{}: join equal nodes when meshing, or give each part a region of its own{}", parts,
-                       sets.empty() ? "" : "; 'region' may also be one of the sets " + quoted_list(sets));
-  }
   ImportedBody body = maker.make();
   body.lines = lines_of(mesh, part, original);
   part.facet_sets = maker.take_sides();
@@ -394,18 +400,37 @@ std::string name_from(std::string_view text) {
   return name.empty() ? "_" : name;
 }
 
-std::variant<ImportedBody, std::string> imported_body(const files::ImportedMesh& mesh, int region) {
-  Chosen chosen(mesh.cells.size(), true);
-  for (std::size_t c = 0; region >= 0 && c < chosen.size(); ++c) chosen[c] = mesh.cells[c].region == region;
-  return body_of(mesh, chosen,
-                 region < 0 ? "the file" : fmt::format("region '{}'", mesh.regions[static_cast<std::size_t>(region)]));
-}
-
-std::variant<ImportedBody, std::string> imported_body_of_set(const files::ImportedMesh& mesh, int set) {
-  const files::CellSet& cells = mesh.cell_sets[static_cast<std::size_t>(set)];
-  Chosen chosen(mesh.cells.size(), false);
-  for (const int cell : cells.cells) chosen[static_cast<std::size_t>(cell)] = true;
-  return body_of(mesh, chosen, fmt::format("set '{}'", cells.name));
+std::variant<ImportedBodies, std::string> imported_bodies(const files::ImportedMesh& mesh, const CellChoice& choice,
+                                                          bool join) {
+  Chosen chosen(mesh.cells.size(), choice.set < 0);
+  for (std::size_t c = 0; choice.region >= 0 && c < chosen.size(); ++c)
+    chosen[c] = mesh.cells[c].region == choice.region;
+  if (choice.set >= 0)
+    for (const int cell : mesh.cell_sets[static_cast<std::size_t>(choice.set)].cells)
+      chosen[static_cast<std::size_t>(cell)] = true;
+  ImportedBodies made;
+  int count = 0;
+  std::vector<int> part = parts_of(mesh, chosen, count);
+  ImportedMesh joined;
+  const ImportedMesh* whole = &mesh;
+  if (join && count > 1) {
+    made.joined_nodes = join_equal_sides(mesh, part, joined);
+    if (made.joined_nodes > 0) {
+      whole = &joined;
+      part = parts_of(joined, chosen, count);
+    }
+  }
+  if (count > 1 && choice.region < 0 && choice.set < 0 && mesh.regions.size() > 1)
+    return fmt::format(
+        "the file has {} parts that have no side in common, but a body is connected: give one of the regions with "
+        "'region': {}",
+        count, quoted_list(mesh.regions));
+  for (int k = 0; k < count; ++k) {
+    Chosen of_part(chosen.size());
+    for (std::size_t c = 0; c < chosen.size(); ++c) of_part[c] = part[c] == k;
+    made.parts.push_back(body_of(*whole, of_part));
+  }
+  return made;
 }
 
 }  // namespace scabo::model

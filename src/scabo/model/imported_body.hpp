@@ -10,6 +10,9 @@
 // one furthest to the left if there are several. Sides without a set are cut where the boundary turns by more than 30
 // degrees, and at nodes that are alone in a node set, whose names are further names of corners.
 //
+// Cells of one region that are not all joined by sides are several parts, each a body. Sides of two parts that have
+// nodes of their own in the same places may be joined before (`join`).
+//
 // Names of the file are made names of Scabo: other characters become `_`. A chain of sides on one line becomes a
 // straight edge; sides with a middle node that are curved become 32 straight segments each.
 #pragma once
@@ -39,10 +42,21 @@ struct ImportedBody {
   std::map<std::string, Vec2> lost_points;  ///< names of nodes that are no corners because they lie within a named edge
 };
 
-/// The cells of region number `region`, or all if it is -1; or, as a sentence, why these are no body.
-std::variant<ImportedBody, std::string> imported_body(const files::ImportedMesh& mesh, int region);
-/// The same for the cells of cell set number `set`.
-std::variant<ImportedBody, std::string> imported_body_of_set(const files::ImportedMesh& mesh, int set);
+/// Parts of a mesh file that are bodies, in the order of their first cells.
+struct ImportedBodies {
+  std::vector<ImportedBody> parts;
+  int joined_nodes = 0;  ///< how many nodes lay in the place of another one and were joined to it
+};
+
+/// Cells of a mesh file: a region, a set of cells or all.
+struct CellChoice {
+  int region = -1, set = -1;
+};
+
+/// Bodies of the chosen cells; or, as a sentence, why these are none. `join`: whole sides of two parts in the same
+/// place become one.
+std::variant<ImportedBodies, std::string> imported_bodies(const files::ImportedMesh& mesh, const CellChoice& choice,
+                                                          bool join);
 
 /// `text` with every character that a name cannot have replaced by `_`.
 std::string name_from(std::string_view text);

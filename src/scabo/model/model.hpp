@@ -4,6 +4,7 @@
 // Units are those of the user and must be consistent; all examples use SI units (m, N, Pa, kg/m3).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,7 +55,9 @@ struct Restart {
 };
 
 struct Model {
-  std::string file;                ///< as given to the reader, for messages
+  std::string file;  ///< as given to the reader, for messages
+  /// What was read from `file`, which is read only once: it may be a pipe. Null: the model was built by code.
+  std::shared_ptr<const std::string> text;
   std::vector<std::string> files;  ///< paths of mesh files and images that were read for it
   std::string title;
   Analysis analysis;

@@ -54,9 +54,9 @@ bool Checking::number(std::string_view path, std::string_view key, double value)
   if (!std::isfinite(value))
     error(path, key, fmt::format("must be a finite number, not '{}'", value), number_text(value));
   else if (size > 1.0)
-    error(path, key, fmt::format("'{}' is larger in size than 1e100: check the value and its units", value));
+    error(path, key, fmt::format("'{}' is larger in size than 1e100: write a smaller number", value));
   else
-    error(path, key, fmt::format("'{}' is smaller in size than 1e-100: write 0, or check the units", value));
+    error(path, key, fmt::format("'{}' is smaller in size than 1e-100: write 0 or a larger number", value));
   return false;
 }
 

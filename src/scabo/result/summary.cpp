@@ -68,7 +68,8 @@ Json json_of(const contact::Certificate& certificate) {
 Json json_of(const analysis::Energy& energy) {
   return {{"external", number_or_null(energy.external)},
           {"elastic", number_or_null(energy.elastic)},
-          {"friction", number_or_null(energy.friction)}};
+          {"friction", number_or_null(energy.friction)},
+          {"friction_error", number_or_null(energy.friction_error)}};
 }
 
 Json json_of(const std::vector<std::complex<double>>& exponents) {

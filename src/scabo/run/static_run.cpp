@@ -144,7 +144,7 @@ analysis::RunOrigin origin_of(const model::Model& model, const std::vector<std::
   origin.folder = std::filesystem::current_path(error).string();
   const std::filesystem::path beside = std::filesystem::relative(model.file, output, error);
   if (!error) origin.beside = beside.string();
-  origin.files.push_back(analysis::source_file(model.file));
+  origin.files.push_back(model.text ? analysis::source_of(model.file, *model.text) : analysis::source_file(model.file));
   for (const std::string& file : model.files) origin.files.push_back(analysis::source_file(file));
   origin.settings = settings;
   origin.threads = threads;

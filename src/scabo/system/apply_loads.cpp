@@ -32,6 +32,7 @@ class Applied {
         place_(place) {}
 
   Vector nodal = Vector();      // in the numbering of the body
+  double outward = 0.0;         // Structure::outward
   element::CellLoads interior;  // empty: none
   element::InitialStress initial;
 
@@ -39,9 +40,7 @@ class Applied {
     if (body_.rigid) {
       nodal = Vector::Zero(3);
       const std::vector<Vec2> points = rigid_points(*place_, body_);
-      for (const Vec2& point : points)
-        nodal += rigid_point(point, part_.reference(), part_.lever()).transpose() * force.value /
-                 static_cast<double>(points.size());
+      for (const Vec2& point : points) add_to_rigid(point, force.value / static_cast<double>(points.size()));
       return;
     }
     const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
@@ -158,8 +157,20 @@ class Applied {
     }
     const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
     const model::Edge& edge = body_.outline.edges[static_cast<std::size_t>(place_->index)];
-    const double length = edge.length(), slope = 12.0 * moment.value / (thickness() * length * length * length);
-    const Vec2 along = (edge.end - edge.start) / length, middle = 0.5 * (edge.start + edge.end);
+    const Vec2 along = (edge.end - edge.start) / edge.length();
+    // Over the elements, between which the edge of an image may have gaps: length, first and second moment.
+    double length = 0.0, first = 0.0, second = 0.0;
+    for (const mesh::LineElement& element : at.elements) {
+      const auto position = [&](int node) {
+        return along.dot(body_mesh_.nodes[static_cast<std::size_t>(node)] - edge.start);
+      };
+      const double from = position(element.nodes.front()), to = position(element.nodes.back());
+      length += to - from;
+      first += (to * to - from * from) / 2.0;
+      second += (to * to * to - from * from * from) / 3.0;
+    }
+    const double slope = moment.value / (thickness() * (second - first * first / length));
+    const Vec2 middle = edge.start + first / length * along;
     // The normal is the direction of the edge turned clockwise.
     apply_traction(at, [&](const Vec2& x, const Vec2& n) { return Vec2(-slope * along.dot(x - middle) * n); });
   }
@@ -358,9 +369,11 @@ class Applied {
     const EdgeElements edge = elements_of(body_.outline.edges[static_cast<std::size_t>(place_->index)]);
     const Vector forces = traction_forces(edge.elements, edge.nodes, thickness(), varying.traction, varying.breaks);
     nodal = Vector::Zero(3);
-    for (std::size_t i = 0; i < edge.nodes.size(); ++i)
-      nodal +=
-          rigid_point(edge.nodes[i], part_.reference(), part_.lever()).transpose() * forces.segment<2>(place_of(i));
+    for (std::size_t i = 0; i < edge.nodes.size(); ++i) add_to_rigid(edge.nodes[i], forces.segment<2>(place_of(i)));
+  }
+  void add_to_rigid(const Vec2& point, const Vec2& force) {
+    nodal += rigid_point(point, part_.reference(), part_.lever()).transpose() * force;
+    outward += (point - part_.reference()).dot(force);
   }
 
   const model::Model& model_;
@@ -389,9 +402,11 @@ void add_pore_pressure(Structure& structure, const model::PorePressure& pores, c
       if (forces[p].size() == 0) forces[p] = Vector::Zero(structure.dofs.size(p));
       if (node >= 0)
         forces[p].segment<2>(structure.dofs.of(body, node, 0)) += force;
-      else
-        forces[p] +=
-            rigid_point(point, structure.parts[p]->reference(), structure.parts[p]->lever()).transpose() * force;
+      else {
+        const BodySystem& part = *structure.parts[p];
+        forces[p] += rigid_point(point, part.reference(), part.lever()).transpose() * force;
+        structure.outward.back()[p] += (point - part.reference()).dot(force);
+      }
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const Vec2 force = of_pairs[static_cast<Eigen::Index>(i)] * pairs[i].normal;
@@ -433,6 +448,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
   for (const model::Load& load : model.loads) {
     if (of_bodies) structure.of_bodies.emplace_back(model.bodies.size());
     std::vector<Vector>& forces = structure.loads.emplace_back(structure.parts.size());
+    structure.outward.emplace_back(structure.parts.size(), 0.0);
     std::vector<element::CellLoads>& interior = structure.interior.emplace_back(model.bodies.size());
     std::vector<element::InitialStress>& initial = structure.initial.emplace_back(model.bodies.size());
     std::vector<std::optional<double>>& pores = structure.pores.emplace_back();
@@ -459,6 +475,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
         continue;
       }
       structure.dofs.add(body, applied.nodal, forces[part]);
+      structure.outward.back()[part] += applied.outward;
       if (of_bodies) structure.of_bodies.back()[b] = applied.nodal;
       interior[b] = std::move(applied.interior);
       initial[b] = applied.initial;

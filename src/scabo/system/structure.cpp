@@ -15,6 +15,7 @@
 #include "scabo/model/side_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
+#include "scabo/system/lost_digits.hpp"
 
 namespace scabo::system {
 
@@ -313,6 +314,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
   };
   std::vector<std::size_t> elastic;
   std::vector<ElasticPart> parts;
+  std::vector<double> stiffest;  // of those on springs
   std::vector<std::vector<int>> contact_dofs = dofs_in_contacts(model, mesh, dofs);
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
     if (body_of(p).rigid) {
@@ -328,22 +330,20 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
       return divided;
     });
     stiffness.springs = structure.springs.of_part[p];
+    stiffest.push_back(stiffness.springs.none() || stiffness.divided ? 0.0 : stiffness.largest_diagonal());
     parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), std::move(contact_dofs[p])});
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options);
     for (std::size_t k = 0; k < elastic.size(); ++k) structure.parts[elastic[k]] = std::move(bodies[k]);
   } catch (const NotPositiveDefinitePart& failed) {
-    const bool on_springs = !structure.springs.of_part[elastic[failed.part]].none();
-    throw InputError(
-        model.file, {{body_of(elastic[failed.part]).source,
-                      fmt::format("its stiffness matrix is not positive definite to working precision: the body is "
-                                  "too slender (3000:1 or more), or its material constants (by a factor of about "
-                                  "1e12) or its element sizes differ too much{}",
-                                  on_springs ? ", or its springs are too soft or too stiff beside it (by a factor of "
-                                               "about 1e12): make it rigid if only its motion matters, or use supports "
-                                               "instead of stiff springs"
-                                             : "")}});
+    const std::size_t part = elastic[failed.part];
+    const Springs& springs = structure.springs.of_part[part];
+    const double stiffness_of_springs = springs.none() ? 0.0 : Vector(springs.matrix.diagonal()).maxCoeff();
+    throw InputError(model.file, {{body_of(part).source,
+                                   fmt::format("its stiffness matrix is not positive definite to working precision: {}",
+                                               why_digits_are_lost(model, mesh, dofs.bodies_of(part),
+                                                                   stiffness_of_springs, stiffest[failed.part]))}});
   }
   return structure;
 }

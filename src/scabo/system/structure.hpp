@@ -22,6 +22,9 @@ struct Structure {
   ModelSprings springs;                            ///< those of the parts, spring by spring
   /// [load][part]: generalised forces at factor 1; empty where the load does not act on the part.
   std::vector<std::vector<Vector>> loads;
+  /// [load][part]: sum of arm . force of a load at factor 1 on a rigid body, arms from its reference point: force times
+  /// length, by which the moment of the load changes with a rotation of the body. 0 of elastic parts.
+  std::vector<std::vector<double>> outward;
   /// [load][body][cell]: loads inside the cells, at factor 1; empty where the load does not act inside the body.
   std::vector<std::vector<element::CellLoads>> interior;
   /// [load][body]: stress before the body deforms, at factor 1; zero where the load is none.

@@ -1,5 +1,5 @@
 // FCLIB's layout: what is written is read with equal bits; files by others are the business of
-// tests/regression/problem_files_test.py, broken ones of tests/input/bad_problems_test.py.
+// tests/regression/contact_cli_test.py, broken ones of tests/input/bad_problems_test.py.
 #include "scabo/contact/files/fclib.hpp"
 
 #include <gmock/gmock.h>

@@ -192,6 +192,30 @@ TEST(Gmsh, NamesOfPhysicalGroupsAndEntities) {
   EXPECT_EQ(mesh.node_sets.at(0).name, "point_6");
 }
 
+TEST(Gmsh, NamesWithoutDimensionInVersion20) {
+  // Version 2.0 has only tag and name: https://gmsh.info/doc/texinfo, "Legacy formats". The elements tell the
+  // dimension.
+  const std::string by_hand = sample::replaced(sample::msh22_by_hand, "2.2 0 8", "2 0 8");
+  const std::string names = "$PhysicalNames\n3\n3 \"the bottom\"\n1 \"stone\"\n2\t\"2 \"half\" mortar\"\n";
+  const std::string with_dimensions =
+      "$PhysicalNames\n3\n1 3 \"the bottom\"\n2 1 \"stone\"\n2 2 \"2 \"half\" mortar\"\n";
+  for (const std::string& lines : {names, with_dimensions})
+    for (const bool windows : {false, true}) {
+      std::string text = sample::replaced(by_hand, "$Nodes", lines + "$EndPhysicalNames\n$Nodes");
+      for (std::size_t at = 0; windows && (at = text.find('\n', at)) != std::string::npos; at += 2)
+        text.replace(at, 1, "\r\n");
+      const ImportedMesh mesh = parse_mesh(text, "a.msh");
+      EXPECT_THAT(mesh.regions, ElementsAre("stone", "2 \"half\" mortar"));
+      EXPECT_EQ(mesh.facet_sets.at(0).name, "the bottom");
+    }
+  // The same tag as a curve and as a surface: one name for both.
+  const std::string both =
+      sample::replaced(by_hand, "$Nodes", "$PhysicalNames\n1\n1 \"stone\"\n$EndPhysicalNames\n$Nodes");
+  const ImportedMesh mesh = parse_mesh(sample::replaced(both, "1 1 2 3 1 1 2", "1 1 2 1 1 1 2"), "a.msh");
+  EXPECT_EQ(mesh.regions.at(0), "stone");
+  EXPECT_EQ(mesh.facet_sets.at(0).name, "stone");
+}
+
 TEST(Gmsh, ACellInSeveralGroupsIsOneCell) {
   // Version 2.2 repeats the element for each group; version 4.1 lists the groups of its entity.
   std::string old = sample::replaced(sample::msh22_by_hand, "$Elements\n6", "$Elements\n7");

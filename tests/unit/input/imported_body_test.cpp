@@ -16,7 +16,6 @@
 namespace scabo::input {
 namespace {
 
-using model::imported_body;
 using model::ImportedBody;
 using test::mesh_of_rectangle;
 using test::MeshText;
@@ -27,9 +26,11 @@ using testing::Pair;
 
 files::ImportedMesh parsed(const MeshText& mesh) { return files::parse_mesh(mesh.vtu(), "mesh.vtu"); }
 
-ImportedBody body_of(const MeshText& mesh, int region = -1) {
-  return std::get<ImportedBody>(imported_body(parsed(mesh), region));
+std::vector<ImportedBody> bodies_of(const files::ImportedMesh& mesh, int region = -1, bool join = false) {
+  return std::get<model::ImportedBodies>(model::imported_bodies(mesh, {region, -1}, join)).parts;
 }
+
+ImportedBody body_of(const MeshText& mesh, int region = -1) { return bodies_of(parsed(mesh), region).front(); }
 
 std::vector<std::string> edge_names(const geometry::Outline& outline) {
   std::vector<std::string> names;
@@ -88,7 +89,7 @@ TEST(ImportedBody, CutsEdgesWhereSetsOverlap) {
 TEST(ImportedBody, OfARegionNamesItsBorders) {
   const MeshText mesh = mesh_of_rectangle(9, 4.0, 2.0, 4, 2, [](int i, int) { return i < 1 ? 1 : i < 3 ? 2 : 3; });
   const files::ImportedMesh file = parsed(mesh);
-  const ImportedBody middle = std::get<ImportedBody>(imported_body(file, 1));
+  const ImportedBody middle = bodies_of(file, 1).front();
   EXPECT_THAT(edge_names(middle.outline), ElementsAre("edge_1", "to_region_3", "edge_2", "to_region_1"));
   EXPECT_EQ(middle.outline.edges[1].start, Vec2(3, 0));
   EXPECT_EQ(middle.mesh->cells.size(), 4u);
@@ -99,7 +100,7 @@ TEST(ImportedBody, OfARegionNamesItsBorders) {
 TEST(ImportedBody, HasHolesAndClosedEdges) {
   const int sides = 24;
   const files::ImportedMesh file = parsed(test::mesh_of_disc_in_ring(sides, true));
-  const ImportedBody ring = std::get<ImportedBody>(imported_body(file, 1));
+  const ImportedBody ring = bodies_of(file, 1).front();
   EXPECT_THAT(edge_names(ring.outline), ElementsAre("edge_1", "to_region_1"));
   EXPECT_THAT(ring.outline.holes, ElementsAre(1));
   EXPECT_TRUE(ring.outline.edges[0].is_chain());
@@ -118,12 +119,66 @@ TEST(ImportedBody, IsConnected) {
   MeshText mesh = mesh_of_rectangle(9, 1.0, 1.0, 1, 1);
   mesh.nodes.insert(mesh.nodes.end(), {{2, 0}, {3, 0}, {3, 1}, {2, 1}});
   mesh.cells.push_back({9, {4, 5, 6, 7}, 2});
-  const std::string why = std::get<std::string>(imported_body(parsed(mesh), -1));
+  const std::string why = std::get<std::string>(model::imported_bodies(parsed(mesh), {}, true));
   EXPECT_THAT(why, HasSubstr("2 parts"));
   EXPECT_THAT(why, HasSubstr("'region': 'region_1', 'region_2'"));
   EXPECT_EQ(body_of(mesh, 1).outline.edges[0].start, Vec2(2, 0));
-  mesh.cells.back().region = 1;
-  EXPECT_THAT(std::get<std::string>(imported_body(parsed(mesh), -1)), HasSubstr("join equal nodes"));
+}
+
+TEST(ImportedBody, OfOneRegionInSeveralPartsAreSeveral) {
+  MeshText mesh = mesh_of_rectangle(9, 1.0, 1.0, 1, 1);
+  mesh.nodes.insert(mesh.nodes.end(), {{2, 0}, {3, 0}, {3, 1}, {2, 1}});
+  mesh.cells.push_back({9, {4, 5, 6, 7}, 1});
+  for (const bool join : {false, true}) {
+    const std::vector<ImportedBody> bodies = bodies_of(parsed(mesh), -1, join);
+    ASSERT_EQ(bodies.size(), 2u);
+    EXPECT_EQ(bodies[0].outline.edges[0].start, Vec2(0, 0));
+    EXPECT_EQ(bodies[1].outline.edges[0].start, Vec2(2, 0));
+    EXPECT_EQ(bodies[1].mesh->nodes.size(), 4u);
+  }
+}
+
+/// Two squares above each other with nodes of their own on the side between them.
+MeshText two_patches(double gap = 0.0, double offset = 0.0) {
+  MeshText mesh = mesh_of_rectangle(9, 2.0, 1.0, 2, 1);  // nodes 0 to 5
+  for (const double y : {1.0 + gap, 2.0})
+    for (int i = 0; i < 3; ++i) mesh.nodes.push_back({i + offset, y});
+  mesh.cells.push_back({9, {6, 7, 10, 9}, 1});
+  mesh.cells.push_back({9, {7, 8, 11, 10}, 1});
+  return mesh;
+}
+
+TEST(ImportedBody, IsJoinedWhereWholeSidesLieOnEachOther) {
+  EXPECT_EQ(bodies_of(parsed(two_patches())).size(), 2u);
+  const auto joined = std::get<model::ImportedBodies>(model::imported_bodies(parsed(two_patches()), {}, true));
+  ASSERT_EQ(joined.parts.size(), 1u);
+  EXPECT_EQ(joined.joined_nodes, 3);
+  EXPECT_EQ(joined.parts[0].mesh->nodes.size(), 9u);
+  EXPECT_DOUBLE_EQ(joined.parts[0].outline.area(), 4.0);
+  EXPECT_EQ(joined.parts[0].outline.edges.size(), 4u);
+  // Six digits of a file, but not a gap of a thousandth.
+  EXPECT_EQ(bodies_of(parsed(two_patches(1e-7)), -1, true).size(), 1u);
+  EXPECT_EQ(bodies_of(parsed(two_patches(1e-3)), -1, true).size(), 2u);
+  // By a whole element: one side is common. By two: one node, which joins nothing.
+  EXPECT_EQ(bodies_of(parsed(two_patches(0.0, 1.0)), -1, true).size(), 1u);
+  EXPECT_EQ(bodies_of(parsed(two_patches(0.0, 2.0)), -1, true).size(), 2u);
+  EXPECT_EQ(bodies_of(parsed(two_patches(0.0, 0.5)), -1, true).size(), 2u);
+}
+
+TEST(ImportedBody, IsJoinedAlongQuadraticSides) {
+  MeshText mesh = mesh_of_rectangle(23, 1.0, 1.0, 1, 1);
+  const int first = static_cast<int>(mesh.nodes.size());
+  const std::vector<int> below = mesh.cells[0].nodes;
+  for (int i = 0; i < first; ++i)
+    mesh.nodes.push_back(
+        {mesh.nodes[static_cast<std::size_t>(i)].x(), mesh.nodes[static_cast<std::size_t>(i)].y() + 1.0});
+  std::vector<int> above;
+  for (const int node : below) above.push_back(node + first);
+  mesh.cells.push_back({23, above, 1});
+  EXPECT_EQ(bodies_of(parsed(mesh)).size(), 2u);
+  const std::vector<ImportedBody> joined = bodies_of(parsed(mesh), -1, true);
+  ASSERT_EQ(joined.size(), 1u);
+  EXPECT_EQ(joined[0].mesh->nodes.size(), 13u);
 }
 
 TEST(ImportedBody, MayTouchItselfAtACrack) {

@@ -169,6 +169,33 @@ TEST(ImageMesh, VoidPixelsHaveNoCells) {
   EXPECT_THROW(image_mesh({1, 1, {-4}}, {}), InputError);
 }
 
+// Chains of sides run along the smallest rectangle around the cells; an empty pixel on it parts them and takes its corner.
+TEST(ImageMesh, EmptyPixelsInterruptTheBorder) {
+  const files::Image image{4,
+                           3,
+                           {7, 3, 7, 3,  //
+                            7, 3, 3, 3,  //
+                            7, 7, 7, 7}};
+  const ImageMesh mesh = image_mesh(image, {1.0, 0.0, {{3, 0}}});
+  using Places = std::vector<std::vector<std::pair<double, double>>>;
+  const auto along = [&](int side) {
+    Places found;
+    for (const std::size_t line : mesh.lines_of_side[side]) {
+      found.emplace_back();
+      for (const int node : mesh.left[line]) found.back().push_back({mesh.nodes[node].x(), mesh.nodes[node].y()});
+    }
+    return found;
+  };
+  EXPECT_EQ(along(0), (Places{{{1, 1}, {2, 1}, {3, 1}, {4, 1}}}));
+  EXPECT_EQ(along(1), (Places{{{4, 1}, {4, 2}, {4, 3}}}));
+  EXPECT_EQ(along(2), (Places{{{4, 3}, {3, 3}}, {{2, 3}, {1, 3}}}));
+  EXPECT_EQ(along(3), (Places{{{1, 3}, {1, 2}, {1, 1}}}));
+  const ImageMesh corner = image_mesh({2, 2, {7, 3, 3, 3}}, {1.0, 0.0, {{3, 0}}});
+  EXPECT_EQ(corner.corners[3], -1);
+  for (const int side : {0, 1, 2}) EXPECT_GE(corner.corners[side], 0) << side;
+  EXPECT_EQ(corner.nodes[corner.corners[2]], Vec2(2, 2));
+}
+
 TEST(ImageMesh, LargestSize) {
   const files::Image image{64, 32, std::vector<int>(64 * 32, 0)};
   EXPECT_EQ(image_mesh(image, {0.1, 0.0, {}}).cells.size(), 2u);

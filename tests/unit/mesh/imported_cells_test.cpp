@@ -13,7 +13,9 @@ namespace scabo::mesh {
 namespace {
 
 model::Body body_of(const test::MeshText& text, model::MeshKind kind, int order = 1) {
-  auto made = std::get<model::ImportedBody>(model::imported_body(files::parse_mesh(text.vtu(), "part.vtu"), -1));
+  auto made =
+      std::get<model::ImportedBodies>(model::imported_bodies(files::parse_mesh(text.vtu(), "part.vtu"), {}, true))
+          .parts.front();
   model::Body body;
   body.name = "part";
   body.material = 0;

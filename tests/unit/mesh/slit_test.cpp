@@ -29,7 +29,7 @@ model::Body squares(int columns, int rows, model::MeshKind kind, int from = 1000
   mesh.regions = {"one"};
   if (from < columns) mesh.regions.push_back("two");
   mesh.materials.resize(mesh.regions.size());
-  model::ImportedBody imported = std::get<model::ImportedBody>(model::imported_body(mesh, -1));
+  model::ImportedBody imported = std::get<model::ImportedBodies>(model::imported_bodies(mesh, {}, true)).parts.front();
   model::Body body;
   body.imported = imported.mesh;
   body.outline = imported.outline;

@@ -152,6 +152,17 @@ Problem moderate(Problem problem) {
   return problem;
 }
 
+/// G without what rounding of normals leaves of motions along a side: a force of 1e12 times the load is no support.
+RigidMap without_rounding(const RigidMap& G) {
+  constexpr double none = 1e-12;  // of the largest entry; motions have size 1
+  RigidMap::Sparse kept = G.sparse();
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < kept.outerSize(); ++k)
+    for (RigidMap::Sparse::InnerIterator it(kept, k); it; ++it) largest = std::max(largest, std::abs(it.value()));
+  kept.prune(largest, none);
+  return RigidMap(std::move(kept));
+}
+
 std::optional<Vector> mechanism_of(const Problem& problem);
 
 }  // namespace
@@ -163,6 +174,7 @@ std::optional<Vector> find_mechanism(const Problem& in_its_unit) {
   Problem problem = in_its_unit;  // loads of size 1 beside the columns of G, by a power of two
   const double scale = std::exp2(-std::ilogb(problem.f.norm()));
   problem.f *= scale;
+  problem.G = without_rounding(problem.G);
   problem.cohesion *= scale;
   problem.tension *= scale;
   const Problem less = moderate(problem);

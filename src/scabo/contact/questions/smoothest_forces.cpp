@@ -20,39 +20,66 @@ constexpr double dependent = 1e-10;       // of entries of A, which are parts of
 constexpr double shortness = 1e-5;        // sqrt(E)
 constexpr double worth_changing = 1e-12;  // of the largest force
 constexpr double no_force = 1e-13;        // of the largest force: such a pair is open
+constexpr double solver_rounding = 1e-8;  // of the largest force: by what a solution may be beyond the laws
 
-/// How the force of a pair may change: p + C y, C of 2 x columns, with rows y -> limit . y >= bound.
+/// A half-plane of forces of a pair: of_force . p >= least.
+struct Limit {
+  Vec2 of_force;
+  double least;
+};
+
+/// How the force of a pair may change: p + C y, C of 2 x columns, within the limits.
 struct Freedom {
   int columns = 0;  // 0: it keeps its force
   Eigen::Matrix2d C = Eigen::Matrix2d::Zero();
-  struct Limit {
-    Vec2 row;
-    double bound;
-  };
   std::vector<Limit> limits;
+  /// Forces that a pair with tensile strength may carry are not convex where pull becomes pressure; `limits` are those
+  /// of their convex hull, and a force of the hull that the pair may not carry is to be in one of these two convex
+  /// parts. Empty: `limits` are all there are.
+  std::vector<Limit> part_of_pull, part_of_pressure;
+
+  double beyond(const std::vector<Limit>& some, const Vec2& p) const {
+    double most = 0.0;
+    for (const Limit& limit : some) most = std::max(most, limit.least - limit.of_force.dot(p));
+    return most;
+  }
 };
 
-/// Adds the limits of strength and friction to a pair. What a pair with tensile strength may carry is not convex where
-/// it changes from pull to pressure: of one that sticks and has no more shear than its cohesion, the part taken is that
-/// with no more shear than its cohesion, -tension <= p_n; of any other, that on its side, p_n >= 0 or
-/// -tension <= p_n <= 0 (`pulled`).
-void add_limits(const Problem& problem, Index i, double p_n, double p_t, bool sticks, bool pulled, Freedom& freedom) {
+/// |p_t| <= c + mu (p_n + shift), mu that of the direction.
+void add_friction(const Problem& problem, Index i, double shift, std::vector<Limit>& limits) {
+  const double cohesion = problem.cohesion_of(i);
+  for (const double side : {-1.0, 1.0}) {
+    const double mu = problem.mu_against(i, side);
+    limits.push_back({{mu, -side}, -cohesion - mu * shift});
+  }
+}
+
+/// Adds the limits of strength and friction to a pair that sticks or touches. With tensile strength T and cohesion c it
+/// may carry -T <= p_n with |p_t| <= c, and 0 <= p_n with |p_t| <= c + mu p_n; the hull of both is |p_t| <= c + mu (p_n
+/// + T).
+void add_limits_of_stick(const Problem& problem, Index i, Freedom& freedom) {
   const double tension = problem.tension_of(i), cohesion = problem.cohesion_of(i);
-  const auto add = [&](const Vec2& of_force, double least) {
-    freedom.limits.push_back({freedom.C.transpose() * of_force, least - of_force[0] * p_n - of_force[1] * p_t});
-  };
-  const bool bound_by_friction = sticks && !std::isinf(cohesion);
-  const bool by_cohesion = pulled || (tension > 0.0 && std::abs(p_t) <= cohesion);
-  if (!std::isinf(tension)) add({1.0, 0.0}, pulled || (bound_by_friction && by_cohesion) ? -tension : 0.0);
-  if (pulled && !sticks) add({-1.0, 0.0}, 0.0);  // beyond, the bound grows with mu
-  if (!bound_by_friction) return;
-  add({by_cohesion ? 0.0 : problem.mu_against(i, -1.0), 1.0}, -cohesion);
-  add({by_cohesion ? 0.0 : problem.mu_against(i, 1.0), -1.0}, -cohesion);
+  if (std::isinf(tension)) return;
+  freedom.limits.push_back({{1.0, 0.0}, -tension});
+  if (std::isinf(cohesion)) return;
+  add_friction(problem, i, tension, freedom.limits);
+  if (!(tension > 0.0) || !(problem.largest_mu(i) > 0.0)) return;
+  freedom.part_of_pull = {{{0.0, 1.0}, -cohesion}, {{0.0, -1.0}, -cohesion}};
+  freedom.part_of_pressure = {{{1.0, 0.0}, 0.0}};
+  add_friction(problem, i, 0.0, freedom.part_of_pressure);
+}
+
+/// Those of a pair that slips, or that has no friction, on its side of no normal force: beyond, its bound changes with
+/// another slope.
+void add_limits_of_slip(const Problem& problem, Index i, bool pulled, Freedom& freedom) {
+  const double tension = problem.tension_of(i);
+  if (!std::isinf(tension)) freedom.limits.push_back({{1.0, 0.0}, pulled ? -tension : 0.0});
+  if (pulled) freedom.limits.push_back({{-1.0, 0.0}, 0.0});
 }
 
 /// `still`: motions of the pair's two components up to which it does not move.
 Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, const Vec2& still, const Scales& scales) {
-  const double p_n = solution.p[2 * i], p_t = solution.p[2 * i + 1], slip = solution.slip_increment[i];
+  const double p_n = solution.p[2 * i], slip = solution.slip_increment[i];
   const bool moves = std::abs(slip) > still[1];
   const ContactState state = solution.states[static_cast<std::size_t>(i)];
   Freedom freedom;
@@ -67,12 +94,12 @@ Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, co
   if (frictionless || slips) {
     const double against = slip > 0.0 ? -1.0 : 1.0;  // the direction of friction
     if (!frictionless && !pulled) freedom.C(1, 0) = against * problem.mu_against(i, against);
-    add_limits(problem, i, p_n, p_t, false, pulled, freedom);
+    add_limits_of_slip(problem, i, pulled, freedom);
     return freedom;
   }
   freedom.C(1, 1) = 1.0;
   freedom.columns = 2;
-  add_limits(problem, i, p_n, p_t, true, pulled, freedom);
+  add_limits_of_stick(problem, i, freedom);
   return freedom;
 }
 
@@ -256,74 +283,124 @@ Vector within(const Matrix& B, const Vector& h, Vector y) {
   }
 }
 
-/// Change of the forces of a group, 2 for each of its pairs; empty where they are unique.
-Vector change_of(const std::vector<int>& group, Index columns, const Network& network,
-                 const std::vector<Freedom>& freedom, const ActionOfPairs& action, const Vector& p) {
-  const Matrix Z = null_space(network.equilibrium_of(group, columns));
-  if (Z.cols() == 0) return {};
-  const auto rows = 2 * static_cast<Index>(group.size());
-  Matrix S(rows, Z.cols());  // tractions times sqrt(a) along x and y, on B
+/// (1) for a group: its forces p + Z y, and the sum as |R y - aim|^2.
+struct Choice {
+  std::vector<int> group;
+  Vector p;  // 2 for each pair
+  Matrix Z;  // 2 for each pair; no columns: the forces are unique
+  Matrix R;  // upper triangular
+  Vector aim;
+
+  Vec2 force(Index k, const Vector& y) const { return p.segment<2>(2 * k) + Z.middleRows<2>(2 * k) * y; }
+};
+
+/// The rows of (1) over y: tractions times sqrt(a) less those of a stress in each point, then the tractions themselves.
+void set_sum(const ActionOfPairs& action, const std::vector<int>& points, Choice& choice) {
+  const Index rows = choice.p.size(), columns = choice.Z.cols();
+  Matrix S(rows, columns);  // along x and y, on B
   Vector s(rows);
-  Matrix CZ(rows, Z.cols());
-  std::vector<Freedom::Limit> limits;
-  std::vector<std::pair<Index, Index>> of_limit;  // first column and number of columns of its pair
-  for (Index k = 0, column = 0; k < rows / 2; ++k) {
-    const Index i = group[static_cast<std::size_t>(k)];
-    const Freedom& at = freedom[static_cast<std::size_t>(i)];
-    const Vec2& n = action.normal[static_cast<std::size_t>(i)];
+  for (Index k = 0; k < rows / 2; ++k) {
+    const auto i = static_cast<std::size_t>(choice.group[static_cast<std::size_t>(k)]);
     Eigen::Matrix2d turned;
-    turned << n, tangent_of(n);
-    turned /= std::sqrt(action.area[i]);
-    CZ.middleRows<2>(2 * k) = at.C.leftCols(at.columns) * Z.middleRows(column, at.columns);
-    S.middleRows<2>(2 * k) = turned * CZ.middleRows<2>(2 * k);
-    s.segment<2>(2 * k) = turned * p.segment<2>(2 * i);
-    for (const Freedom::Limit& limit : at.limits) {
-      limits.push_back(limit);
-      of_limit.emplace_back(column, at.columns);
-    }
-    column += at.columns;
+    turned << action.normal[i], tangent_of(action.normal[i]);
+    turned /= std::sqrt(action.area[static_cast<Index>(i)]);
+    S.middleRows<2>(2 * k) = turned * choice.Z.middleRows<2>(2 * k);
+    s.segment<2>(2 * k) = turned * choice.p.segment<2>(2 * k);
   }
-  const std::vector<int> points = network.points_of(group);
-  Matrix all(2 * rows, Z.cols());
-  Vector right(2 * rows);
+  Matrix all = Matrix::Zero(2 * rows, columns);
+  Vector right = Vector::Zero(2 * rows);
   all.bottomRows(rows) = shortness * S;
   right.tail(rows) = -shortness * s;
   if (*std::max_element(points.begin(), points.end()) >= 0) {
-    const Matrix T = tractions_of_stresses(group, points, action);
+    const Matrix T = tractions_of_stresses(choice.group, points, action);
     const Eigen::CompleteOrthogonalDecomposition<Matrix> fit(T);
-    all.topRows(rows) = S - T * fit.solve(S);
-    right.head(rows) = -(s - T * fit.solve(s));
-    for (Index k = 0; k < rows / 2; ++k)
-      if (points[static_cast<std::size_t>(k)] < 0) {
-        all.middleRows<2>(2 * k).setZero();
-        right.segment<2>(2 * k).setZero();
-      }
-  } else {
-    all.topRows(rows).setZero();
-    right.head(rows).setZero();
+    const Matrix left = S - T * fit.solve(S);
+    const Vector of_p = s - T * fit.solve(s);
+    for (Index k = 0; k < rows / 2; ++k) {
+      if (points[static_cast<std::size_t>(k)] < 0) continue;
+      all.middleRows<2>(2 * k) = left.middleRows<2>(2 * k);
+      right.segment<2>(2 * k) = -of_p.segment<2>(2 * k);
+    }
   }
   const Eigen::HouseholderQR<Matrix> qr(all);
-  const Matrix R = qr.matrixQR().topRows(Z.cols()).triangularView<Eigen::Upper>();
-  const Vector aim = (qr.householderQ().transpose() * right).head(Z.cols());
-  Matrix B(static_cast<Index>(limits.size()), Z.cols());
-  Vector h(B.rows());
-  for (Index l = 0; l < B.rows(); ++l) {
-    const auto& [column, width] = of_limit[static_cast<std::size_t>(l)];
-    const Freedom::Limit& limit = limits[static_cast<std::size_t>(l)];
-    B.row(l) = limit.row.head(width).transpose() * Z.middleRows(column, width);
-    h[l] = limit.bound;
+  choice.R = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+  choice.aim = (qr.householderQ().transpose() * right).head(columns);
+}
+
+Choice choice_of(const std::vector<int>& group, Index columns, const Network& network,
+                 const std::vector<Freedom>& freedom, const ActionOfPairs& action, const Vector& p) {
+  Choice choice;
+  choice.group = group;
+  const Matrix free = null_space(network.equilibrium_of(group, columns));
+  const auto rows = 2 * static_cast<Index>(group.size());
+  choice.p.resize(rows);
+  choice.Z.resize(rows, free.cols());
+  for (Index k = 0, column = 0; k < rows / 2; ++k) {
+    const int i = group[static_cast<std::size_t>(k)];
+    const Freedom& at = freedom[static_cast<std::size_t>(i)];
+    choice.p.segment<2>(2 * k) = p.segment<2>(2 * Index{i});
+    choice.Z.middleRows<2>(2 * k) = at.C.leftCols(at.columns) * free.middleRows(column, at.columns);
+    column += at.columns;
   }
-  const Matrix limits_of_y = B;
-  const Vector bounds_of_y = h;
-  h = h.cwiseMin(0.0);  // as if the solution itself, y = 0, were within them
-  B = R.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(B);
-  for (Index l = 0; l < B.rows(); ++l)
-    if (const double size = B.row(l).norm(); size > 0.0) {
-      B.row(l) /= size;
-      h[l] /= size;
+  if (free.cols() > 0) set_sum(action, network.points_of(group), choice);
+  return choice;
+}
+
+/// The y of the least sum within limits of the pairs of the group, one list for each. `rounding`: by how much the
+/// forces of the solution may be beyond limits that they keep.
+Vector least_within(const Choice& choice, const std::vector<std::vector<Limit>>& limits, double rounding) {
+  Index count = 0;
+  for (const std::vector<Limit>& of_pair : limits) count += static_cast<Index>(of_pair.size());
+  Matrix B(count, choice.Z.cols());
+  Vector h(count);
+  for (Index k = 0, row = 0; k < static_cast<Index>(limits.size()); ++k)
+    for (const Limit& limit : limits[static_cast<std::size_t>(k)]) {
+      B.row(row) = limit.of_force.transpose() * choice.Z.middleRows<2>(2 * k);
+      h[row++] = limit.least - limit.of_force.dot(choice.p.segment<2>(2 * k));
     }
-  const Vector y = R.triangularView<Eigen::Upper>().solve(linalg::nearest_within(B, h, aim));
-  return CZ * within(limits_of_y, bounds_of_y, y);
+  const auto R = choice.R.triangularView<Eigen::Upper>();
+  Matrix scaled = R.solve<Eigen::OnTheRight>(B);
+  Vector least = h;
+  for (Index l = 0; l < count; ++l) {
+    if (least[l] > 0.0 && least[l] <= rounding) least[l] = 0.0;  // as if the solution itself, y = 0, were within
+    if (const double size = scaled.row(l).norm(); size > 0.0) {
+      scaled.row(l) /= size;
+      least[l] /= size;
+    }
+  }
+  return within(B, h, R.solve(linalg::nearest_within(scaled, least, choice.aim)));
+}
+
+/// Change of the forces of a group, 2 for each of its pairs; empty where they are unique. Forces of the hulls of what
+/// pairs with tensile strength may carry are looked for first: which convex part a pair belongs to then follows from
+/// the forces that are wanted, and not from those that the solver happened to find.
+Vector change_of(const Choice& choice, const std::vector<Freedom>& freedom, const Scales& scales) {
+  if (choice.Z.cols() == 0) return {};
+  const double rounding = solver_rounding * scales.force;
+  const auto of_pair = [&](Index k) -> const Freedom& {
+    return freedom[static_cast<std::size_t>(choice.group[static_cast<std::size_t>(k)])];
+  };
+  const auto pairs = static_cast<Index>(choice.group.size());
+  std::vector<std::vector<Limit>> limits;
+  for (Index k = 0; k < pairs; ++k) limits.push_back(of_pair(k).limits);
+  std::vector<char> decided(choice.group.size(), 0);
+  Vector y = least_within(choice, limits, rounding);
+  for (bool again = true; again;) {
+    again = false;
+    for (Index k = 0; k < pairs; ++k) {
+      const Freedom& at = of_pair(k);
+      const Vec2 force = choice.force(k, y);
+      const double pull = at.beyond(at.part_of_pull, force), pressure = at.beyond(at.part_of_pressure, force);
+      if (decided[static_cast<std::size_t>(k)] || !(std::min(pull, pressure) > rounding)) continue;
+      const std::vector<Limit>& part = pull < pressure ? at.part_of_pull : at.part_of_pressure;
+      auto& own = limits[static_cast<std::size_t>(k)];
+      own.insert(own.end(), part.begin(), part.end());
+      decided[static_cast<std::size_t>(k)] = 1;
+      again = true;
+    }
+    if (again) y = least_within(choice, limits, rounding);
+  }
+  return choice.Z * y;
 }
 
 }  // namespace
@@ -345,7 +422,7 @@ SmoothestForces smoothest_forces(const Problem& problem, const Solution& solutio
       result.left += static_cast<int>(group.size());
       continue;
     }
-    const Vector change = change_of(group, columns, network, freedom, action, solution.p);
+    const Vector change = change_of(choice_of(group, columns, network, freedom, action, solution.p), freedom, scales);
     if (change.size() == 0 || !(change.lpNorm<Eigen::Infinity>() > small)) continue;
     for (std::size_t k = 0; k < group.size(); ++k) {
       const Vec2 of_pair = change.segment<2>(2 * static_cast<Index>(k));

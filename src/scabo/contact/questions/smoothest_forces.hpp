@@ -6,7 +6,8 @@
 //
 //     open         none                                 slip     p_n >= 0,  p_t = -+ (c + mu p_n)
 //     stick, touch p_n >= 0,  |p_t| <= c + mu p_n       bonded   any
-//     with tensile strength T, of these the part that is convex: p_n >= -T, |p_t| <= c
+//     with tensile strength T: p_n >= -T, |p_t| <= c, or p_n >= 0, |p_t| <= c + mu p_n: not convex, so that the least
+//     sum is looked for in the convex hull first, and a force that is in neither part then goes to the nearer one
 //
 // those are chosen whose tractions p / a are nearest to those of one stress s in each point x that several of these
 // pairs share, and next to that the shortest ones (a: tributary area of the pair, n: its normal, E = 1e-10):

@@ -1,0 +1,52 @@
+#include "scabo/convert/contact_softness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scabo::convert {
+
+namespace {
+
+constexpr double most_softness = 0.01;  // as the results of both programs differ by their contact stiffness anyway
+
+/// E / L of a body: stress for each metre by which it is compressed.
+double stiffness_of(const files::ImportedMesh& mesh, const DeckBodies& bodies, const std::vector<double>& young,
+                    int body) {
+  double area = 0.0, least = HUGE_VAL;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    if (bodies.body_of_cell[c] != body) continue;
+    area += files::area_of(mesh, mesh.cells[c]);
+    if (young[c] > 0.0) least = std::min(least, young[c]);
+  }
+  return least / std::sqrt(area);
+}
+
+void tell(double softness, const files::DeckPlace& at, const char* what, const char* then, Remarks& remarks) {
+  if (softness > most_softness)
+    remarks.essential(at,
+                      fmt::format("{} is so small that it adds {:.2g} % to the displacements of the bodies, and {}; "
+                                  "raise it, or give the deck a layer of its own material there",
+                                  what, 100.0 * softness, then));
+  else
+    remarks.note(at, fmt::format("{} is left out, which the deck needs for its solver: {}", what, then));
+}
+
+}  // namespace
+
+void tell_softness(const files::ImportedMesh& mesh, const DeckBodies& bodies, const std::vector<double>& young, int a,
+                   int b, const DeckInteraction& interaction, Remarks& remarks) {
+  // The softer body, whose displacements are the larger ones.
+  const double body = std::min(stiffness_of(mesh, bodies, young, a), stiffness_of(mesh, bodies, young, b));
+  if (!std::isfinite(body)) return;  // without a material, which is told elsewhere
+  const auto softness = [body](double stiffness) { return stiffness > 0.0 ? body / stiffness : HUGE_VAL; };
+  if (interaction.stiffness)
+    tell(softness(*interaction.stiffness), interaction.at_stiffness, "the stiffness of contact",
+         "Scabo's bodies in contact do not overlap", remarks);
+  if (interaction.stick_stiffness && *interaction.stick_stiffness > 0.0)
+    tell(softness(*interaction.stick_stiffness), interaction.at_stick_stiffness, "the stiffness of sticking",
+         "Scabo's pairs that stick do not slip", remarks);
+}
+
+}  // namespace scabo::convert

@@ -1,0 +1,107 @@
+"""One run of the program, and its results in the units and axes of the model from which a twin was made."""
+import csv
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import resource
+import subprocess
+
+import yaml
+
+STATUS = {1: "refused", 3: "failed"}
+SECONDS = 300  # of the processor, then a run counts as endless; no speed is judged
+
+
+@dataclasses.dataclass
+class Outcome:
+    status: str                    # as in summary.json, or refused, failed, endless, crashed
+    reason: str = ""
+    warnings: dict = dataclasses.field(default_factory=dict)   # by kind
+    increments: list = dataclasses.field(default_factory=list)
+    pairs: dict = dataclasses.field(default_factory=dict)      # by increment and contact: rows (x, y, normal, tangential)
+    cells: int = 0
+    seconds: float = 0.0
+
+
+def write(model, path):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        yaml.safe_dump(model, file, sort_keys=False, default_flow_style=None, width=150)
+
+
+def run(program, path, change, base, *options):
+    """Runs a model; `base` is the one that `change` was applied to."""
+    results = path.with_suffix(".results")
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    command = [program, "run", str(path), "-o", str(results), "--quiet", "--threads", "1", *options]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    ended = subprocess.run(command, env=environment, text=True, capture_output=True, stdin=subprocess.DEVNULL, preexec_fn=limit)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    if ended.returncode < 0:
+        return Outcome("endless" if seconds > 0.9 * SECONDS else "crashed", f"signal {-ended.returncode}", seconds=seconds)
+    if ended.returncode in STATUS:
+        return Outcome(STATUS[ended.returncode], message(ended.stderr), seconds=seconds)
+    outcome = read(results, change, base)
+    outcome.seconds = seconds
+    return outcome
+
+
+def limit():
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 5))
+
+
+def message(text):
+    """What went wrong, without the name of the file."""
+    lines = [re.sub(r"^\S*\.yaml(:\d+)*:? *", "", line) for line in text.strip().splitlines()]
+    return " | ".join(lines[:3])
+
+
+def read(results, change, base):
+    summary = json.loads((results / "summary.json").read_text(encoding="utf-8"))
+    keys = {contact["name"]: key_of(contact["between"], change, base) for contact in summary["model"]["contacts"]}
+    found = Outcome(summary["status"], summary["reason"] or "", cells=summary["model"]["super_elements"])
+    for kind, text in zip(summary["warning_kinds"], summary["warnings"]):
+        found.warnings[kind] = found.warnings.get(kind, "") + text
+    found.loose = {key for name, key in keys.items() if re.search(rf"\b{re.escape(name)}\b", found.warnings.get("undetermined_force", ""))}
+    for increment in summary["increments"]:
+        if increment["converged"]:
+            found.increments.append(forces_of(increment, keys, change))
+    found.last = tuple(summary["increments"][-1][key] for key in ("step", "increment")) if summary["increments"] else (0, 0)
+    read_pairs(results / "contact.csv", keys, change, found)
+    return found
+
+
+def key_of(between, change, base):
+    """The places of a contact by their names in `base`, whichever is first."""
+    back = {change.place(base, place): place for place in every_edge(base)} if change.quarters else {}
+    return " ".join(sorted(back.get(place, place) for place in between))
+
+
+def every_edge(model):
+    return [f"{name}.{edge}" for name, body in model["bodies"].items() if "rectangle" in body["shape"]
+            for edge in ("bottom", "right", "top", "left")]
+
+
+def forces_of(increment, keys, change):
+    """Of an increment: resultants of contacts, and forces of supports and springs."""
+    force = lambda v: change.back(v, change.force)
+    contacts = {}
+    for name, of in increment["contacts"].items():
+        value = {"normal": of["normal_force"] / change.force, "tangential": of["tangential_force"] / change.force}
+        contacts[keys[name]] = {**value, "size": sum(abs(f) for f in value.values()), "broken": of.get("broken", 0)}
+    return {"step": increment["step"], "increment": increment["increment"], "end": increment["reached"] == 1, "contacts": contacts,
+            "supports": {name: force(v) for name, v in {**increment["reactions"], **increment.get("springs", {})}.items()}}
+
+
+def read_pairs(path, keys, change, found):
+    if not path.exists():
+        return
+    with open(path, newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            key = int(row["step"]), int(row["increment"]), keys[row["contact"]]
+            place = change.point_back([float(row["x"]), float(row["y"])])
+            forces = [float(row[name]) / change.force for name in ("normal_force", "tangential_force")]
+            found.pairs.setdefault(key, []).append((*place, *forces, row["state"]))

@@ -1,0 +1,122 @@
+"""Named pipes instead of files: what is read once may be one, everything else is refused, and nothing waits for ever."""
+import contextlib
+import os
+import signal
+import subprocess
+import threading
+import time
+
+import support
+from support import InTemporaryDirectory, scabo, summary_of
+
+MODEL = """scabo: 1
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [10, 1]}}}
+  block: {material: steel, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5}}
+supports: [{on: floor, fix: [x, y]}]
+loads: {press: {on: block.top, traction: [1e5, -1e6]}}
+contacts: {base: {between: [floor.top, block.bottom], friction: 0.5}}
+steps: [{increments: 3}]
+"""
+
+
+class Pipes(InTemporaryDirectory):
+    def pipe(self, name, content):
+        """Written once, when it is opened to be read; a reader that opens it again waits for ever."""
+        path = self.directory / name
+        os.mkfifo(path)
+
+        def write():
+            with contextlib.suppress(OSError), open(path, "w", encoding="utf-8") as stream:
+                stream.write(content)
+
+        writer = threading.Thread(target=write, daemon=True)
+        writer.start()
+        # A writer whose pipe nobody opened must not keep the test from ending.
+        self.addCleanup(lambda: os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK)))
+        return path
+
+    def test_a_model_is_read_once(self):
+        pipe = self.pipe("model.yaml", MODEL)
+        run = scabo("run", pipe, "--quiet", "-o", self.directory / "results")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        increments = summary_of(self.directory / "results")["increments"]
+        self.assertEqual(len(increments), 3)
+        self.assertAlmostEqual(increments[-1]["contacts"]["base"]["normal_force"], 2e6, delta=1e-3)
+
+    def test_a_model_is_checked(self):
+        run = scabo("check", self.pipe("model.yaml", MODEL))
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn("block", run.stdout)
+
+    def test_a_sweep_refuses_it(self):
+        run = scabo("sweep", self.pipe("model.yaml", MODEL), "--vary", "contacts.base.friction=0.4,0.5")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("model.yaml: is a pipe or a device, but every run of a sweep reads the model again: save it as a file", run.stderr)
+
+    def test_plot_report_and_resume_refuse_it(self):
+        pipe = self.pipe("results", "")
+        for command in ("plot", "report", "resume"):
+            with self.subTest(command):
+                run = scabo(command, pipe)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertIn("results", run.stderr)
+
+    def test_convert_refuses_it(self):
+        run = scabo("convert", self.pipe("part.inp", "*NODE\n1, 0, 0\n"))
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("part.inp: is a pipe or a device, which is read only once; save what it gives as a file", run.stderr)
+
+    def test_meshes_and_images_that_are_pipes_are_refused(self):
+        self.pipe("part.msh", "$MeshFormat\n")
+        self.pipe("part.png", "")
+        for body in ("{material: steel, mesh: {file: part.msh}}",
+                     "{shape: {image: {file: part.png, pixel: 1, materials: {0: steel}}}, mesh: {kind: quadtree, size: 1}}"):
+            with self.subTest(body):
+                model = self.directory / "of_pipe.yaml"
+                model.write_text("scabo: 1\nmaterials: {steel: {young: 1, poisson: 0}}\nbodies:\n  part: " + body +
+                                 "\nsupports: [{on: part.bottom, fix: [x, y]}]\nloads: {f: {on: part.top, pressure: 1}}\n", encoding="utf-8")
+                run = scabo("check", model)
+                self.assertEqual(run.returncode, 1)
+                self.assertIn("is a pipe or a device, which is read only once", run.stderr)
+
+    def test_a_run_that_waits_for_its_model_ends_when_told_to(self):
+        path = self.directory / "silent.yaml"
+        os.mkfifo(path)
+        run = subprocess.Popen([support.SCABO, "run", str(path), "--quiet"], stderr=subprocess.DEVNULL)
+        try:
+            writer = None
+            while writer is None:  # opened for writing only once the program waits for the text
+                try:
+                    writer = os.open(path, os.O_WRONLY | os.O_NONBLOCK)
+                except OSError:
+                    time.sleep(0.01)
+            run.send_signal(signal.SIGTERM)
+            self.assertNotEqual(run.wait(timeout=support.PATIENCE), 0)
+            os.close(writer)
+        finally:
+            run.kill()
+
+    def test_a_run_of_a_pipe_is_resumed_from_a_file(self):
+        """What the pipe gave is kept as a digest, which a file with the same text has."""
+        slow = MODEL.replace("increments: 3", "increments: 400").replace("size: 0.5", "size: 0.1")
+        pipe = self.pipe("model.yaml", slow)
+        results = self.directory / "results"
+        run = subprocess.Popen([support.SCABO, "run", str(pipe), "--quiet", "-o", str(results)], stderr=subprocess.DEVNULL)
+        while not (results / "checkpoint.hdf5").exists() and run.poll() is None:
+            time.sleep(0.01)
+        run.send_signal(signal.SIGTERM)
+        run.wait(timeout=support.PATIENCE)
+        if not (results / "checkpoint.hdf5").exists():
+            self.skipTest("the run ended before the signal")
+        refused = scabo("resume", results)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("is a pipe: say with --model where the text of the model is kept in a file", refused.stderr)
+        kept = self.directory / "kept.yaml"
+        kept.write_text(slow, encoding="utf-8")
+        self.assertEqual(scabo("resume", results, "--model", kept, "--quiet").returncode, 0)
+
+
+if __name__ == "__main__":
+    support.main()
