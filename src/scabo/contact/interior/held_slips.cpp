@@ -29,6 +29,35 @@ struct HeldConstants {
 };
 constexpr HeldConstants held_constants;
 
+/// Slips of the last rounds, and how far they were from those held.
+struct Remembered {
+  std::vector<Vector> offs, slips;
+
+  void add(const Vector& off, const Vector& slip) {
+    offs.push_back(off);
+    slips.push_back(slip);
+    if (static_cast<int>(offs.size()) <= held_constants.remembered + 1) return;
+    offs.erase(offs.begin());
+    slips.erase(slips.begin());
+  }
+
+  /// `next`, the last slips, less the combination of changes that takes most of the last distance away.
+  void extrapolate(Vector& next) const {
+    const auto count = static_cast<Eigen::Index>(offs.size()) - 1;
+    if (count < 1) return;
+    Matrix of_offs(next.size(), count), of_slips(next.size(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      of_offs.col(j) = offs[k + 1] - offs[k];
+      of_slips.col(j) = slips[k + 1] - slips[k];
+    }
+    Matrix gram = of_offs.transpose() * of_offs;
+    gram.diagonal() *= 1.0 + 1e-8;  // in case the changes are nearly equal
+    const Vector gamma = gram.ldlt().solve(of_offs.transpose() * offs.back());
+    if (gamma.allFinite()) next -= of_slips * gamma;
+  }
+};
+
 template <int d>
 class FixedPoint {
  public:
@@ -92,8 +121,8 @@ class FixedPoint {
     change_ = off.template lpNorm<Eigen::Infinity>();
     choose_way(off.norm());
     Vector next = way_ == Way::halved ? Vector(0.5 * (slips + held_)) : slips;
-    remember(off, slips);
-    if (way_ == Way::extrapolated) extrapolate(off, next);
+    remembered_.add(off, slips);
+    if (way_ == Way::extrapolated) remembered_.extrapolate(next);
     const double sticks = c.sticking * std::sqrt(steps_.gap());
     for (Eigen::Index i = 0; i < next.size(); ++i) next[i] = slips[i] <= sticks ? 0.0 : std::max(next[i], 0.0);
     const double moved = (next - held_).template lpNorm<Eigen::Infinity>();
@@ -112,29 +141,6 @@ class FixedPoint {
     fallen_ = off;
   }
 
-  void remember(const Vector& off, const Vector& slips) {
-    offs_.push_back(off);
-    slips_.push_back(slips);
-    if (static_cast<int>(offs_.size()) <= held_constants.remembered + 1) return;
-    offs_.erase(offs_.begin());
-    slips_.erase(slips_.begin());
-  }
-
-  void extrapolate(const Vector& off, Vector& next) const {
-    const auto count = static_cast<Eigen::Index>(offs_.size()) - 1;
-    if (count < 1) return;
-    Matrix of_offs(off.size(), count), of_slips(off.size(), count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const auto k = static_cast<std::size_t>(j);
-      of_offs.col(j) = offs_[k + 1] - offs_[k];
-      of_slips.col(j) = slips_[k + 1] - slips_[k];
-    }
-    Matrix gram = of_offs.transpose() * of_offs;
-    gram.diagonal() *= 1.0 + 1e-8;  // in case the changes are nearly equal
-    const Vector gamma = gram.ldlt().solve(of_offs.transpose() * off);
-    if (gamma.allFinite()) next -= of_slips * gamma;
-  }
-
   enum class Way { plain, extrapolated, halved };
 
   const Problem* problem_;
@@ -143,7 +149,7 @@ class FixedPoint {
   double scale_, change_;
   Vector held_;                       // lifts
   std::vector<Passed> passed_;        // of this round and those before it, m falling from round to round
-  std::vector<Vector> offs_, slips_;  // of the last rounds
+  Remembered remembered_;
   Way way_ = Way::plain;
   double fallen_ = HUGE_VAL, first_off_ = 0.0;
   int since_fall_ = 0, rounds_ = 0;
