@@ -81,11 +81,6 @@ class GroundAtRest(Twins):
             with self.subTest(kind=kind):
                 self.at_rest(pile(Drawing(), kind, dig=1), delta=2e-3)  # on other meshes
 
-    def test_in_other_units_turned_and_in_another_order(self):
-        for draw in TWINS[1:]:
-            with self.subTest(draw=draw):
-                self.at_rest(pile(draw, dig=1))
-
     def test_in_ten_increments_and_finer(self):
         self.at_rest(pile(Drawing(), increments=10, dig=1))
         self.at_rest(pile(Drawing(), size=1.5, dig=1))
