@@ -1,6 +1,6 @@
 #include "compare/gauss_seidel.hpp"
 
-#include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 
 namespace scabo::compare {
 

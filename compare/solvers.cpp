@@ -12,11 +12,11 @@
 #include "compare/siconos.hpp"
 #include "compare/tresca.hpp"
 #include "compare/trial_and_error.hpp"
-#include "scabo/contact/b_differentiable.hpp"
-#include "scabo/contact/infeasibility.hpp"
-#include "scabo/contact/lemke.hpp"
-#include "scabo/contact/newton.hpp"
-#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/newton/b_differentiable.hpp"
+#include "scabo/contact/questions/infeasibility.hpp"
+#include "scabo/contact/questions/lemke.hpp"
+#include "scabo/contact/newton/newton.hpp"
+#include "scabo/contact/questions/rigid_motions.hpp"
 
 namespace scabo::compare {
 

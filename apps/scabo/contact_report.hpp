@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "scabo/contact/files/saved_problem.hpp"
-#include "scabo/contact/uniqueness.hpp"
+#include "scabo/contact/questions/uniqueness.hpp"
 
 namespace scabo::app {
 

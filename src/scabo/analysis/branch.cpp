@@ -1,6 +1,6 @@
 #include "scabo/analysis/branch.hpp"
 
-#include "scabo/contact/uniqueness.hpp"
+#include "scabo/contact/questions/uniqueness.hpp"
 
 namespace scabo::analysis {
 

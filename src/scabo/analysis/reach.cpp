@@ -10,8 +10,8 @@
 #include "scabo/analysis/warnings.hpp"
 #include "scabo/analysis/wedged_points.hpp"
 #include "scabo/contact/laws/evolution.hpp"
-#include "scabo/contact/onset.hpp"
-#include "scabo/contact/uniqueness.hpp"
+#include "scabo/contact/questions/onset.hpp"
+#include "scabo/contact/questions/uniqueness.hpp"
 
 namespace scabo::analysis {
 
@@ -116,18 +116,12 @@ void set_motion_of_mechanism(const Prepared& prepared, const Attempt& tried, Rea
                                 onset ? FlowRule::coulomb : FlowRule::associated, tried.problem.f);
 }
 
-/// In an attempt to go from part `from` of an increment to part `to`.
-std::string describe_collapse(const Prepared& prepared, const contact::Solution& solution, double from, double to) {
-  std::string text = "collapse: ";
-  if (solution.held > 0.0)
-    text +=
-        fmt::format("equilibrium ends at {:.4g} of the increment, where the bodies move on without any further load",
-                    from + solution.held * (to - from));
-  else
-    text +=
-        "no equilibrium was found, and on every path of equilibria that was followed the bodies in the end move on "
-        "without any further load";
-  return text + " (" + describe_motions(prepared, solution.motion) + ")";
+/// In an attempt to go from part `from` of an increment to part `to`; `motion`: of the bodies, m numbers.
+std::string describe_collapse(const Prepared& prepared, const Vector& motion, double from, double to) {
+  return fmt::format(
+      "collapse: no equilibrium was found at {:.4g} of the increment, and the bodies begin to move when they are let go "
+      "there ({}); the last equilibrium was found at {:.4g}",
+      to, describe_motions(prepared, motion), from);
 }
 
 /// The attempt ends at part `part` of the increment.
@@ -155,8 +149,8 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
     reached.reason = fmt::format("mechanism: {}, held neither by supports nor by contact and friction",
                                  describe_motions(prepared, reached.motion->rigid));
   } else if (status == Status::collapse) {
-    reached.motion = mechanism_of(prepared, tried.solution.motion, FlowRule::coulomb, tried.problem.f);
-    reached.reason = describe_collapse(prepared, tried.solution, reached.part, part);
+    set_motion_of_mechanism(prepared, tried, reached);
+    reached.reason = describe_collapse(prepared, reached.motion->rigid, reached.part, part);
   } else if (!tried.beyond.empty())
     reached.reason = tried.beyond;
   else if (status == Status::solved)

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "scabo/contact/smoothest_forces.hpp"
+#include "scabo/contact/questions/smoothest_forces.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "scabo/analysis/mechanism.hpp"
-#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/questions/rigid_motions.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/linalg/least_distance.hpp"
 #include "scabo/system/rigid_motions.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "scabo/contact/infeasibility.hpp"
+#include "scabo/contact/questions/infeasibility.hpp"
 
 namespace scabo::analysis {
 

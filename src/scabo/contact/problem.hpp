@@ -62,6 +62,11 @@ struct Start {
   std::vector<bool> touching = {};  ///< N, pairs in contact before the increment; empty: unknown
 };
 
+/// Forces and rigid motions: where a solver is.
+struct Point {
+  Vector p, a;  // dN, m
+};
+
 enum class ContactState { open, stick, slip };
 
 }  // namespace scabo::contact

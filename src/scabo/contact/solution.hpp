@@ -8,9 +8,9 @@
 
 namespace scabo::contact {
 
-/// mechanism: no forces at all balance the loads, which is proven. collapse: the paths of equilibria that were followed
-/// (contact/path.hpp) end before the loads are reached; friction may still allow another equilibrium elsewhere.
-/// infeasible: the problem has no solution, as shown by `proof` (contact/infeasibility.hpp).
+/// mechanism: no forces at all balance the loads, which is proven. collapse: no stage found an equilibrium, and the
+/// bodies begin to move when they are let go (questions/onset.hpp); friction may still allow an equilibrium. infeasible:
+/// the problem has no solution, as shown by `proof` (questions/infeasibility.hpp).
 enum class Status { solved, not_converged, mechanism, collapse, infeasible };
 
 /// One iteration, as written to a trace.
@@ -37,7 +37,6 @@ struct Solution {
   double natural_map_residual = 0.0;  ///< residual of the natural map (contact/judge.hpp)
   double rounding = 0.0;              ///< estimated rounding of the motions, relative (contact/judge.hpp)
   Vector motion;  ///< with `mechanism`, the motion that is not restrained, with `collapse` that of the fall, m numbers
-  double held = 0.0;    ///< with `collapse`: part of the increment up to which there is equilibrium; 0: not known
   Vector proof;         ///< with `infeasible`, forces in equilibrium with themselves, d N numbers
   Matrix undetermined;  ///< m x k: rigid motions not determined by contact and loads (solved nevertheless)
   std::vector<Iteration> trace;  ///< every iteration of every stage

@@ -10,7 +10,6 @@
 #include <set>
 #include <tuple>
 
-#include "scabo/contact/path.hpp"
 #include "scabo/element/cell_library.hpp"
 #include "scabo/element/exact_riccati.hpp"
 #include "scabo/element/mirror_symmetry.hpp"
@@ -195,9 +194,6 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
   const bool many_bodies = width < 0.5 * components;                          // W and the systems are sparse
   if (many_bodies) plan.bytes += costs.wall_bytes * components * width;
-  const bool may_cross_over = many_bodies && plan.sizes.contact_pairs > contact::most_of_paths_first &&
-                              plan.sizes.contact_pairs <= contact::most_of_crossing;
-  if (may_cross_over) plan.bytes += costs.crossing_bytes * components;
   const double iterations = costs.wall_first_iterations + costs.wall_iterations * (plan.increments - 1);
   plan.contact += many_bodies ? iterations * costs.wall_seconds * components * width
                               : plan.increments * costs.contact_seconds * components * components;

@@ -7,13 +7,15 @@
 #include <set>
 #include <utility>
 
-#include "scabo/contact/slides.hpp"
 #include "scabo/mesh/concurrent_rays.hpp"
 #include "scabo/mesh/interface.hpp"
 
 namespace scabo::system {
 
 namespace {
+
+/// The largest coefficient that counts as little: with more, pairs that stick hold the body.
+constexpr double little_friction = 0.1;
 
 /// The least tangential force per normal force that pairs can carry; nothing if they carry some without a normal force.
 std::optional<double> least_friction(const model::Model& model, std::size_t c) {
@@ -160,7 +162,7 @@ void let_slide(Structure& structure, const model::Model& model, mesh::Mesh& mesh
       deviation = std::max(deviation, std::abs(cross(pair.normal, normal)));
       pair.normal = normal;
     }
-    if (*friction >= std::max(deviation, contact::little_friction)) continue;
+    if (*friction >= std::max(deviation, little_friction)) continue;
     mesh::set_gaps(turned, contact.gap);
     const Vec2 at = turned[turned.size() / 2].point_b;
     interface.pairs = std::move(turned);

@@ -14,7 +14,7 @@
 namespace scabo::system {
 
 /// Directs the normals of such pairs, those of elastic sides without bond, strength or so much friction that pairs
-/// stick (contact/slides.hpp) and carry what the deviations leave, along the lines through the common point and the
+/// stick and carry what the deviations leave, along the lines through the common point and the
 /// node of the body that moves about it: exactly, but for rounding. Where both bodies may, through the point halfway
 /// between the two nodes. Sides that touch all along and share a node with another contact keep their normals.
 ///

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "scabo/contact/newton.hpp"
+#include "scabo/contact/newton/newton.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Problems without a solution, and the proof of it.
-#include "scabo/contact/infeasibility.hpp"
+#include "scabo/contact/questions/infeasibility.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "scabo/contact/gmres.hpp"
-#include "scabo/contact/line_preconditioner.hpp"
+#include "scabo/contact/kkt/gmres.hpp"
+#include "scabo/contact/kkt/line_preconditioner.hpp"
 #include "scabo/contact/pair_operator.hpp"
 #include "scabo/contact/solve.hpp"
-#include "scabo/contact/starts/sampled_problem.hpp"
 #include "unit/contact/layer.hpp"
 
 namespace scabo::contact {
@@ -257,44 +256,6 @@ TEST(HeldDirections, AgreeWithDenseOnes) {
       EXPECT_LE(solution.iterations, 12);
       EXPECT_LT((solution.p - direct.p).lpNorm<Eigen::Infinity>(), 1e-8 * direct.p.lpNorm<Eigen::Infinity>());
     }
-}
-
-// Two joints, of 61 and of 9 pairs, and a third of one pair: samples do not reach across, the ends of a joint are among
-// them, and forces that are spread are as large as before.
-TEST(SampledProblem, TakesSomePairsOfEachJointAndSpreadsTheirForces) {
-  Problem problem = test::layer_problem(71, 6, 0.5);
-  const Matrix W = problem.W.dense();
-  auto holder = std::make_shared<ByDense>(W, Matrix(142, 0));
-  std::vector<int> joints(71, 0);
-  std::fill(joints.begin() + 61, joints.end(), 1);
-  joints.back() = 2;
-  holder->lie_on(joints);
-  problem.W = problem.W.with_holder(holder).scaled(2.0);
-  EXPECT_FALSE(sampled_problem(problem, 60).has_value());
-  const auto sampled = sampled_problem(problem, 12);  // every sixth
-  ASSERT_TRUE(sampled.has_value());
-  EXPECT_EQ(sampled->pairs, (std::vector<int>{0, 6, 12, 18, 24, 30, 36, 42, 48, 54, 60, 61, 69, 70}));
-  std::vector<int> rows;
-  for (const int pair : sampled->pairs) rows.insert(rows.end(), {2 * pair, 2 * pair + 1});
-  Matrix expected = 2.0 * W(rows, rows);
-  EXPECT_LT((sampled->problem.W.dense() - expected).cwiseAbs().maxCoeff(), 1e-3 * expected.cwiseAbs().maxCoeff());
-  EXPECT_EQ(sampled->problem.q, Vector(problem.q(rows)));
-  Vector p(28);
-  for (int k = 0; k < 28; ++k) p[k] = 1.0 + 0.3 * k;
-  const Vector all = sampled->spread(p);
-  double normal = 0.0, tangential = 0.0;
-  for (int i = 0; i < 61; ++i) normal += all[2 * i], tangential += all[2 * i + 1];
-  double expected_normal = 0.0, expected_tangential = 0.0;
-  for (int k = 0; k < 11; ++k) expected_normal += p[2 * k], expected_tangential += p[2 * k + 1];
-  EXPECT_NEAR(normal, expected_normal, 1e-12 * expected_normal);
-  EXPECT_NEAR(tangential, expected_tangential, 1e-12 * expected_tangential);
-  EXPECT_NEAR(all[2 * 15], 0.5 * (all[2 * 12] + all[2 * 18]), 1e-12);  // between two of them as along a line
-  EXPECT_EQ(all[140], p[26]);
-  EXPECT_EQ(sampled->nearest(14), 2);
-  EXPECT_EQ(sampled->nearest(16), 3);
-  EXPECT_EQ(sampled->nearest(60), 10);
-  EXPECT_EQ(sampled->nearest(61), 11);
-  EXPECT_EQ(sampled->nearest(70), 13);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Joints of rigid bodies: W = A K A', sweeps and linear systems in their components, against W itself.
-#include "scabo/contact/joints.hpp"
+#include "scabo/contact/kkt/joints.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <numeric>
 #include <random>
 
-#include "scabo/contact/joint_system.hpp"
+#include "scabo/contact/kkt/joint_system.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/solve.hpp"
-#include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "unit/contact/towers.hpp"
 
 namespace scabo::contact {

@@ -1,7 +1,7 @@
 // What must never happen (the list is in docs/methods/12_contact_solver.md, with the tests of its other entries).
 #include <gtest/gtest.h>
 
-#include "scabo/contact/newton.hpp"
+#include "scabo/contact/newton/newton.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace scabo::contact {

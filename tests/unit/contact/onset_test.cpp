@@ -1,5 +1,5 @@
 // The motion with which bodies begin to move where nothing balances the loads.
-#include "scabo/contact/onset.hpp"
+#include "scabo/contact/questions/onset.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/questions/rigid_motions.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace scabo::contact {

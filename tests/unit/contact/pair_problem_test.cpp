@@ -1,6 +1,6 @@
 // The pair's own problem: the law itself is the oracle, free of units, for every state, with cohesion and tensile
 // strength.
-#include "scabo/contact/pair_problem.hpp"
+#include "scabo/contact/sweeps/pair_problem.hpp"
 
 #include <gtest/gtest.h>
 

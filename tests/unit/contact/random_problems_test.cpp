@@ -2,7 +2,7 @@
 // are fixed.
 #include <gtest/gtest.h>
 
-#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/questions/rigid_motions.hpp"
 #include "scabo/linalg/nonnegative_least_squares.hpp"
 #include "unit/contact/problems.hpp"
 

@@ -1,11 +1,12 @@
 // Bodies that contact alone holds: solved without springs, or a mechanism, or held up to a motion that
 // nothing drives.
-#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/questions/rigid_motions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "scabo/contact/neutral_motions.hpp"
 #include "scabo/contact/unit_motions.hpp"
 #include "unit/contact/problems.hpp"
 

@@ -1,4 +1,4 @@
-#include "scabo/contact/smoothest_forces.hpp"
+#include "scabo/contact/questions/smoothest_forces.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "support/decompositions.hpp"
 #include "unit/contact/problems.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace scabo::contact {

@@ -1,12 +1,12 @@
 // Accelerated sweeps: when they alone suffice, and that they end. Their pairs: pair_problem_test.cpp.
-#include "scabo/contact/starts/sweeps.hpp"
+#include "scabo/contact/sweeps/sweeps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "scabo/contact/certificate.hpp"
-#include "scabo/contact/starts/gauss_seidel.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "scabo/contact/solve.hpp"
 #include "support/decompositions.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scabo/contact/uniqueness.hpp"
+#include "scabo/contact/questions/uniqueness.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace scabo::contact {

@@ -1,5 +1,5 @@
 // How many solutions a problem has: closed forms of one pair, and what may be said of many.
-#include "scabo/contact/uniqueness.hpp"
+#include "scabo/contact/questions/uniqueness.hpp"
 
 #include <gtest/gtest.h>
 

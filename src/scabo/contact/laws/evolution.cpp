@@ -6,7 +6,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/contact/laws/compliance.hpp"
-#include "scabo/contact/rigid_motions.hpp"
+#include "scabo/contact/questions/rigid_motions.hpp"
 
 namespace scabo::contact {
 

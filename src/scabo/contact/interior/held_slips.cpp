@@ -1,0 +1,168 @@
+#include "scabo/contact/interior/held_slips.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "scabo/base/interruption.hpp"
+#include "scabo/contact/interior/interior_steps.hpp"
+#include "scabo/contact/work.hpp"
+
+namespace scabo::contact {
+
+namespace held {
+
+struct HeldConstants {
+  double aim = 1e-3;      ///< of the square of the slips' change: m at which a round ends
+  double least = 1e-22;   ///< of the mean square of the loads: m that rounding leaves
+  double met = 1e-2;      ///< of the slips' change: distance b at which a round ends
+  double start = 1e2;     ///< of the square of the slips' change: m at which a round starts
+  double sticking = 3.0;  ///< times sqrt(m): slips below it are 0
+  double gain = 0.9;      ///< of the least m, in `patience` steps: otherwise the round is over
+  int patience = 5, most = 60;
+  int remembered = 3;  ///< changes of the extrapolation
+  double fall = 0.7;   ///< of the slips' distance in so many rounds; otherwise another way
+  int rounds_of_way = 30;
+};
+inline constexpr HeldConstants held_constants;
+
+template <int d>
+class FixedPoint {
+ public:
+  explicit FixedPoint(const Problem& problem)
+      : problem_(&problem),
+        measure_(problem),
+        steps_(problem, 1.0),
+        scale_(steps_.size_of_loads() / std::sqrt(static_cast<double>(problem.pairs()))),
+        change_(scale_),
+        held_(Vector::Zero(problem.pairs())) {}
+
+  InteriorPointEnd advance(double aim, int rounds, double fall, const IsSolution& content, const Deadline& deadline) {
+    InteriorPointEnd end;
+    end.residual = HUGE_VAL;
+    while (rounds_ < rounds) {
+      ++rounds_;
+      const double map = solve(content, deadline, end);
+      if (end.content || !std::isfinite(map) || deadline.passed()) break;
+      const double off = hold_next();
+      if (rounds_ == 1) first_off_ = off;
+      if (map <= aim || off > std::pow(fall, rounds_ - 1) * first_off_) break;
+    }
+    return end;
+  }
+
+ private:
+  struct Passed {
+    double gap;
+    typename InteriorSteps<d>::Point point;
+  };
+
+  /// The convex problem of the slips held; the natural map of the last point.
+  double solve(const IsSolution& content, const Deadline& deadline, InteriorPointEnd& end) {
+    const HeldConstants& c = held_constants;
+    const double enough = std::max(c.aim * change_ * change_, c.least * scale_ * scale_);
+    steps_.hold(held_);
+    double least_gap = HUGE_VAL;
+    for (int step = 0, since = 0;; ++step, ++end.iterations) {
+      interruption_point();
+      deadline.spend(operations_of_system(*problem_));
+      steps_.evaluate();
+      if (step == 0) steps_.measure_from_here();
+      const double map = judge_iterate(steps_, *problem_, measure_, content, "slips held", end);
+      if (!std::isfinite(map) || end.content) return map;
+      const double gap = steps_.gap();
+      passed_.push_back({gap, steps_.point()});
+      since = gap <= c.gain * least_gap ? 0 : since + 1;
+      least_gap = std::min(least_gap, gap);
+      const bool solved = gap <= enough && steps_.distance() <= c.met * change_;
+      if (solved || since >= c.patience || step >= c.most || deadline.passed() || !steps_.advance()) return map;
+    }
+  }
+
+  /// The next slips, and the point from which they are looked for. Returns the distance of those of now.
+  double hold_next() {
+    const HeldConstants& c = held_constants;
+    const Vector& slips = steps_.slips();
+    const Vector off = slips - held_;
+    change_ = off.template lpNorm<Eigen::Infinity>();
+    choose_way(off.norm());
+    Vector next = way_ == Way::halved ? Vector(0.5 * (slips + held_)) : slips;
+    remember(off, slips);
+    if (way_ == Way::extrapolated) extrapolate(off, next);
+    const double sticks = c.sticking * std::sqrt(steps_.gap());
+    for (Eigen::Index i = 0; i < next.size(); ++i) next[i] = slips[i] <= sticks ? 0.0 : std::max(next[i], 0.0);
+    const double moved = (next - held_).template lpNorm<Eigen::Infinity>();
+    held_ = std::move(next);
+    while (passed_.size() > 1 && passed_.back().gap < c.start * moved * moved) passed_.pop_back();
+    steps_.go_to(passed_.back().point);
+    passed_.pop_back();
+    return off.norm();
+  }
+
+  void choose_way(double off) {
+    if (off <= held_constants.fall * fallen_) fallen_ = off, since_fall_ = 0;
+    if (++since_fall_ <= held_constants.rounds_of_way) return;
+    way_ = way_ == Way::plain ? Way::extrapolated : way_ == Way::extrapolated ? Way::halved : Way::plain;
+    since_fall_ = 0;
+    fallen_ = off;
+  }
+
+  void remember(const Vector& off, const Vector& slips) {
+    offs_.push_back(off);
+    slips_.push_back(slips);
+    if (static_cast<int>(offs_.size()) <= held_constants.remembered + 1) return;
+    offs_.erase(offs_.begin());
+    slips_.erase(slips_.begin());
+  }
+
+  void extrapolate(const Vector& off, Vector& next) const {
+    const auto count = static_cast<Eigen::Index>(offs_.size()) - 1;
+    if (count < 1) return;
+    Matrix of_offs(off.size(), count), of_slips(off.size(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      of_offs.col(j) = offs_[k + 1] - offs_[k];
+      of_slips.col(j) = slips_[k + 1] - slips_[k];
+    }
+    Matrix gram = of_offs.transpose() * of_offs;
+    gram.diagonal() *= 1.0 + 1e-8;  // in case the changes are nearly equal
+    const Vector gamma = gram.ldlt().solve(of_offs.transpose() * off);
+    if (gamma.allFinite()) next -= of_slips * gamma;
+  }
+
+  enum class Way { plain, extrapolated, halved };
+
+  const Problem* problem_;
+  Measure measure_;
+  InteriorSteps<d> steps_;
+  double scale_, change_;
+  Vector held_;
+  std::vector<Passed> passed_;        // of this round and those before it, m falling from round to round
+  std::vector<Vector> offs_, slips_;  // of the last rounds
+  Way way_ = Way::plain;
+  double fallen_ = HUGE_VAL, first_off_ = 0.0;
+  int since_fall_ = 0, rounds_ = 0;
+};
+
+}  // namespace held
+
+struct HeldSlips::Rounds {
+  std::variant<held::FixedPoint<2>, held::FixedPoint<3>> of;
+};
+
+HeldSlips::HeldSlips(const Problem& problem)
+    : rounds_(problem.dimension == 3 ? new Rounds{held::FixedPoint<3>(problem)}
+                                     : new Rounds{held::FixedPoint<2>(problem)}) {}
+HeldSlips::~HeldSlips() = default;
+HeldSlips::HeldSlips(HeldSlips&&) noexcept = default;
+HeldSlips& HeldSlips::operator=(HeldSlips&&) noexcept = default;
+
+InteriorPointEnd HeldSlips::advance(double aim, int rounds, double fall, const IsSolution& content,
+                                    const Deadline& deadline) {
+  return std::visit([&](auto& of) { return of.advance(aim, rounds, fall, content, deadline); }, rounds_->of);
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,217 @@
+#include "scabo/contact/kkt/joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <unordered_map>
+
+namespace scabo::contact {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr double independent = 1e-10;   // of W_ii: what is left of a row that is a pivot of its own
+constexpr double equal_within = 1e-12;  // of W_ii: largest difference of W and A K A'
+constexpr double paying = 0.4;          // of the entries of W
+constexpr int most_of_class = 4;        // joints whose pairs have the same neighbours: a tower of two blocks has two
+
+double entry(const Sparse& W, int row, int column) {
+  const int *const begin = W.innerIndexPtr() + W.outerIndexPtr()[column], *const end = W.innerIndexPtr() +
+                                                                                       W.outerIndexPtr()[column + 1];
+  const int* const at = std::lower_bound(begin, end, row);
+  return at != end && *at == row ? W.valuePtr()[at - W.innerIndexPtr()] : 0.0;
+}
+
+/// Pairs that each pair is coupled with, itself included, in order.
+struct Pattern {
+  std::vector<int> first, pairs;
+  std::size_t size(int i) const {
+    return static_cast<std::size_t>(first[static_cast<std::size_t>(i) + 1] - first[static_cast<std::size_t>(i)]);
+  }
+  const int* begin(int i) const { return pairs.data() + first[static_cast<std::size_t>(i)]; }
+  const int* end(int i) const { return pairs.data() + first[static_cast<std::size_t>(i) + 1]; }
+  bool same(int i, int j) const { return size(i) == size(j) && std::equal(begin(i), end(i), begin(j)); }
+  std::size_t hash(int i) const {
+    std::size_t sum = size(i);
+    for (const int* at = begin(i); at != end(i); ++at) sum = 1000003 * sum + static_cast<std::size_t>(*at);
+    return sum;
+  }
+};
+
+Pattern pattern_of(const Sparse& W, int d, int N) {
+  Pattern pattern;
+  pattern.first.push_back(0);
+  std::vector<int> seen(static_cast<std::size_t>(N), -1);
+  for (int i = 0; i < N; ++i) {
+    const auto note = [&](int j) {
+      if (seen[static_cast<std::size_t>(j)] == i) return;
+      seen[static_cast<std::size_t>(j)] = i;
+      pattern.pairs.push_back(j);
+    };
+    note(i);
+    for (int k = 0; k < d; ++k)
+      for (Sparse::InnerIterator at(W, d * i + k); at; ++at) note(static_cast<int>(at.row()) / d);
+    std::sort(pattern.pairs.begin() + pattern.first.back(), pattern.pairs.end());
+    pattern.first.push_back(static_cast<int>(pattern.pairs.size()));
+  }
+  return pattern;
+}
+
+/// The pivots of a joint and the Cholesky factor of their block.
+template <int d>
+struct Pivots {
+  static constexpr int R = Joints<d>::R;
+  using Right = Eigen::Matrix<double, R, d>;
+
+  std::vector<int> rows;
+  Eigen::Matrix<double, R, R> L = Eigen::Matrix<double, R, R>::Zero();
+  int pairs = 0;
+
+  /// L^-1 W_pi.
+  Right forward(const Sparse& W, int i) const {
+    Right Y = Right::Zero();
+    const auto r = static_cast<int>(rows.size());
+    for (int a = 0; a < r; ++a)
+      for (int k = 0; k < d; ++k) {
+        double sum = entry(W, rows[static_cast<std::size_t>(a)], d * i + k);
+        for (int b = 0; b < a; ++b) sum -= L(a, b) * Y(b, k);
+        Y(a, k) = sum / L(a, a);
+      }
+    return Y;
+  }
+
+  /// W_ip W_pp^-1.
+  typename Joints<d>::Combination combination(const Sparse& W, int i) const {
+    Right Y = forward(W, i);
+    for (int a = static_cast<int>(rows.size()) - 1; a >= 0; --a)
+      for (int k = 0; k < d; ++k) {
+        for (int b = a + 1; b < static_cast<int>(rows.size()); ++b) Y(a, k) -= L(b, a) * Y(b, k);
+        Y(a, k) /= L(a, a);
+      }
+    return Y.transpose();
+  }
+
+  /// With pair i, and the pivots that it adds; false, and unchanged, where there would be more than R.
+  bool take(const Sparse& W, int i) {
+    Right Y = forward(W, i);
+    Eigen::Matrix<double, d, d> left;
+    Eigen::Matrix<double, d, 1> whole;
+    for (int k = 0; k < d; ++k) {
+      for (int j = 0; j < d; ++j) left(j, k) = entry(W, d * i + j, d * i + k);
+      whole[k] = left(k, k);
+    }
+    left -= Y.transpose() * Y;
+    Pivots more = *this;
+    for (int added = 0; added < d; ++added) {
+      int best = -1;
+      double part = independent;
+      for (int k = 0; k < d; ++k)
+        if (whole[k] > 0.0 && left(k, k) > part * whole[k]) best = k, part = left(k, k) / whole[k];
+      if (best < 0) break;
+      const auto r = static_cast<int>(more.rows.size());
+      if (r == R) return false;
+      const double size = std::sqrt(left(best, best));
+      more.L.row(r).head(r) = Y.col(best).head(r).transpose();
+      more.L(r, r) = size;
+      more.rows.push_back(d * i + best);
+      Y.row(r) = left.row(best) / size;
+      left -= (Y.row(r).transpose() * Y.row(r)).eval();
+    }
+    ++more.pairs;
+    *this = std::move(more);
+    return true;
+  }
+};
+
+}  // namespace
+
+template <int d>
+std::optional<Joints<d>> find_joints(const Problem& problem) {
+  if (!problem.W.is_sparse() || problem.G.cols() > 0 || problem.dimension != d) return {};
+  const Sparse& W = problem.W.sparse();
+  const int N = problem.pairs();
+  const Pattern pattern = pattern_of(W, d, N);
+
+  Joints<d> joints;
+  joints.joint.resize(static_cast<std::size_t>(N));
+  std::vector<Pivots<d>> pivots;
+  std::vector<int> example;  // a pair of each joint
+  std::unordered_multimap<std::size_t, int> of_pattern;
+  for (int i = 0; i < N; ++i) {
+    const std::size_t hash = pattern.hash(i);
+    const auto [begin, end] = of_pattern.equal_range(hash);
+    int found = -1, alike = 0;
+    for (auto at = begin; at != end && found < 0; ++at) {
+      const auto e = static_cast<std::size_t>(at->second);
+      if (!pattern.same(i, example[e])) continue;
+      if (pivots[e].take(W, i))
+        found = at->second;
+      else if (++alike == most_of_class)
+        return {};
+    }
+    if (found < 0) {
+      found = static_cast<int>(pivots.size());
+      if (found > N / 2 + 8) return {};
+      pivots.emplace_back();
+      example.push_back(i);
+      if (!pivots.back().take(W, i)) return {};
+      of_pattern.emplace(hash, found);
+    }
+    joints.joint[static_cast<std::size_t>(i)] = found;
+  }
+
+  const auto count = static_cast<int>(pivots.size());
+  joints.first.push_back(0);
+  std::vector<int> pairs_met(static_cast<std::size_t>(count), 0);
+  for (int f = 0; f < count; ++f) {
+    const int pair = example[static_cast<std::size_t>(f)];
+    const auto before = static_cast<std::ptrdiff_t>(joints.neighbour.size());
+    for (const int* at = pattern.begin(pair); at != pattern.end(pair); ++at) {
+      const int e = joints.joint[static_cast<std::size_t>(*at)];
+      if (pairs_met[static_cast<std::size_t>(e)]++ == 0) joints.neighbour.push_back(e);
+    }
+    std::sort(joints.neighbour.begin() + before, joints.neighbour.end());
+    for (auto at = joints.neighbour.begin() + before; at != joints.neighbour.end(); ++at) {
+      const auto e = static_cast<std::size_t>(*at);
+      if (pairs_met[e] != pivots[e].pairs) return {};  // W is not symmetric
+      pairs_met[e] = 0;
+      typename Joints<d>::Block K = Joints<d>::Block::Zero();
+      const std::vector<int>&rows = pivots[e].rows, &columns = pivots[static_cast<std::size_t>(f)].rows;
+      for (std::size_t a = 0; a < rows.size(); ++a)
+        for (std::size_t b = 0; b < columns.size(); ++b)
+          K(static_cast<int>(a), static_cast<int>(b)) = entry(W, rows[a], columns[b]);
+      joints.K.push_back(K);
+    }
+    joints.first.push_back(static_cast<int>(joints.neighbour.size()));
+  }
+  if (static_cast<double>(joints.K.size()) * Joints<d>::R * Joints<d>::R > paying * static_cast<double>(W.nonZeros()))
+    return {};
+
+  joints.A.reserve(static_cast<std::size_t>(N));
+  for (int i = 0; i < N; ++i)
+    joints.A.push_back(pivots[static_cast<std::size_t>(joints.joint[static_cast<std::size_t>(i)])].combination(W, i));
+  // Every entry, by block columns: K A' of a pair once for every joint.
+  const Vector diagonal = W.diagonal();
+  std::vector<Eigen::Matrix<double, Joints<d>::R, d>> of_joint(static_cast<std::size_t>(count));
+  for (int j = 0; j < N; ++j) {
+    const auto f = static_cast<std::size_t>(joints.joint[static_cast<std::size_t>(j)]);
+    for (int at = joints.first[f]; at < joints.first[f + 1]; ++at)
+      of_joint[static_cast<std::size_t>(joints.neighbour[static_cast<std::size_t>(at)])] =
+          joints.K[static_cast<std::size_t>(at)] * joints.A[static_cast<std::size_t>(j)].transpose();
+    for (const int* at = pattern.begin(j); at != pattern.end(j); ++at) {
+      const auto i = static_cast<std::size_t>(*at);
+      const Eigen::Matrix<double, d, d> block = joints.A[i] * of_joint[static_cast<std::size_t>(joints.joint[i])];
+      const double size = std::sqrt(diagonal.segment<d>(d * *at).maxCoeff() * diagonal.segment<d>(d * j).maxCoeff());
+      for (int k = 0; k < d; ++k)
+        for (int c = 0; c < d; ++c)
+          if (!(std::abs(entry(W, d * *at + c, d * j + k) - block(c, k)) <= equal_within * size)) return {};
+    }
+  }
+  return joints;
+}
+
+template std::optional<Joints<2>> find_joints<2>(const Problem& problem);
+template std::optional<Joints<3>> find_joints<3>(const Problem& problem);
+
+}  // namespace scabo::contact

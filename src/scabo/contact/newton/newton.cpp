@@ -1,0 +1,153 @@
+#include "scabo/contact/newton/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+
+#include "scabo/contact/kkt/newton_direction.hpp"
+#include "scabo/contact/work.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+constexpr const NewtonConstants& constants = newton_constants;
+
+/// How far the iterations have come.
+struct Progress {
+  std::deque<double> merits;  // the last few
+  double best = HUGE_VAL;     // merit
+  double halved = HUGE_VAL;   // the best one when it was last halved,
+  int halved_at = 0;          // and the iteration
+  int unchecked = 0;          // whole steps that did not pass the search
+  bool regularised = false;
+  double step = 0.0;  // the last one
+};
+
+class Newton {
+ public:
+  Newton(const BDifferentiableEquations& equations, Vector p, Vector a, const NewtonOptions& options)
+      : equations_(equations), options_(options), direction_(equations), at_point_{std::move(p), std::move(a)} {}
+
+  NewtonEnd run() {
+    const double operations = operations_of_system(equations_.problem());
+    end_.p = at_point_.p;
+    end_.a = at_point_.a;
+    end_.residual = HUGE_VAL;  // stays where H is not finite: never converged
+    equations_.evaluate(at_point_.p, at_point_.a, at_);
+    for (;; ++end_.iterations) {
+      keep_best();
+      record();
+      if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) ||
+          options_.deadline.passed() || creeps())
+        break;
+      options_.deadline.spend(operations);
+      if (!advance()) break;
+    }
+    return std::move(end_);
+  }
+
+ private:
+  /// One step; false where there is none.
+  bool advance() {
+    for (;; progress_.regularised = true) {
+      const bool found = direction_.find(at_, regularisation(), d_);
+      const double step = found ? passing_step() : 0.0;
+      if (step > 0.0) return take(step);
+      if (!progress_.regularised) continue;
+      if (found && ++progress_.unchecked <= constants.unchecked) return take(1.0);
+      end_.singular = !found;
+      return false;
+    }
+  }
+
+  double regularisation() const {
+    if (!progress_.regularised) return 0.0;
+    const double force = at_point_.p.size() > 0 ? at_point_.p.lpNorm<Eigen::Infinity>() : 0.0;
+    return force > 0.0 ? std::clamp(constants.part * at_.largest() / force, constants.least, constants.most)
+                       : constants.most;
+  }
+
+  /// The longest step 2^-k along d that passes the search; 0 where there is none.
+  double passing_step() {
+    const double largest = *std::max_element(progress_.merits.begin(), progress_.merits.end()), merit = at_.merit();
+    equations_.motion_along(d_, change_);
+    double step = 1.0;
+    for (int k = 0; k <= constants.halvings; ++k, step *= 0.5) {
+      trial_p_ = at_point_.p + step * d_.head(at_point_.p.size());
+      trial_.motion = at_.motion + step * change_;
+      equations_.evaluate_at_motion(trial_p_, trial_);
+      if (trial_.merit() <= largest - 2.0 * constants.sufficient * step * merit) return step;  // theta'(z; d) = -2 theta
+    }
+    return 0.0;
+  }
+
+  bool take(double step) {
+    progress_.step = step;
+    at_point_.p.noalias() += step * d_.head(at_point_.p.size());
+    at_point_.a.noalias() += step * d_.tail(at_point_.a.size());
+    equations_.evaluate(at_point_.p, at_point_.a, at_);
+    return true;
+  }
+
+  void keep_best() {
+    const double merit = at_.merit();
+    const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit));
+    const bool content = asked && options_.content(at_point_.p, at_point_.a, at_.motion);
+    if (merit < progress_.best || content) {
+      progress_.best = merit;
+      end_.p = at_point_.p;
+      end_.a = at_point_.a;
+      end_.residual = at_.largest();
+    }
+    end_.converged = content || end_.residual <= aim();
+    progress_.merits.push_back(merit);
+    if (static_cast<int>(progress_.merits.size()) > constants.memory) progress_.merits.pop_front();
+  }
+
+  /// Short steps from kink to kink, which lead on but not to an end.
+  bool creeps() {
+    if (progress_.best <= 0.5 * progress_.halved) {
+      progress_.halved = progress_.best;
+      progress_.halved_at = end_.iterations;
+    }
+    return options_.patience > 0 && end_.iterations - progress_.halved_at >= options_.patience;
+  }
+
+  /// |H| is near its aim and was not halved: what is left may be rounding.
+  bool no_longer_falls(double merit) const {
+    return at_.largest() <= constants.near * aim() && merit > constants.halved * progress_.best;
+  }
+
+  double aim() const {
+    const double largest = end_.p.size() > 0 ? end_.p.lpNorm<Eigen::Infinity>() : 0.0;
+    return std::max(options_.small, options_.relative * largest);
+  }
+
+  void record() {
+    int changed = 0;
+    for (std::size_t i = 0; i < before_.size(); ++i) changed += !at_.branches[i].same_branch(before_[i]);
+    before_ = at_.branches;
+    end_.trace.push_back({end_.iterations, at_.largest(), at_.merit(), progress_.step, changed, options_.stage});
+    if (options_.on_iteration) options_.on_iteration(end_.trace.back());
+  }
+
+  const BDifferentiableEquations& equations_;
+  const NewtonOptions& options_;
+  NewtonDirection direction_;
+  Point at_point_;
+  Residual at_, trial_;
+  Vector d_, change_, trial_p_;  // memory that is kept
+  std::vector<Branch> before_;
+  Progress progress_;
+  NewtonEnd end_;
+};
+
+}  // namespace
+
+NewtonEnd newton(const BDifferentiableEquations& equations, Vector p, Vector a, const NewtonOptions& options) {
+  return Newton(equations, std::move(p), std::move(a), options).run();
+}
+
+}  // namespace scabo::contact

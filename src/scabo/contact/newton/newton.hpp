@@ -1,0 +1,62 @@
+// Newton's method on the B-differentiable equations: direction (kkt/newton_direction.hpp), line search on the merit
+// theta = 1/2 |H|^2, until H is small or the given judge accepts the point.
+//
+// H is piecewise smooth, and where hundreds of pairs change their state together one kink after the other stops a
+// search that asks for descent in every step. The search is therefore that of Grippo, Lampariello and Lucidi (SIAM J.
+// Numer. Anal. 23 (1986) 707): a step is taken where the merit falls below the largest of the last few.
+//
+// Where the matrix of a branch is singular, or no step along its direction passes the search, the system is regularised
+// from then on: alpha on its rows of motions, -alpha on its rows of balance, a tenth of |H| over the largest force. What
+// is not determined then moves little, and as alpha falls with |H| convergence stays fast (Yamashita and Fukushima,
+// Computing Suppl. 15 (2001) 239).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scabo/contact/deadline.hpp"
+#include "scabo/contact/judge.hpp"
+#include "scabo/contact/newton/b_differentiable.hpp"
+#include "scabo/contact/solution.hpp"
+
+namespace scabo::contact {
+
+/// Of the method; none has a unit.
+struct NewtonConstants {
+  int memory = 6;            ///< merits of which the largest must be undercut
+  double sufficient = 1e-4;  ///< descent of the merit, of what the direction promises
+  int halvings = 12;         ///< of a step, most
+  int unchecked = 8;         ///< whole steps that did not pass the search, most: a step may lead past a kink
+  double part = 0.1;         ///< alpha over |H| / largest force, within ...
+  double least = 1e-8, most = 1e-2;
+  double near = 1e3;     ///< of the aim: |H| below it that is not halved any more may be rounding, ...
+  double halved = 0.25;  ///< ... halved as a part of the merit
+};
+inline constexpr NewtonConstants newton_constants;
+
+struct NewtonOptions {
+  double small = 0.0;     ///< converged when the largest |H| is not above it,
+  double relative = 0.0;  ///< or not above this part of the largest force
+  int iterations = 50;    ///< most
+  int patience = 0;       ///< ends when the smallest merit was not halved in so many iterations; 0: never
+  std::string stage = "newton";
+  Deadline deadline = {};                                   ///< no iteration begins after it
+  std::function<void(const Iteration&)> on_iteration = {};  ///< may be empty; what it throws ends the solve
+  /// Converged as well when this says so of forces and motions; may be empty.
+  IsSolution content = {};
+  bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small and no longer falls
+};
+
+struct NewtonEnd {
+  Vector p, a;  ///< the best point
+  bool converged = false;
+  bool singular = false;  ///< a direction did not exist: forces cannot balance on the branch
+  int iterations = 0;
+  double residual = 0.0;  ///< largest |H|
+  std::vector<Iteration> trace;
+};
+
+NewtonEnd newton(const BDifferentiableEquations& equations, Vector p, Vector a, const NewtonOptions& options);
+
+}  // namespace scabo::contact

@@ -1,0 +1,61 @@
+#include <optional>
+#include <utility>
+
+#include "scabo/contact/newton/bonded_start.hpp"
+#include "scabo/contact/newton/coarse_start.hpp"
+#include "scabo/contact/newton/kept_states.hpp"
+#include "scabo/contact/stages.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+/// Iterations without halving |H| after which Newton's method creeps from kink to kink, and another start or stage is
+/// better.
+constexpr int patience = 8;
+
+std::string why_of(const NewtonEnd& end, const Search& search) {
+  if (search.late()) return "Newton's method was ended by its limit";
+  if (end.singular) return "Newton's method found no direction in which the forces balance the loads";
+  return "Newton's method stalled after " + std::to_string(end.iterations) + " iterations";
+}
+
+/// From the last increment: of a body that contact alone holds first with the states as they were (kept_states.hpp).
+/// Whether that ends the search.
+bool from_history(Search& search, NewtonEnd& end) {
+  const bool floats = search.problem().G.cols() > 0;
+  const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
+  const auto done = [&](Point from, const char* stage) {
+    end = search.newton_from(std::move(from), {stage, 0, patience});
+    return end.converged || search.late();
+  };
+  std::optional<Point> kept;
+  if (floats) kept = with_states_kept(equations, search.start());
+  if (kept && done(*std::move(kept), "newton from states kept")) return true;
+  if (done(search.start(), "newton")) return true;
+  if (!floats) kept = with_states_kept(equations, search.start());
+  return !floats && kept && done(*std::move(kept), "newton from states kept");
+}
+
+}  // namespace
+
+StageEnd newton_stage(Search& search) {
+  const Problem& problem = search.problem();
+  NewtonEnd end;
+  const auto done = [&](Point from, const char* stage) {
+    end = search.newton_from(std::move(from), {stage, 0, patience});
+    return end.converged || search.late();
+  };
+  if (search.has_history() && from_history(search, end)) return {end.converged, why_of(end, search)};
+  if (problem.G.cols() > 0)
+    if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
+      if (done(*std::move(bonded), "newton from bonded pairs")) return {end.converged, why_of(end, search)};
+  if (std::optional<CoarseStart> coarse = coarse_start(problem, search.start().a)) {
+    search.add_coarse(std::move(coarse->trace), coarse->iterations);
+    if (done(std::move(coarse->point), "newton from fewer pairs")) return {end.converged, why_of(end, search)};
+  }
+  done({Vector::Zero(problem.q.size()), search.start().a}, "newton from zero");
+  return {end.converged, why_of(end, search)};
+}
+
+}  // namespace scabo::contact

@@ -1,0 +1,63 @@
+// Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the problem of one pair (Jourdan, Alart, Jean, Comput.
+// Methods Appl. Mech. Engrg. 155 (1998) 31). Convergence is at best linear. The method provides starts for Newton, a
+// fallback where Newton fails, and the iteration that sweeps.hpp accelerates.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "scabo/contact/sweeps/pair_problem.hpp"
+#include "scabo/contact/problem.hpp"
+#include "scabo/contact/sweeps/joint_sweeps.hpp"
+
+namespace scabo::contact {
+
+/// Sweeps over the pairs of a problem with d components and without rigid motions (m = 0). A condensed W is formed. The
+/// problem must outlive this object.
+template <int d>
+class PairSweeps {
+ public:
+  [[gnu::hot]] explicit PairSweeps(const Problem& problem);
+  /// Computes motion = q + W p anew: for a start, and when rounding has accumulated.
+  [[gnu::hot]] void start(const Vector& p, Vector& motion) const;
+  /// Performs one sweep on forces and motions and returns the largest change of a force component.
+  [[gnu::hot]] double sweep(Vector& p, Vector& motion);
+  const std::vector<PairProblem<d>>& pairs() const { return pairs_; }
+
+ private:
+  [[gnu::hot]] void read_block(Eigen::Index i, double* block) const;
+  [[gnu::hot]] void add(Eigen::Index i, const double* change, double* motion) const;
+
+  const Problem* problem_;
+  std::vector<PairProblem<d>> pairs_;
+  const double* values_ = nullptr;
+  double factor_ = 1.0;                             // of the values
+  const int *columns_ = nullptr, *rows_ = nullptr;  // of a sparse W
+};
+
+extern template class PairSweeps<2>;
+extern template class PairSweeps<3>;
+
+/// The same for two or three components, with the motions included.
+class GaussSeidel {
+ public:
+  /// of_joints: joints of rigid bodies are looked for (joints.hpp), which costs as much as some tens of sweeps.
+  enum class Form { of_pairs, of_joints };
+  explicit GaussSeidel(const Problem& problem, Form form = Form::of_pairs);
+  void start(const Vector& p);
+  double sweep(Vector& p);
+  const Vector& motion();
+  bool of_joints() const { return sweeps_.index() >= 2; }
+
+ private:
+  using Sweeps = std::variant<PairSweeps<2>, PairSweeps<3>, JointSweeps<2>, JointSweeps<3>>;
+  static Sweeps sweeps_of(const Problem& problem, Form form);
+
+  Sweeps sweeps_;
+  Vector motion_;
+};
+
+/// Forces after `sweeps` sweeps from `p`, or fewer if they no longer change.
+Vector gauss_seidel(const Problem& problem, Vector p, int sweeps);
+
+}  // namespace scabo::contact

@@ -1,0 +1,113 @@
+#include "scabo/contact/sweeps/long_sweeps.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scabo/base/interruption.hpp"
+#include "scabo/contact/work.hpp"
+
+namespace scabo::contact {
+
+namespace {
+
+constexpr int round_of = 20;            // sweeps
+constexpr int depth = 8;                // changes remembered
+constexpr double part_of_joints = 0.1;  // work of a sweep over joints, of one over pairs
+constexpr int least_patience = 500;     // sweeps in which the natural map is halved: they gain
+
+}  // namespace
+
+LongSweeps::LongSweeps(const Problem& problem, Vector p, Form form)
+    : problem_(problem),
+      measure_(problem),
+      iteration_(problem, GaussSeidel::Form::of_joints),
+      p_(std::move(p)),
+      best_(p_),
+      changes_f_(p_.size(), depth),
+      changes_p_(p_.size(), depth),
+      least_(HUGE_VAL),
+      halved_(HUGE_VAL),
+      extrapolates_(form == Form::extrapolated) {
+  iteration_.start(p_);
+}
+
+bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadline) {
+  const auto go_on = [&] {
+    return sweeps_ < most || (sweeps_ < 4 * most && sweeps_ - gained_ <= std::max(least_patience, sweeps_ / 2));
+  };
+  while (!deadline.passed() && go_on()) {
+    const Vector before = p_;
+    iteration_.start(p_);  // afresh, without what rounding added from pair to pair
+    bool moved = false;
+    for (int sweep = 0; sweep < round_of; ++sweep) {
+      interruption_point();
+      moved = iteration_.sweep(p_) > 0.0 || moved;
+    }
+    sweeps_ += round_of;
+    deadline.spend(round_of * (iteration_.of_joints() ? part_of_joints : 1.0) * operations_of_sweep(problem_));
+    const Vector& motion = iteration_.motion();
+    const double map = measure_.natural_map(problem_, p_, motion);
+    if (extrapolated_ && !(map <= map_of_round_)) {
+      p_ = round_;
+      extrapolated_ = false;
+      forget();
+      continue;
+    }
+    extrapolations_ += extrapolated_;
+    if (map < least_) {
+      least_ = map;
+      best_ = p_;
+    }
+    if (content && content(p_, Vector(), motion) && content(p_, Vector(), motion_of(problem_, p_, Vector()))) {
+      best_ = p_;
+      return true;
+    }
+    if (!moved || !std::isfinite(map)) break;
+    if (least_ <= 0.5 * halved_) {
+      halved_ = least_;
+      gained_ = sweeps_;
+    }
+    if (!extrapolates_) continue;
+    remember(before);
+    round_ = p_;
+    map_of_round_ = map;
+    extrapolated_ = extrapolate();
+  }
+  return false;
+}
+
+void LongSweeps::restart(const Vector& p) {
+  if (p.size() != p_.size()) return;
+  const double map = measure_.natural_map(problem_, p, motion_of(problem_, p, Vector()));
+  if (!(map < least_)) return;
+  p_ = best_ = p;
+  least_ = map;
+  extrapolated_ = false;
+  forget();
+}
+
+void LongSweeps::remember(const Vector& before) {
+  Vector f = p_ - before;
+  if (has_last_) {
+    changes_f_.col(next_) = f - last_f_;
+    changes_p_.col(next_) = p_ - last_p_;
+    next_ = (next_ + 1) % depth;
+    count_ = std::min(count_ + 1, depth);
+  }
+  last_f_ = std::move(f);
+  last_p_ = p_;
+  has_last_ = true;
+}
+
+/// False where there is too little to go by.
+bool LongSweeps::extrapolate() {
+  if (count_ < 2) return false;
+  const Vector gamma = Matrix(changes_f_.leftCols(count_)).colPivHouseholderQr().solve(last_f_);
+  if (!gamma.allFinite()) return false;
+  p_.noalias() -= changes_p_.leftCols(count_) * gamma;
+  return true;
+}
+
+}  // namespace scabo::contact
