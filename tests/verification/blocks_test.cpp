@@ -29,7 +29,7 @@ Vec2 floor_forces(const Blocks& blocks, const analysis::StaticSolution& solution
   return sum;
 }
 
-void holds(const Blocks& blocks, double part, int increments, int most = 10) {
+void holds(const Blocks& blocks, double part, int increments) {
   SCOPED_TRACE(fmt::format("{} x {}, mu {}, {} of the collapse push, {} increments", blocks.columns, blocks.courses,
                            blocks.friction, part, increments));
   const double push = part * blocks.collapse_push();
@@ -37,10 +37,7 @@ void holds(const Blocks& blocks, double part, int increments, int most = 10) {
   const Vec2 carried = floor_forces(blocks, solution, last(solution));
   EXPECT_NEAR(carried[0], blocks.weight(), 1e-9 * blocks.weight());
   EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-9 * blocks.weight());  // B above: friction against the push
-  for (const analysis::IncrementResult& increment : solution.increments) {
-    EXPECT_LE(increment.newton_iterations, most);
-    EXPECT_EQ(increment.halvings, 0);
-  }
+  for (const analysis::IncrementResult& increment : solution.increments) EXPECT_EQ(increment.halvings, 0);
 }
 
 TEST(Tower, StandsToItsCollapsePush) {
@@ -68,11 +65,10 @@ TEST(Wall, InRunningBondCarriesWeightAndPush) {
 
 TEST(Tower, OfTwoHundredBlocksStandsToItsCollapsePush) {
   for (const double friction : {0.3, 1.0})
-    for (const double part : {0.5, 0.9, 0.99}) holds({1, 200, friction}, part, 1, 5);
+    for (const double part : {0.5, 0.9, 0.99}) holds({1, 200, friction}, part, 1);
 }
 
-// 1,100 and 2,100 pairs, above the thousand of interior points: 11 to 17 iterations where the last digits were left to
-// directions that hold the tower softly, and |H| fell by 3 % a step.
+// 1,100 and 2,100 pairs.
 TEST(Tower, OfFineBlocksStandsToItsCollapsePush) {
   const auto fine = [](int courses, double friction, double mesh) {
     Blocks blocks{1, courses, friction};
@@ -84,7 +80,7 @@ TEST(Tower, OfFineBlocksStandsToItsCollapsePush) {
   holds(fine(200, 0.3, 0.1), 0.9, 1);
 }
 
-// Near its collapse load hundreds of joints of a wall have opened or slip, and a path of equilibria follows Newton.
+// Near its collapse load hundreds of joints of a wall have opened or slip.
 TEST(Wall, CarriesNearlyItsCollapsePush) {
   const auto carries = [](const Blocks& blocks, double part) {
     const double push = part * blocks.collapse_push();
@@ -92,7 +88,6 @@ TEST(Wall, CarriesNearlyItsCollapsePush) {
     const Vec2 carried = floor_forces(blocks, solution, last(solution));
     EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
     EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
-    EXPECT_LE(last(solution).newton_iterations, 10);
     EXPECT_EQ(last(solution).halvings, 0);
   };
   for (const double friction : {0.3, 0.6, 1.0}) carries({4, 4, friction}, 0.99);
@@ -100,83 +95,65 @@ TEST(Wall, CarriesNearlyItsCollapsePush) {
   carries({8, 8, 1.0}, 0.9);
 }
 
-// 211, 556 and 875 pairs. In the first a path had arrived but for its softness, 1e-6, and was given up where rounding
-// made the rest of the way endless, with most last digits of the push: 23 iterations. In the second two paths turned
-// back before interior points, 14, and in the third whole courses balance while they slide, 14.
-TEST(Wall, OfAFewHundredPairsTakesFewIterations) {
-  for (const int k : {1, 2, 4, 5, 8, 11}) holds({5, 5, 0.6}, 0.9 * (1.0 + 4.44e-16 * k), 1, 8);
+// 211, 556 and 875 pairs; the first with other last digits of the push. In the third whole courses balance while they
+// slide.
+TEST(Wall, OfAFewHundredPairsStands) {
+  for (const int k : {1, 2, 4, 5, 8, 11}) holds({5, 5, 0.6}, 0.9 * (1.0 + 4.44e-16 * k), 1);
   holds({8, 8, 0.3}, 0.95, 1);
   holds({10, 10, 0.6}, 0.9, 1);
-  // Interior points alone: 12 and 15 iterations.
   holds({9, 9, 0.6}, 0.99, 1);
   holds({10, 10, 0.6}, 0.99, 1);
 }
 
-// More than a thousand pairs: interior points follow Newton's method (docs/methods/12_contact_solver.md),
-// 36, 26 and 26 iterations before. Near the limit load of the last walls their steps become short, and a path follows;
-// by interior points alone these took 17 and 18.
-TEST(Wall, OfManyPairsTakesFewIterations) {
-  struct Case {
-    double friction, part;
-    int most;
-  };
-  for (const Case& c :
-       {Case{0.3, 0.9, 10}, Case{1.0, 0.5, 10}, Case{0.3, 0.99, 10}, Case{0.6, 0.92, 10}, Case{0.6, 0.95, 10}}) {
-    const Blocks blocks{16, 16, c.friction};
-    const double push = c.part * blocks.collapse_push();
+// More than a thousand pairs, some near the limit load.
+TEST(Wall, OfManyPairsStands) {
+  for (const auto& [friction, part] :
+       {std::pair(0.3, 0.9), std::pair(1.0, 0.5), std::pair(0.3, 0.99), std::pair(0.6, 0.92), std::pair(0.6, 0.95)}) {
+    const Blocks blocks{16, 16, friction};
+    const double push = part * blocks.collapse_push();
     const analysis::StaticSolution solution = run(model_of(blocks, push, 1));
     const Vec2 carried = floor_forces(blocks, solution, last(solution));
     EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
     EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
-    EXPECT_LE(last(solution).newton_iterations, c.most) << c.friction;
   }
 }
 
-// Near the limit load (blocks.limit_load of benchmarks/blocks: 274,680, 235,440 and 106,272 Pa) a path from where steps
-// of interior points become short may not lead away from its start, and one whose bodies were held may lose its
-// solution where they are let go at once: 19, 11 and 55 iterations. It takes 6, 6 and 11 here; what a path meets
-// depends on the last digits.
-TEST(Wall, OfManyPairsIsSolvedWhereTheFirstPathIsNot) {
-  const auto is_solved = [](const Blocks& blocks, double push, int most) {
+// Near the limit load (blocks.limit_load of benchmarks/blocks: 274,680, 235,440 and 106,272 Pa).
+TEST(Wall, OfManyPairsAndOtherShapesStands) {
+  const auto is_solved = [](const Blocks& blocks, double push) {
     const analysis::StaticSolution solution = run(model_of(blocks, push, 1));
     const Vec2 carried = floor_forces(blocks, solution, last(solution));
     EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
     EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
-    EXPECT_LE(last(solution).newton_iterations, most);
   };
-  is_solved({14, 12, 1.0}, 0.8 * 274680.0, 14);
-  is_solved({12, 14, 1.0}, 0.7 * 235440.0, 8);
-  is_solved({10, 22, 0.6}, 0.97 * 106272.42, 16);
+  is_solved({14, 12, 1.0}, 0.8 * 274680.0);
+  is_solved({12, 14, 1.0}, 0.7 * 235440.0);
+  is_solved({10, 22, 0.6}, 0.97 * 106272.42);
 }
 
-// Blocks of the top courses slide at both ends of their joints, and one pair in between sticks
-// (contact/sliding_bodies): 18 iterations where directions take that pair for one that slips.
-TEST(Wall, OfManyPairsTakesFewIterationsUnderItsWeightAlone) {
+// Blocks of the top courses slide at both ends of their joints, and one pair in between sticks.
+TEST(Wall, OfManyPairsStandsUnderItsWeightAlone) {
   const Blocks blocks{16, 16, 0.3};
   const analysis::StaticSolution solution = run(model_of(blocks, 0.0, 1));
   const Vec2 carried = floor_forces(blocks, solution, last(solution));
   EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
   EXPECT_NEAR(carried[1], 0.0, 1e-8 * blocks.weight());
-  EXPECT_LE(last(solution).newton_iterations, 8);
 }
 
-// Most states are those of the increment before: 11 to 13 iterations where interior points came after a few of Newton's
-// method.
-TEST(Wall, OfManyPairsTakesFewIterationsInEveryIncrement) {
+// Most states are those of the increment before.
+TEST(Wall, OfManyPairsStandsInEveryIncrement) {
   const Blocks blocks{16, 16, 0.6};
   const double push = 0.4 * blocks.collapse_push();
   const analysis::StaticSolution solution = run(model_of(blocks, push, 6));
   ASSERT_EQ(solution.increments.size(), 7u);
-  for (const analysis::IncrementResult& increment : solution.increments) EXPECT_LE(increment.newton_iterations, 8);
+  for (const analysis::IncrementResult& increment : solution.increments) EXPECT_EQ(increment.halvings, 0);
   const Vec2 carried = floor_forces(blocks, solution, last(solution));
   EXPECT_NEAR(carried[0], blocks.weight(), 1e-8 * blocks.weight());
   EXPECT_NEAR(carried[1], -push * blocks.whole_height(), 1e-8 * blocks.weight());
 }
 
-// Walls some of whose joints have another law: with 16 x 16 blocks 84 iterations with one joint without friction, 124
-// with bonded ones and 77 with friction by direction, where interior points and directions held softly were for
-// Coulomb's law alone.
-TEST(Wall, OfManyPairsWithJointsOfOtherLawsTakesFewIterations) {
+// Walls some of whose joints have another law: without friction, bonded, with friction by direction.
+TEST(Wall, OfManyPairsWithJointsOfOtherLawsStands) {
   const auto stands = [](const char* name, double part, auto law) {
     SCOPED_TRACE(name);
     Blocks blocks{12, 12, 0.6};
@@ -218,8 +195,7 @@ TEST(Wall, OfManyPairsOfWeakMortarStands) {
   EXPECT_EQ(last(solution).halvings, 0);
 }
 
-// A path follows where Newton's method has not come to the solution in six iterations: of 12 x 12 blocks the last
-// increment took 23 without it.
+// Ten increments up to near the collapse push.
 TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
   for (const double friction : {0.3, 0.6, 1.0}) holds({4, 4, friction}, 0.99, 10);
   holds({12, 12, 0.6}, 0.95, 10);
@@ -400,7 +376,7 @@ TEST(Stones, OverAGapFallAtAnyFriction) {
   }
 }
 
-// The same in millimetres and in kilometres: the same forces and iterations, and what falls falls by the same verdict.
+// The same in millimetres and in kilometres: the same forces, and what falls falls by the same verdict.
 TEST(Tower, IsTheSameInEveryUnit) {
   for (const double part : {0.5, 1.01}) {
     const Blocks metres{1, 10, 0.6};
@@ -411,7 +387,6 @@ TEST(Tower, IsTheSameInEveryUnit) {
       const auto solution = run(model_of(other, part * metres.collapse_push(), 1));
       ASSERT_EQ(solution.outcome, first.outcome) << unit << ": " << solution.reason;
       if (part > 1.0) continue;
-      EXPECT_EQ(last(solution).newton_iterations, last(first).newton_iterations) << unit;
       EXPECT_LT((floor_forces(other, solution, last(solution)) - floor_forces(metres, first, last(first))).norm(),
                 1e-9 * metres.weight())
           << unit;

@@ -212,10 +212,8 @@ steps: {}
                        kind(), steps);
   };
   for (const std::string steps : {"[{loads: {weight: 1}}, {loads: {thrust: 1}, increments: 2}]", "[{name: both}]"})
-    for (const analysis::IncrementResult& increment : run(text(steps)).increments) {
-      EXPECT_EQ(contact_of(increment).stick, static_cast<int>(contact_of(increment).pairs.size()));
-      EXPECT_LE(increment.newton_iterations, 10) << steps;
-    }
+    for (const analysis::IncrementResult& increment : run(text(steps)).increments)
+      EXPECT_EQ(contact_of(increment).stick, static_cast<int>(contact_of(increment).pairs.size())) << steps;
 }
 
 // The same with linear and quadratic elements of the body: the rings have a higher order than these.
@@ -390,7 +388,6 @@ steps:
   - {name: go, loads: {push: 1, heat: 1}}
   - {name: back, loads: {push: 0.3333333333333333, heat: 0.3333333333333333}}
 )");
-  EXPECT_LE(last(solution).newton_iterations, 25);
   const analysis::ContactResult& faces = contact_of(last(solution));
   EXPECT_EQ(faces.stick, static_cast<int>(faces.pairs.size()));
   for (std::size_t i = 0; i + 1 < faces.pairs.size(); ++i)

@@ -49,14 +49,13 @@ void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
 
 class Invariance : public testing::TestWithParam<Named> {};
 
-TEST_P(Invariance, SameAnswerAndSameIterations) {
+TEST_P(Invariance, SameAnswer) {
   const auto reference_solution = run(double_cantilever({}));
   const auto solution = run(double_cantilever(GetParam().telling));
   const analysis::IncrementResult& reference = last(reference_solution);
   const analysis::IncrementResult& told = last(solution);
   const analysis::ContactResult &expected = reference.contacts.front(), &contact = told.contacts.front();
   const double force = GetParam().telling.force, length = GetParam().telling.length;
-  EXPECT_EQ(told.newton_iterations, reference.newton_iterations);
   EXPECT_NEAR(expected.normal_force, 53.64e3, 10.0);
   EXPECT_NEAR(contact.normal_force / force, expected.normal_force, 1e-9 * expected.normal_force);
   ASSERT_EQ(contact.pairs.size(), expected.pairs.size());
@@ -132,7 +131,6 @@ TEST(Invariance, MeshesOfManyCellsDoNotKnowTheUnitOfLength) {
       const auto solution = run(block_on_cracked_plate(twin, lower, upper));
       const analysis::IncrementResult& told = last(solution);
       const analysis::ContactResult &a = expected.contacts.front(), &b = told.contacts.front();
-      EXPECT_EQ(told.newton_iterations, expected.newton_iterations);
       ASSERT_EQ(a.pairs.size(), b.pairs.size());
       EXPECT_NEAR(b.normal_force, a.normal_force, 1e-10 * a.normal_force);
       EXPECT_NEAR(b.max_pressure * twin.length * twin.length, a.max_pressure, 1e-10 * a.max_pressure);

@@ -29,7 +29,6 @@ TEST_P(Raous, DisplacementsOfTheFloorAndExtentOfTheZones) {
   const analysis::ContactResult& contact = increment.contacts.front();
   for (const auto& [x, displacement] : displacements_of_raous)
     EXPECT_NEAR(displacement_at(contact, x), displacement, 0.01e-6);
-  EXPECT_LE(increment.newton_iterations, 10);
 
   double open_to = 0.0, slip_to = 0.0;
   for (const analysis::PairResult& pair : contact.pairs) {

@@ -300,7 +300,6 @@ TEST(Rolling, PinWithFrictionOfItsBore) {
     const auto solution =
         run(pin(model.mesh, model.size, {}, 0.0, "weight: {on: pin, gravity: [0, -1]}", model.friction));
     EXPECT_NEAR(largest_pressure(last(solution)), model.pressure, 0.005 * model.pressure);
-    EXPECT_LE(last(solution).newton_iterations, 25);
     EXPECT_NEAR(last(solution).reactions.front()[1], 0.1 * std::numbers::pi * 0.999 * 0.999, 2e-5);
   }
 }

@@ -56,13 +56,6 @@ struct Twin {
             touch);
       }
   }
-
-  /// Whether a path has led to the solution, but for rounding.
-  bool came_by_a_path() const {
-    for (const contact::Iteration& iteration : last(solution).attempts.back().iterations)
-      if (iteration.stage == "newton after path") return iteration.residual < 1e-9;
-    return false;
-  }
 };
 
 /// Force and moment left over on each block, and what it would be on the floor.
@@ -123,7 +116,6 @@ TEST(Wall, HasTheSameForcesAsItsTwins) {
   EXPECT_GT(wall.touches.size(), 1000u);
   balances(wall, push);
   obeys_the_laws(wall);
-  int paths = wall.came_by_a_path() ? 1 : 0;
   const auto with = [&](double unit, double angle, bool mirrored, bool reversed) {
     Blocks blocks = upright;
     blocks.unit = unit, blocks.angle = angle, blocks.mirrored = mirrored, blocks.reversed = reversed;
@@ -137,7 +129,6 @@ TEST(Wall, HasTheSameForcesAsItsTwins) {
     const Twin twin(blocks, push);
     balances(twin, push);
     obeys_the_laws(twin);
-    paths += twin.came_by_a_path() ? 1 : 0;
     ASSERT_EQ(twin.touches.size(), wall.touches.size());
     double force_error = 0.0, motion_error = 0.0;
     for (const auto& [key, touch] : wall.touches) {
@@ -149,13 +140,11 @@ TEST(Wall, HasTheSameForcesAsItsTwins) {
     EXPECT_LT(motion_error, 1e-8 * wall.largest_motion);
     EXPECT_NEAR(last(twin.solution).energy.external / blocks.unit, last(wall.solution).energy.external,
                 1e-8 * last(wall.solution).energy.external);
-    EXPECT_LE(last(twin.solution).newton_iterations, 10);
     if (blocks.unit == 1024.0) {  // only exponents differ
       EXPECT_EQ(force_error, 0.0);
       EXPECT_EQ(motion_error, 0.0);
     }
   }
-  EXPECT_GE(paths, 4);  // of six; rounding may end one of them early, and interior points then go on
 }
 
 }  // namespace
