@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scabo/contact/interior/interior_point.hpp"
+#include "scabo/contact/solution.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/solve.hpp"

@@ -1,6 +1,6 @@
 // Interior points and long sweeps on towers of rigid blocks: W = H' M^-1 H has far fewer independent rows than pairs.
 // What they find is asked of the law itself, pair by pair.
-#include "scabo/contact/interior/interior_point.hpp"
+#include "scabo/contact/interior/interior_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,6 @@
 #include "scabo/contact/search.hpp"
 #include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
-#include "scabo/contact/interior/plane_interior_points.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/contact/sweeps/gauss_seidel.hpp"
@@ -33,17 +32,6 @@ struct TowerCase {
 };
 
 class InteriorPointsOnTowers : public ::testing::TestWithParam<TowerCase> {};
-
-TEST_P(InteriorPointsOnTowers, ReachTheLaw) {
-  const auto [d, blocks, points] = GetParam();
-  const Problem problem = tower_of_blocks(d, blocks, points, 0.4);
-  ASSERT_TRUE(may_take_interior_points(problem));
-  const InteriorPointEnd end = interior_points(problem, {});
-  ASSERT_EQ(end.p.size(), problem.q.size());
-  EXPECT_FALSE(end.content);  // nobody was asked
-  EXPECT_EQ(end.trace.size(), static_cast<std::size_t>(end.iterations) + 1);
-  expect_the_law(problem, end.p, 1e-6);
-}
 
 TEST_P(InteriorPointsOnTowers, ThenNewtonToTheLastDigits) {
   const auto [d, blocks, points] = GetParam();
@@ -129,67 +117,8 @@ TEST_P(InteriorPointsOnTowers, WithFrictionThatDiffersReachTheLaw) {
   expect_the_law(problem, end.p, 1e-6);
 }
 
-// What the judge accepts is handed over with its states: pairs that slip are at the bound to the last digit, open ones
-// without any force. Inside the cones, where the points are, there are none of either.
-TEST_P(InteriorPointsOnTowers, EndAtTheBoundaryOfTheCones) {
-  const auto [d, blocks, points] = GetParam();
-  const Problem problem = tower_of_blocks(d, blocks, points, 0.4);
-  const InteriorPointEnd end = interior_points(problem, [&](const Vector& p, const Vector&, const Vector& motion) {
-    return Measure(problem).natural_map(problem, p, motion) <= 1e-5;
-  });
-  ASSERT_TRUE(end.content);
-  int at_the_boundary = 0;
-  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    const double bound = problem.mu[i] * end.p[d * i], friction = end.p.segment(d * i + 1, d - 1).norm();
-    at_the_boundary += std::abs(friction - bound) <= 1e-13 * end.p.lpNorm<Eigen::Infinity>();
-  }
-  EXPECT_GT(at_the_boundary, 0);
-}
-
-TEST_P(InteriorPointsOnTowers, WithSlipsHeldReachTheLaw) {
-  const auto [d, blocks, points] = GetParam();
-  const Problem problem = tower_of_blocks(d, blocks, points, 0.4);
-  HeldSlips held(problem);
-  const InteriorPointEnd end = held.advance(1e-8, 100, HUGE_VAL, {});
-  ASSERT_EQ(end.p.size(), problem.q.size());
-  EXPECT_LE(end.residual, 1e-8);
-  expect_the_law(problem, end.p, 1e-6);
-}
-
 INSTANTIATE_TEST_SUITE_P(Plane, InteriorPointsOnTowers, ::testing::Values(TowerCase{2, 20, 2}, TowerCase{2, 8, 4}));
 INSTANTIATE_TEST_SUITE_P(Space, InteriorPointsOnTowers, ::testing::Values(TowerCase{3, 12, 3}));
-
-TEST(InteriorPoints, TheJudgeEndsThem) {
-  const Problem problem = tower_of_blocks(3, 4, 2, 0.4);
-  int asked = 0;
-  const InteriorPointEnd end =
-      interior_points(problem, [&](const Vector&, const Vector&, const Vector&) { return ++asked == 3; });
-  EXPECT_TRUE(end.content);
-  EXPECT_EQ(end.iterations, 2);
-  EXPECT_LE(interior_points(problem, {}, Deadline::in(0.0)).iterations, 0);
-}
-
-TEST(InteriorPoints, OneCubePushedSidewaysSlides) {
-  // One pair, W = 1: the fall q_n = -1 is held by p_n = 1, friction takes 0.4 of the push along (3, 4) / 5 * 2.
-  Problem problem;
-  problem.dimension = 3;
-  Eigen::SparseMatrix<double> W(3, 3);
-  W.setIdentity();
-  problem.W = Delassus(W);
-  problem.q = Eigen::Vector3d(-1.0, 1.2, 1.6);
-  problem.mu = Vector::Constant(1, 0.4);
-  const Vector p = interior_points(problem, {}).p;
-  EXPECT_LE((p - Eigen::Vector3d(1.0, -0.24, -0.32)).norm(), 1e-8);
-  // Slips held: the first round has none of them, so that the pair is lifted by mu |u_t| less than it must be.
-  EXPECT_LE((HeldSlips(problem).advance(1e-9, 50, HUGE_VAL, {}).p - Eigen::Vector3d(1.0, -0.24, -0.32)).norm(), 1e-7);
-  // Handed over as a pair that slips: at the bound of friction to the last digit.
-  const InteriorPointEnd judged =
-      interior_points(problem, [&](const Vector& forces, const Vector&, const Vector& motion) {
-        return Measure(problem).natural_map(problem, forces, motion) <= 1e-6;
-      });
-  EXPECT_TRUE(judged.content);
-  EXPECT_NEAR(judged.p.tail<2>().norm(), 0.4 * judged.p[0], 1e-15);
-}
 
 /// Accepts a natural map of 1e-10.
 IsSolution within_1e10(const Problem& problem) {
@@ -241,15 +170,6 @@ TEST(LongSweeps, EndWhereNothingIsGainedOrTheTimeIsOver) {
   EXPECT_FALSE(LongSweeps(problem, Vector::Zero(4)).run(1000, {}, Deadline::in(0.0)));
 }
 
-TEST(InteriorPoints, AreNotForOtherLaws) {
-  Problem problem = tower_of_blocks(2, 2, 2, 0.4);
-  problem.mu[1] = 0.0;  // its cone has no inside
-  EXPECT_FALSE(may_take_interior_points(problem));
-  problem.mu[1] = 0.4;
-  problem.cohesion = Vector::Ones(problem.pairs());
-  EXPECT_FALSE(may_take_interior_points(problem));
-}
-
 // Elastic bodies that contact alone holds: the balance of the rigid motions belongs to the system. Newton on the same
 // problems, and a judge that shares nothing with either, are the oracle.
 TEST(InteriorPoints, BalanceTheRigidMotionsOfElasticBodies) {
@@ -279,27 +199,6 @@ TEST(InteriorPoints, BalanceTheRigidMotionsOfElasticBodies) {
   EXPECT_GE(10 * reached, 9 * asked) << reached << " of " << asked;
 }
 
-/// Floating blocks with random motions: the law, written out case by case, from a start that knows only the load.
-TEST(PlaneInteriorPoints, FindForcesOfFloatingBlocks) {
-  std::mt19937 random(5);
-  int solved = 0, solvable = 0;
-  constexpr int count = 40;
-  for (int k = 0; k < count; ++k) {
-    const Problem problem = in_unit_stiffness(test::floating_problem(random, 10 + k, 0.8));
-    if (problem.mu.minCoeff() <= 0.0 || find_mechanism(problem)) continue;
-    ++solvable;
-    Vector p = Vector::Zero(problem.q.size());
-    for (int i = 0; i < problem.pairs(); ++i) p[2 * i] = problem.f.lpNorm<Eigen::Infinity>() / problem.pairs();
-    PlaneInteriorPoints points(problem, p, Vector::Zero(problem.G.cols()), 1.0);
-    const InteriorPointEnd end = points.advance(1e-10, {}, {});
-    if (end.residual > 1e-10) continue;  // a path that turned back
-    ++solved;
-    EXPECT_LT(test::violation(problem, end.p, end.a), 1e-8 * end.p.lpNorm<Eigen::Infinity>()) << k;
-  }
-  EXPECT_GT(solvable, 20);
-  EXPECT_GE(solved, solvable - 2);
-}
-
 struct LawCase {
   const char* name;
   void (*give)(Problem& problem, double force);  ///< the law, with strengths in proportion to a mean force
@@ -307,10 +206,10 @@ struct LawCase {
 
 void PrintTo(const LawCase& law, std::ostream* out) { *out << law.name; }
 
-class PlaneInteriorPointsForLaws : public ::testing::TestWithParam<LawCase> {};
+class InteriorPointsForLaws : public ::testing::TestWithParam<LawCase> {};
 
-/// The same blocks with pairs of other laws.
-TEST_P(PlaneInteriorPointsForLaws, FindForcesOfFloatingBlocks) {
+/// Floating blocks with pairs of other laws.
+TEST_P(InteriorPointsForLaws, FindForcesOfFloatingBlocks) {
   std::mt19937 random(8);
   int solved = 0, solvable = 0;
   for (int k = 0; k < 40; ++k) {
@@ -319,12 +218,7 @@ TEST_P(PlaneInteriorPointsForLaws, FindForcesOfFloatingBlocks) {
     GetParam().give(problem, force);
     if (solve(problem).status != Status::solved) continue;
     ++solvable;
-    Vector p = Vector::Zero(problem.q.size());
-    for (int i = 0; i < problem.pairs(); ++i) p[2 * i] = force;
-    ASSERT_TRUE(may_take_plane_interior_points(problem));
-    PlaneInteriorPoints points(problem, p, Vector::Zero(problem.G.cols()), 1.0);
-    // Pairs without friction get a millionth of the largest coefficient.
-    const InteriorPointEnd end = points.advance(1e-6, {}, {});
+    const InteriorPointEnd end = InteriorPoints(problem, 1.0).advance(1e-6, {}, {});
     if (end.residual > 1e-6) continue;  // a path that turned back
     ++solved;
     const BDifferentiableEquations equations(problem, 1.0);
@@ -336,7 +230,7 @@ TEST_P(PlaneInteriorPointsForLaws, FindForcesOfFloatingBlocks) {
   EXPECT_GE(solved, solvable - 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlaneInteriorPointsForLaws,
+INSTANTIATE_TEST_SUITE_P(All, InteriorPointsForLaws,
                          ::testing::Values(LawCase{"WithoutFriction",
                                                    [](Problem& problem, double) {
                                                      for (int i = 0; i < problem.pairs(); i += 3) problem.mu[i] = 0.0;

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "scabo/base/interruption.hpp"
-#include "scabo/contact/interior/interior_steps.hpp"
+#include "scabo/contact/interior/judged_steps.hpp"
 #include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
-namespace held {
+namespace {
 
 struct HeldConstants {
   double aim = 1e-3;      ///< of the square of the slips' change: m at which a round ends
@@ -27,7 +27,36 @@ struct HeldConstants {
   double fall = 0.7;   ///< of the slips' distance in so many rounds; otherwise another way
   int rounds_of_way = 30;
 };
-inline constexpr HeldConstants held_constants;
+constexpr HeldConstants held_constants;
+
+/// Slips of the last rounds, and how far they were from those held.
+struct Remembered {
+  std::vector<Vector> offs, slips;
+
+  void add(const Vector& off, const Vector& slip) {
+    offs.push_back(off);
+    slips.push_back(slip);
+    if (static_cast<int>(offs.size()) <= held_constants.remembered + 1) return;
+    offs.erase(offs.begin());
+    slips.erase(slips.begin());
+  }
+
+  /// `next`, the last slips, less the combination of changes that takes most of the last distance away.
+  void extrapolate(Vector& next) const {
+    const auto count = static_cast<Eigen::Index>(offs.size()) - 1;
+    if (count < 1) return;
+    Matrix of_offs(next.size(), count), of_slips(next.size(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      of_offs.col(j) = offs[k + 1] - offs[k];
+      of_slips.col(j) = slips[k + 1] - slips[k];
+    }
+    Matrix gram = of_offs.transpose() * of_offs;
+    gram.diagonal() *= 1.0 + 1e-8;  // in case the changes are nearly equal
+    const Vector gamma = gram.ldlt().solve(of_offs.transpose() * offs.back());
+    if (gamma.allFinite()) next -= of_slips * gamma;
+  }
+};
 
 template <int d>
 class FixedPoint {
@@ -35,10 +64,12 @@ class FixedPoint {
   explicit FixedPoint(const Problem& problem)
       : problem_(&problem),
         measure_(problem),
-        steps_(problem, 1.0),
+        steps_(problem),
         scale_(steps_.size_of_loads() / std::sqrt(static_cast<double>(problem.pairs()))),
         change_(scale_),
-        held_(Vector::Zero(problem.pairs())) {}
+        held_(Vector::Zero(problem.pairs())) {
+    steps_.start(1.0);
+  }
 
   InteriorPointEnd advance(double aim, int rounds, double fall, const IsSolution& content, const Deadline& deadline) {
     InteriorPointEnd end;
@@ -85,13 +116,13 @@ class FixedPoint {
   /// The next slips, and the point from which they are looked for. Returns the distance of those of now.
   double hold_next() {
     const HeldConstants& c = held_constants;
-    const Vector& slips = steps_.slips();
+    const Vector slips = steps_.lifts();
     const Vector off = slips - held_;
     change_ = off.template lpNorm<Eigen::Infinity>();
     choose_way(off.norm());
     Vector next = way_ == Way::halved ? Vector(0.5 * (slips + held_)) : slips;
-    remember(off, slips);
-    if (way_ == Way::extrapolated) extrapolate(off, next);
+    remembered_.add(off, slips);
+    if (way_ == Way::extrapolated) remembered_.extrapolate(next);
     const double sticks = c.sticking * std::sqrt(steps_.gap());
     for (Eigen::Index i = 0; i < next.size(); ++i) next[i] = slips[i] <= sticks ? 0.0 : std::max(next[i], 0.0);
     const double moved = (next - held_).template lpNorm<Eigen::Infinity>();
@@ -110,52 +141,33 @@ class FixedPoint {
     fallen_ = off;
   }
 
-  void remember(const Vector& off, const Vector& slips) {
-    offs_.push_back(off);
-    slips_.push_back(slips);
-    if (static_cast<int>(offs_.size()) <= held_constants.remembered + 1) return;
-    offs_.erase(offs_.begin());
-    slips_.erase(slips_.begin());
-  }
-
-  void extrapolate(const Vector& off, Vector& next) const {
-    const auto count = static_cast<Eigen::Index>(offs_.size()) - 1;
-    if (count < 1) return;
-    Matrix of_offs(off.size(), count), of_slips(off.size(), count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const auto k = static_cast<std::size_t>(j);
-      of_offs.col(j) = offs_[k + 1] - offs_[k];
-      of_slips.col(j) = slips_[k + 1] - slips_[k];
-    }
-    Matrix gram = of_offs.transpose() * of_offs;
-    gram.diagonal() *= 1.0 + 1e-8;  // in case the changes are nearly equal
-    const Vector gamma = gram.ldlt().solve(of_offs.transpose() * off);
-    if (gamma.allFinite()) next -= of_slips * gamma;
-  }
-
   enum class Way { plain, extrapolated, halved };
 
   const Problem* problem_;
   Measure measure_;
   InteriorSteps<d> steps_;
   double scale_, change_;
-  Vector held_;
+  Vector held_;                       // lifts
   std::vector<Passed> passed_;        // of this round and those before it, m falling from round to round
-  std::vector<Vector> offs_, slips_;  // of the last rounds
+  Remembered remembered_;
   Way way_ = Way::plain;
   double fallen_ = HUGE_VAL, first_off_ = 0.0;
   int since_fall_ = 0, rounds_ = 0;
 };
 
-}  // namespace held
+}  // namespace
 
 struct HeldSlips::Rounds {
-  std::variant<held::FixedPoint<2>, held::FixedPoint<3>> of;
+  std::variant<FixedPoint<2>, FixedPoint<3>> of;
 };
 
-HeldSlips::HeldSlips(const Problem& problem)
-    : rounds_(problem.dimension == 3 ? new Rounds{held::FixedPoint<3>(problem)}
-                                     : new Rounds{held::FixedPoint<2>(problem)}) {}
+HeldSlips::HeldSlips(const Problem& problem) {
+  using Either = std::variant<FixedPoint<2>, FixedPoint<3>>;
+  if (problem.dimension == 3)
+    rounds_.reset(new Rounds{Either(std::in_place_index<1>, problem)});
+  else
+    rounds_.reset(new Rounds{Either(std::in_place_index<0>, problem)});
+}
 HeldSlips::~HeldSlips() = default;
 HeldSlips::HeldSlips(HeldSlips&&) noexcept = default;
 HeldSlips& HeldSlips::operator=(HeldSlips&&) noexcept = default;

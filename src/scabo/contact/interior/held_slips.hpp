@@ -1,30 +1,30 @@
-// Interior points with slips held: Coulomb's law as a fixed point of convex problems, for stacks of rigid bodies where
-// neither sweeps nor interior points (interior_point.hpp) reach a solution.
+// Interior points with slips held: the law as a fixed point of convex problems, for stacks of rigid bodies where
+// neither sweeps nor interior points (interior_points.hpp) reach a solution.
 //
-// With the slips s of the pairs held, in the notation of interior_point.hpp,
+// With the lifts mu s of the pairs held, s their slips, the conditions of interior_steps.hpp with
 //
-//     y = (u'_n + s, u'_t),   x, y in K,   x o y = 0
+//     u_n = y + mu (sigma - s)
 //
-// is convex for a positive semidefinite W: its motions u' are unique, and interior points always lead to them (Acary,
-// Cadoux, Lemarechal, Malick, ZAMM 91 (2011) 155). With s = |u'_t| it is the law. A round solves it for one s; the next
-// s are
+// are those of a convex problem for a positive semidefinite W (of pairs without tensile strength): its motions u are
+// unique, and interior points always lead to them (Acary, Cadoux, Lemarechal, Malick, ZAMM 91 (2011) 155). With s =
+// |u_t| it is the law. A round solves it for one s; the next s are
 //
-//     plain            |u'_t|
+//     plain            |u_t|
 //     extrapolated     from the last four rounds (Anderson, J. ACM 12 (1965) 547; type II)
-//     halved           half way between s and |u'_t|
+//     halved           half way between s and |u_t|
 //
-// plain at first, and the next of them, in turn, where |s - |u'_t|| has not fallen by a third in thirty rounds. On
+// plain at first, and the next of them, in turn, where |s - |u_t|| has not fallen by a third in thirty rounds. On
 // piles with much friction the extrapolated ones wander, and plain ones swing between two values on others.
 //
-// Two details decide. A pair that sticks must be given s = 0 exactly: with the least s > 0 the normal of y is inside K
-// and the pair carries nothing at all; of the points of a round |u'_t| is known to about sqrt(m) only, so that
-// what is below 3 sqrt(m) counts as 0. And a round starts where the gap of the last was a hundred times the
-// square of the change of s: from closer to the boundary the steps collapse.
+// Two details decide. A pair that sticks must be given s = 0 exactly: with the least s > 0 it carries nothing at all;
+// of the points of a round |u_t| is known to about sqrt(m) only, so that what is below 3 sqrt(m) counts as 0. And a
+// round starts where the gap of the last was a hundred times the square of the change of s: from closer to the boundary
+// the steps collapse.
 #pragma once
 
 #include <memory>
 
-#include "scabo/contact/interior/interior_point.hpp"
+#include "scabo/contact/interior/interior_points.hpp"
 
 namespace scabo::contact {
 
@@ -37,8 +37,8 @@ class HeldSlips {
   HeldSlips& operator=(HeldSlips&&) noexcept;
 
   /// Goes on where it ended before, until `content` accepts forces and motions, the natural map is at most `aim` after
-  /// a round, `rounds` rounds are done in all, or the slips' distance |s - |u'_t|| is larger than `fall` per round
-  /// times that of the first. The best point of this call.
+  /// a round, `rounds` rounds are done in all, or the slips' distance |s - |u_t|| is larger than `fall` per round times
+  /// that of the first. The best point of this call.
   InteriorPointEnd advance(double aim, int rounds, double fall, const IsSolution& content,
                            const Deadline& deadline = {});
 

@@ -1,10 +1,7 @@
-#include <optional>
 #include <utility>
 
 #include "scabo/contact/interior/held_slips.hpp"
-#include "scabo/contact/interior/interior_point.hpp"
-#include "scabo/contact/interior/plane_interior_points.hpp"
-#include "scabo/contact/newton/bonded_start.hpp"
+#include "scabo/contact/interior/interior_points.hpp"
 #include "scabo/contact/newton/undecided_pairs.hpp"
 #include "scabo/contact/stages.hpp"
 
@@ -18,12 +15,14 @@ constexpr double starts[] = {1.0, 0.1, 10.0};
 constexpr int crossover = 40, crossover_patience = 4;
 /// Of the fixed point of slips held.
 constexpr int most_rounds = 300;
+/// Natural map after which slips held are first crossed over, and how much it falls between two crossings.
+constexpr double first_aim = 1e-5, next_aim = 0.1;
 
 /// Newton's method makes the states of the pairs certain; where pairs are redundant it may not, and the point is kept
 /// if it is a solution.
 bool crossed_over(Search& search, InteriorPointEnd end) {
+  search.add_trace(std::move(end.trace), end.iterations, Measure(search.problem()).reference());
   if (end.p.size() == 0) return false;
-  if (end.a.size() != search.problem().G.cols()) end.a.setZero(search.problem().G.cols());
   const double residual = search.residual_at(end.p, end.a);
   const NewtonRun run{"newton after interior points", crossover, crossover_patience};
   const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
@@ -34,36 +33,28 @@ bool crossed_over(Search& search, InteriorPointEnd end) {
   return end.content;
 }
 
+void hold_slips(Search& search) {
+  HeldSlips held(search.problem());
+  for (double aim = first_aim; !search.solved() && !search.late();) {
+    InteriorPointEnd end = held.advance(aim, most_rounds, HUGE_VAL, search.judge(), search.options().deadline);
+    const double reached = end.residual;
+    if (crossed_over(search, std::move(end)) || reached > aim) return;
+    aim = next_aim * reached;
+  }
+}
+
 }  // namespace
 
 StageEnd interior_stage(Search& search) {
-  const Problem& problem = search.problem();
-  const bool cones = may_take_interior_points(problem), plane = may_take_plane_interior_points(problem);
-  if (!cones && !plane) return {false, "interior points need a matrix W that can be factorised"};
-  const double force = Measure(problem).reference();
-  std::optional<Point> bonded;
-  if (!cones && problem.G.cols() > 0) bonded = bonded_start(problem, search.touching());
-  const Point near = bonded ? *bonded : search.start();
+  if (!may_take_interior_points(search.problem()))
+    return {false, "interior points need a matrix W that can be factorised"};
   int steps = 0;
   for (const double start : starts) {
-    InteriorPointEnd end =
-        cones ? interior_points(problem, search.judge(), search.options().deadline, start)
-              : PlaneInteriorPoints(problem, near.p, near.a, start).advance(1e-8, search.judge(), search.options().deadline);
-    search.add_trace(std::move(end.trace), end.iterations, force);
+    InteriorPointEnd end = interior_points(search.problem(), search.judge(), search.options().deadline, start);
     steps += end.iterations;
     if (crossed_over(search, std::move(end)) || search.late()) break;
   }
-  if (cones && !search.solved() && !search.late()) {
-    HeldSlips held(problem);
-    double aim = 1e-5;
-    while (!search.solved() && !search.late()) {
-      InteriorPointEnd end = held.advance(aim, most_rounds, HUGE_VAL, search.judge(), search.options().deadline);
-      search.add_trace(std::move(end.trace), end.iterations, force);
-      const double reached = end.residual;
-      if (crossed_over(search, std::move(end)) || reached > aim) break;
-      aim = 0.1 * reached;
-    }
-  }
+  if (!search.solved() && !search.late()) hold_slips(search);
   return {search.solved(), "interior points ended after " + std::to_string(steps) + " steps"};
 }
 

@@ -1,0 +1,50 @@
+// Interior points: all forces at once, from the inside of what the laws allow (interior_steps.hpp). Stacks of bodies,
+// rigid or elastic, need that: sweeps carry forces from body to body, Newton's method needs nearly all states right,
+// and this asks for neither.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scabo/contact/deadline.hpp"
+#include "scabo/contact/judge.hpp"
+#include "scabo/contact/problem.hpp"
+#include "scabo/contact/solution.hpp"
+
+namespace scabo::contact {
+
+struct InteriorPointEnd {
+  Vector p, a;  ///< where the judge is content; otherwise of the least residual; empty: no point is finite
+  bool content = false;
+  int iterations = 0;
+  double residual = 0.0;         ///< least natural map met, of forces in the units of W p, over |q|
+  std::vector<Iteration> trace;  ///< its residual, its step length; merit is m / 2
+};
+
+/// W sparse, or dense with few enough rows to be factorised in each step; some load.
+bool may_take_interior_points(const Problem& problem);
+
+class InteriorPoints {
+ public:
+  /// All pairs with the same normal force, `start` times what the loads suggest.
+  InteriorPoints(const Problem& problem, double start);
+  /// From forces and rigid motions known roughly, as of bonded pairs: what of p - u is beyond the law becomes motion,
+  /// and the products are `start` times what is usual.
+  InteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start);
+  ~InteriorPoints();
+  InteriorPoints(InteriorPoints&&) noexcept;
+
+  /// Goes on where it ended before, until `content`, which may be empty, accepts forces and motions, the natural map is
+  /// at most `aim`, or steps no longer lead on. The best point of this call.
+  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline = {});
+
+ private:
+  struct Path;
+  std::unique_ptr<Path> path_;
+};
+
+/// To the end, from the start without history.
+InteriorPointEnd interior_points(const Problem& problem, const IsSolution& content, const Deadline& deadline = {},
+                                 double start = 1.0);
+
+}  // namespace scabo::contact

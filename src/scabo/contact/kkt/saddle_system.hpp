@@ -1,0 +1,57 @@
+// The linear systems of contact problems: one saddle matrix for interior points and for Newton's method,
+//
+//     [ L'W C + D   L'G ] [ z  ]   [ b ]          dp = C z     n unknowns z, each of one pair
+//     [ G'C         -E  ] [ da ] = [ g ]          W, G of a problem, E >= 0 a small multiple of 1
+//
+// D diagonal, >= 0; L and C have one column for each unknown, of the components [n, t[, t]] of its pair. Interior
+// points have all forces as unknowns; Newton's method those whose rows hold motions, and what slips follows its normal
+// force in C. Large D stand alone in their rows: rows are divided by 1 + D, and solutions are refined once, on which
+// the last digits of the forces depend where W is rank deficient.
+//
+// Two backends: W sparse, LU of the sparse matrix in whole blocks of the pairs, of many bodies ordered by their joints
+// (contact/kkt/joint_order); W dense, LU by LAPACK.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scabo/contact/problem.hpp"
+
+namespace scabo::contact {
+
+/// The unknowns of a system, pair after pair.
+struct SaddleRows {
+  using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+  std::vector<int> pair;  ///< n, ascending
+  Columns L, C;           ///< 3 x n; in the plane the last row is not used
+  Vector D;               ///< n
+  double E = 0.0;
+
+  void resize(std::size_t n);
+  Eigen::Index size() const { return D.size(); }
+  /// C z, dN numbers.
+  Vector forces(const Vector& z, int dimension, Eigen::Index pairs) const;
+};
+
+class SaddleSystem {
+ public:
+  /// W sparse or dense. Keeps a reference to `problem`.
+  explicit SaddleSystem(const Problem& problem);
+  ~SaddleSystem();
+  SaddleSystem(SaddleSystem&&) noexcept;
+
+  /// False where a pivot is zero.
+  [[nodiscard]] bool factorise(const SaddleRows& rows);
+  /// [z; da] of [b; g], of what was factorised last.
+  Vector solve(const Vector& right) const;
+
+ private:
+  struct Backend;
+  struct Dense;
+  struct Sparse;
+  std::unique_ptr<Backend> backend_;
+  Eigen::Index motions_;  // m
+  Vector row_;            // n + m, factors of the rows
+};
+
+}  // namespace scabo::contact
