@@ -22,7 +22,7 @@ FOLDERS = {
     "element": ("Super-elements", ["coefficient_matrices.hpp", "elasticity.hpp", "stiffness.hpp", "modal_solution.hpp", "interior_field.hpp",
                                    "mass.hpp", "stress_intensity.hpp", "singular_field.hpp", "cell_library.hpp"]),
     "contact": ("The contact problem", ["problem.hpp", "solution.hpp", "solve.hpp", "certificate.hpp", "judge.hpp", "delassus.hpp",
-                                        "rigid_map.hpp", "uniqueness.hpp", "infeasibility.hpp"]),
+                                        "rigid_map.hpp", "questions/uniqueness.hpp", "questions/infeasibility.hpp"]),
     "analysis": ("Analyses", ["static_analysis.hpp", "modal_analysis.hpp", "adaptive.hpp", "goal.hpp"]),
     "result": ("Results", ["*.hpp"]),
     "run": ("Whole runs", ["*.hpp"]),

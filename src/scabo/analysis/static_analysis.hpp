@@ -98,7 +98,7 @@ struct ErrorEstimate {
   std::vector<std::optional<BodyError>> bodies;  ///< empty for rigid and finite element bodies
 };
 
-/// Information on other solutions of an increment (contact/uniqueness.hpp), for `solver: {uniqueness: true}`.
+/// Information on other solutions of an increment (contact/questions/uniqueness.hpp), for `solver: {uniqueness: true}`.
 struct UniquenessResult {
   std::string verdict;    ///< `proven`, `several found`, `not decided`
   int others = 0;         ///< other solutions found
@@ -151,7 +151,7 @@ struct IncrementResult {
   std::map<std::string, double> factors;  ///< factors of loads and of supports with prescribed displacements
   bool converged = false;
   int newton_iterations = 0;
-  /// On the problems of fewer pairs from which the start was computed (contact/starts/cold_start.hpp); not counted
+  /// On the problems of fewer pairs from which the start was computed (contact/newton/coarse_start.hpp); not counted
   /// above.
   int coarse_iterations = 0;
   int halvings = 0;                       ///< number of times that the increment was halved

@@ -66,6 +66,7 @@ NewtonEnd Search::newton_from(Point from, const NewtonRun& run) {
     };
   NewtonEnd end = newton(equations, std::move(from.p), std::move(from.a), options);
   add_trace(std::move(end.trace), end.iterations);
+  end.converged = end.converged && accepts_(end.p, end.a, motion_of(scaled_, end.p, end.a));
   offer(end.p, end.a, end.residual, end.converged);
   return end;
 }

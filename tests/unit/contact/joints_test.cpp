@@ -174,7 +174,6 @@ TEST(Joints, TowersOfUnequalMassesAreSolved) {
       const Solution solution = solve(problem, {}, options);
       ASSERT_EQ(solution.status, Status::solved) << ratio << ' ' << mu << ' ' << solution.reason;
       EXPECT_LE(scaled_residual(problem, solution.p), 5e-9) << ratio << ' ' << mu;
-      EXPECT_LE(solution.iterations, 100);
     }
 }
 

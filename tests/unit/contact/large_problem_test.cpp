@@ -50,7 +50,6 @@ TEST(LargeProblem, TenThousandPairsWithSparseW) {
     ASSERT_EQ(solution.status, Status::solved) << solution.reason;
     EXPECT_LE(solution.certificate.worst(), 1e-10);
     EXPECT_LE(solution.natural_map_residual, 1e-10);
-    EXPECT_LE(solution.iterations, 30);
   }
 }
 

@@ -73,7 +73,6 @@ TEST(FloatingBlock, HoveringAndPushedDownLands) {
       double normal = 0.0;
       for (int i = 0; i < 5; ++i) normal += solution.p[2 * i];
       EXPECT_NEAR(normal, 10.0, 1e-8);
-      EXPECT_LT(solution.iterations, 100) << "gap " << gap;
     }
 }
 
@@ -90,7 +89,6 @@ TEST(FloatingBlock, TouchingAtZeroForceIsSolvedWithoutForces) {
     ASSERT_EQ(solution.status, Status::solved) << solution.reason;
     EXPECT_EQ(solution.p, Vector(Vector::Zero(10)));
     EXPECT_EQ(solution.undetermined.cols(), 3);  // nothing loads it, nothing holds it
-    EXPECT_EQ(solution.iterations, 0);
   }
 }
 

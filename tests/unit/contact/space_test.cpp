@@ -51,7 +51,6 @@ TEST(Space, ForcesTurnWithTheTangents) {
     const Solution first = solve(problem), second = solve(turned);
     ASSERT_EQ(first.status, Status::solved);
     ASSERT_EQ(second.status, Status::solved);
-    EXPECT_LE(std::abs(first.iterations - second.iterations), 1) << "problem " << k;  // the largest of |q| turns too
     EXPECT_LT((R * first.p - second.p).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + first.p.cwiseAbs().maxCoeff()));
   }
 }

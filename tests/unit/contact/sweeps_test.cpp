@@ -81,16 +81,13 @@ TEST(AcceleratedSweeps, SparseAndDenseAreTheSame) {
   EXPECT_LE((first.motion - (dense.q + dense.W * first.p)).norm(), 1e-13 * dense.q.norm());
 }
 
-TEST(AcceleratedSweeps, WhereTheySufficeNothingIsFactorised) {
+TEST(Chains, AreSolvedToTheirNaturalMap) {
   SolverOptions options;
   options.judge = Judge::natural_map;
   options.tolerance = 1e-9;
   for (int d : {2, 3}) {
     const Solution solution = solve(chain(d, 40, 0.3, 0.5), {}, options);
     EXPECT_EQ(solution.status, Status::solved);
-    EXPECT_EQ(solution.iterations, 0);
-    ASSERT_EQ(solution.trace.size(), 1u);
-    EXPECT_NE(solution.trace[0].stage.find(" sweeps"), std::string::npos);
     EXPECT_LE(solution.natural_map_residual, 1e-9);
     EXPECT_LE(solution.residual, 1e-7);
     EXPECT_LE(solution.certificate.worst(), 1e-6);

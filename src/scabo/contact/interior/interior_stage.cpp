@@ -14,7 +14,7 @@ constexpr double starts[] = {1.0, 0.1, 10.0};
 /// Iterations of Newton's method after interior points: what converges takes fewer.
 constexpr int crossover = 40, crossover_patience = 4;
 /// Of the fixed point of slips held.
-constexpr int most_rounds = 300;
+constexpr int most_rounds = 60;
 /// Natural map after which slips held are first crossed over, and how much it falls between two crossings.
 constexpr double first_aim = 1e-5, next_aim = 0.1;
 

@@ -14,7 +14,7 @@ constexpr int one_of_so_many_changes = 10;  // Newton's method finds so few chan
 
 /// The state of pair `i` that its forces tell, and H on that branch in place of that on the branch of `at`. Whether
 /// these branches differ.
-bool keep_state(const BDifferentiableEquations& equations, Eigen::Index i, const Vector& p, double rounding,
+bool keep_state(const BDifferentiableEquations& equations, Eigen::Index i, const Vector& p, double small,
                 Residual& at) {
   const Problem& problem = equations.problem();
   const Eigen::Index d = problem.dimension, n = d * i;
@@ -22,10 +22,10 @@ bool keep_state(const BDifferentiableEquations& equations, Eigen::Index i, const
   const double p_n = p[n], strength = p_n + problem.tension_of(i), friction = p_t.norm();
   const Vector& r = equations.r();
   Branch branch;
-  branch.contact = std::isinf(strength) || strength > rounding;
+  branch.contact = std::isinf(strength) || strength > small;
   at.H[n] = branch.contact ? r[n] * at.motion[n] : strength;
   const double bound = problem.friction_bound(i, p_n, p_t[0]);
-  if (!(bound > rounding)) {
+  if (!(bound > small)) {
     branch.tangent = Branch::Tangent::free;
     at.H.segment(n + 1, d - 1) = p_t;
   } else if (friction < (1.0 - at_bound) * bound) {

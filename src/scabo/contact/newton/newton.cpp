@@ -1,8 +1,8 @@
 #include "scabo/contact/newton/newton.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "scabo/contact/kkt/newton_direction.hpp"
@@ -16,7 +16,7 @@ constexpr const NewtonConstants& constants = newton_constants;
 
 /// How far the iterations have come.
 struct Progress {
-  std::deque<double> merits;  // the last few
+  std::array<double, constants.memory> merits;  // the last few
   double best = HUGE_VAL;     // merit
   double halved = HUGE_VAL;   // the best one when it was last halved,
   int halved_at = 0;          // and the iteration
@@ -40,10 +40,10 @@ class Newton {
       keep_best();
       record();
       if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) ||
-          options_.deadline.passed() || creeps())
+          creeps())
         break;
       options_.deadline.spend(operations);
-      if (!advance()) break;
+      if (options_.deadline.passed() || !advance()) break;
     }
     return std::move(end_);
   }
@@ -102,8 +102,8 @@ class Newton {
       end_.residual = at_.largest();
     }
     end_.converged = content || end_.residual <= aim();
-    progress_.merits.push_back(merit);
-    if (static_cast<int>(progress_.merits.size()) > constants.memory) progress_.merits.pop_front();
+    if (end_.iterations == 0) progress_.merits.fill(merit);
+    progress_.merits[static_cast<std::size_t>(end_.iterations % constants.memory)] = merit;
   }
 
   /// Short steps from kink to kink, which lead on but not to an end.

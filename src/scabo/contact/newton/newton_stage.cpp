@@ -1,6 +1,7 @@
 #include <optional>
 #include <utility>
 
+#include "scabo/contact/interior/interior_points.hpp"
 #include "scabo/contact/newton/bonded_start.hpp"
 #include "scabo/contact/newton/coarse_start.hpp"
 #include "scabo/contact/newton/kept_states.hpp"
@@ -11,8 +12,10 @@ namespace scabo::contact {
 namespace {
 
 /// Iterations without halving |H| after which Newton's method creeps from kink to kink, and another start or stage is
-/// better.
+/// better, if there is one.
 constexpr int patience = 8;
+
+int patience_of(const Problem& problem) { return may_take_interior_points(problem) ? patience : 0; }
 
 std::string why_of(const NewtonEnd& end, const Search& search) {
   if (search.late()) return "Newton's method was ended by its limit";
@@ -24,6 +27,7 @@ std::string why_of(const NewtonEnd& end, const Search& search) {
 /// Whether that ends the search.
 bool from_history(Search& search, NewtonEnd& end) {
   const bool floats = search.problem().G.cols() > 0;
+  const int patience = patience_of(search.problem());
   const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
   const auto done = [&](Point from, const char* stage) {
     end = search.newton_from(std::move(from), {stage, 0, patience});
@@ -41,6 +45,7 @@ bool from_history(Search& search, NewtonEnd& end) {
 
 StageEnd newton_stage(Search& search) {
   const Problem& problem = search.problem();
+  const int patience = patience_of(problem);
   NewtonEnd end;
   const auto done = [&](Point from, const char* stage) {
     end = search.newton_from(std::move(from), {stage, 0, patience});
