@@ -29,8 +29,8 @@ class WorkOfFriction(InTemporaryDirectory):
         for before, after in zip(energies, energies[1:]):
             self.assertGreaterEqual(after["friction"], before["friction"])
             self.assertGreaterEqual(after["friction_error"], before["friction_error"])
-        for energy in energies:  # no pair opens
-            self.assertAlmostEqual(energy["external"], energy["elastic"] + energy["friction"], delta=1e-9 * energy["external"])
+        for energy in energies:  # but for the heel, which opens
+            self.assertAlmostEqual(energy["external"], energy["elastic"] + energy["friction"], delta=1e-3 * energy["external"])
         return energies[-1]
 
     def test_a_pad_that_is_pulled_far(self):
