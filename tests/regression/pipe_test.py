@@ -61,7 +61,8 @@ class Pipes(InTemporaryDirectory):
             with self.subTest(command):
                 run = scabo(command, pipe)
                 self.assertEqual(run.returncode, 1, run.stderr)
-                self.assertNotEqual(run.stderr, "")
+                if command != "report" or "make report" not in run.stderr:  # without its page it does not come that far
+                    self.assertIn("results: is a file, not a", run.stderr)
 
     def test_convert_refuses_it(self):
         run = scabo("convert", self.pipe("part.inp", "*NODE\n1, 0, 0\n"))
