@@ -16,7 +16,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A sled with a round runner, pulled at its top, which rocks until the normal force is where friction tips it.
+/// A sled with a round runner, pulled at its top, which rocks until the normal force is where friction tips it: 0.3 times
+/// the height of 0.6 m before its middle, 0.18 m / 2.525 m = 0.071 rad. In one increment of 0.3 m the parts into which it is
+/// halved, and with them the rotation, depend on rounding.
 StaticSolution sled(bool rigid_track, double friction) {
   return solve_static(input::parse_model(
       R"(scabo: 1
@@ -41,7 +43,7 @@ supports:
 loads: {press: {on: sled.top, pressure: 1e5}}
 contacts: {runner: {between: [track.top, sled.under], slip: large, friction: )" +
           std::to_string(friction) + R"(}}
-steps: [{loads: {press: 1, drive: 0}}, {loads: {drive: 1}}]
+steps: [{loads: {press: 1, drive: 0}}, {loads: {drive: 1}, increments: 3}]
 )",
       "model.yaml"));
 }
@@ -62,9 +64,9 @@ TEST(RotationsAtLargeSlip, AreNamedWhereNormalsAreWrong) {
   const StaticSolution solution = sled(false, 0.3);
   ASSERT_EQ(solution.outcome, Outcome::solved) << solution.reason;
   EXPECT_GT(pull_over_weight(solution), 1.1 * 0.3);  // this is what it tells of
-  EXPECT_THAT(of_rotation(solution), ElementsAre(HasSubstr("body 'sled' turns by -0.069 rad, and normals of contact "
+  EXPECT_THAT(of_rotation(solution), ElementsAre(HasSubstr("body 'sled' turns by -0.07 rad, and normals of contact "
                                                            "'runner' do not turn with it: the direction of the contact "
-                                                           "forces is wrong by about 0.034 rad, 11 % of friction; ")));
+                                                           "forces is wrong by about 0.035 rad, 12 % of friction; ")));
 }
 
 TEST(RotationsAtLargeSlip, AreNotNamedWhereTheyAreSmallOrNormalsAreThoseOfARigidTrack) {
