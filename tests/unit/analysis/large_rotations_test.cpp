@@ -16,9 +16,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A sled with a round runner, pulled at its top, which rocks until the normal force is where friction tips it: 0.3 times
-/// the height of 0.6 m before its middle, 0.18 m / 2.525 m = 0.071 rad. In one increment of 0.3 m the parts into which it is
-/// halved, and with them the rotation, depend on rounding.
+/// A sled with a round runner, pulled at its top, which rocks until the normal force is where friction tips it: 0.3
+/// times the height of 0.6 m before its middle, 0.18 m / 2.525 m = 0.071 rad. In one increment of 0.3 m the parts into
+/// which it is halved, and with them the rotation, depend on rounding.
 StaticSolution sled(bool rigid_track, double friction) {
   return solve_static(input::parse_model(
       R"(scabo: 1
