@@ -402,25 +402,27 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                          body.mesh.size, text_of_count(nodes, most_nodes, 2), most_nodes)};
   const UnitFree own(body, sizes);
   // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places. Few parts that do
-  // not see an arc well, from far along a slab with a hole, get shorter sides on it. A quadtree first unites cells that
-  // do not see a hollow arc, as between the arc and a line of the tree that is nearly its tangent, with others.
+  // not see an arc well, from far along a slab with a hole, get shorter sides on it. A quadtree unites cells that do
+  // not see a hollow arc, as between the arc and a line of the tree that is nearly its tangent, with others: smaller
+  // cells are there again.
   struct Attempt {
     double turn = 0.5, sizes_per_width = 2.0, finer_arcs = 1.0;
-    bool gaps = false, curved_sides = false;
+    bool narrow = false, curved_sides = false;
   };
-  std::vector<Attempt> attempts{{}};
-  if (body.mesh.kind == model::MeshKind::quadtree && body.mesh.order > 1) attempts.push_back({.curved_sides = true});
-  attempts.push_back({.turn = 0.25, .sizes_per_width = 1.4, .gaps = true, .curved_sides = body.mesh.order > 1});
-  attempts.push_back({.turn = 0.125, .sizes_per_width = 1.0, .gaps = true, .curved_sides = body.mesh.order > 1});
-  for (const double finer : {0.5, 0.25})
-    if (body.mesh.kind == model::MeshKind::parts)
-      attempts.push_back({.turn = 0.125, .sizes_per_width = 1.0, .finer_arcs = finer, .gaps = true});
+  std::vector<Attempt> attempts{{},
+                                {.turn = 0.25, .sizes_per_width = 1.4, .narrow = true},
+                                {.turn = 0.125, .sizes_per_width = 1.0, .narrow = true}};
+  if (body.mesh.kind == model::MeshKind::quadtree && body.mesh.order > 1)
+    for (const double turn : {0.5, 0.25}) attempts.push_back({.turn = turn, .curved_sides = true});
+  if (body.mesh.kind == model::MeshKind::parts)
+    for (const double finer : {0.5, 0.25})
+      attempts.push_back({.turn = 0.125, .sizes_per_width = 1.0, .finer_arcs = finer, .narrow = true});
   for (std::size_t a = 0;; ++a) {
     const Attempt& attempt = attempts[a];
     const BodyDomain of = domain_of(own.body(), own.sizes(),
                                     {.sizes_per_width = attempt.sizes_per_width,
-                                     .gaps = attempt.gaps,
-                                     .arcs = attempt.gaps && body.mesh.kind == model::MeshKind::quadtree,
+                                     .gaps = attempt.narrow,
+                                     .arcs = attempt.narrow && body.mesh.kind == model::MeshKind::quadtree,
                                      .most = most_nodes,
                                      .finer_arcs = attempt.finer_arcs});
     const auto in_words = [&](const Vec2& x) {

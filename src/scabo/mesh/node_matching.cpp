@@ -162,7 +162,7 @@ std::optional<int> first_alone(const Sides& sides, bool on_a, const std::vector<
 }
 
 /// Whether an element of `side` has several partners that are not those of one element of the same order of `other`. An
-/// element with one partner lies beyond the end of the other side.
+/// element with one partner lies beyond the end of the other side. `partners`: of nodes that face each other.
 bool is_unlike(const ContactSide& side, const ContactSide& other, const Partners& partners) {
   std::vector<std::vector<int>> partners_of(side.nodes.size()), elements_at(other.nodes.size());
   for (const auto& [i, j] : partners) partners_of[i].push_back(j);
@@ -190,10 +190,17 @@ bool is_unlike(const ContactSide& side, const ContactSide& other, const Partners
   return false;
 }
 
-/// The partners as positions in B and A.
-Partners swapped(Partners partners) {
-  for (auto& [i, j] : partners) std::swap(i, j);
-  return partners;
+/// Whether elements do not match where the sides face each other. Beyond, where curved sides turn away from each other,
+/// nodes may be partners, but need not.
+bool have_unlike_elements(const ContactSide& a, const ContactSide& b, const NodeMatching& matching) {
+  const auto faces = [](Lie lie) { return lie == Lie::face_to_face || lie == Lie::at_end; };
+  Partners of_a, of_b;
+  for (const auto& [i, j] : matching.partners) {
+    if (!faces(matching.lies_a[i]) || !faces(matching.lies_b[j])) continue;
+    of_a.push_back({i, j});
+    of_b.push_back({j, i});
+  }
+  return is_unlike(a, b, of_a) || is_unlike(b, a, of_b);
 }
 
 }  // namespace
@@ -227,7 +234,7 @@ NodeMatching match_nodes(const ContactSide& a, const ContactSide& b) {
       break;
     }
   }
-  matching.unlike = is_unlike(a, b, matching.partners) || is_unlike(b, a, swapped(matching.partners));
+  matching.unlike = have_unlike_elements(a, b, matching);
   return matching;
 }
 

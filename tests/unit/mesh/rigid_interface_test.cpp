@@ -175,11 +175,9 @@ TEST(RigidInterface, HoldsInAConcaveRigidSeat) {
 }
 
 TEST(RigidInterface, CountsNodesWithinRoundingOfTheEndAsOnTheEdge) {
-  model::Model model = punch();
-  model.bodies[1].outline = rectangle({-0.5 + 1e-10, 0}, {1 - 2e-10, 1});
-  EXPECT_EQ(match_rigid(model).pairs.size(), 9u);
-  model.bodies[1].outline = rectangle({-0.5 + 1e-7, 0}, {1 - 2e-7, 1});
-  EXPECT_EQ(match_rigid(model).pairs.size(), 7u);
+  for (const double beyond : {1e-10, 1e-7}) EXPECT_EQ(under_punch(-0.5 + beyond, 0.5 - beyond).front(), -0.5);
+  EXPECT_NEAR(under_punch(-0.5 + 1e-5, 0.5 - 1e-5).front(), -0.5 + 1e-5, 1e-14);
+  for (const double beyond : {1e-10, 1e-7, 1e-5}) EXPECT_EQ(under_punch(-0.5 + beyond, 0.5 - beyond).size(), 9u);
 }
 
 TEST(RigidInterfaceMistake, NothingAboveOrBelow) {

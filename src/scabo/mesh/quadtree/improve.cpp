@@ -16,6 +16,8 @@ namespace {
 constexpr double fair = 0.08, poor = 0.05, small_area = 0.1;
 /// Least sight of a cell beside a hollow arc.
 constexpr double seen_beside_arc = 0.01;
+/// Least distance of a side on an arc from its centre, in radii: it turns by less than about 90 degrees.
+constexpr double least_turned = 0.7;
 
 std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes) {
   std::vector<Vec2> corners;
@@ -25,7 +27,7 @@ std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes
 }
 
 /// The corners of a cell, and where its sides are hollow arcs the points at which their end tangents meet: such a side
-/// is seen from where these tangents are seen.
+/// is seen from where these tangents are seen. Empty if a side turns too far.
 std::vector<Vec2> outline_of(const Pieces& pieces, const std::vector<int>& nodes, bool open) {
   if (pieces.curved.empty()) return corners_of(pieces, nodes);
   std::vector<Vec2> outline;
@@ -36,8 +38,10 @@ std::vector<Vec2> outline_of(const Pieces& pieces, const std::vector<int>& nodes
     const auto side = pieces.line_sides.find(side_key(a, b));
     if (side == pieces.line_sides.end() || (open && i + 1 == nodes.size())) continue;
     const std::optional<geometry::Arc>& arc = pieces.curved[side->second].arc;
-    if (!arc || cross(from - arc->centre, to - arc->centre) >= 0.0) continue;  // straight, or bulges outwards
+    if (!arc) continue;
     const Vec2 middle = 0.5 * (from + to) - arc->centre;
+    if (!(middle.norm() > least_turned * arc->radius)) return {};
+    if (cross(from - arc->centre, to - arc->centre) >= 0.0) continue;  // it bulges outwards
     outline.push_back(arc->centre + (from - arc->centre).squaredNorm() / middle.squaredNorm() * middle);
   }
   return outline;
@@ -49,6 +53,7 @@ bool is_fixed(const PolygonCell& cell) { return cell.open || !cell.side_regions.
 /// Of a cell that is to have the given nodes.
 double clearance_with(const Pieces& pieces, const PolygonCell& cell, const std::vector<int>& nodes) {
   const std::vector<Vec2> corners = outline_of(pieces, nodes, cell.open);
+  if (corners.empty()) return -1.0;
   return is_fixed(cell) ? clearance_from(cell.centre, corners, !cell.open) : best_sight(corners).clearance;
 }
 
@@ -278,7 +283,9 @@ void merge_small_cells(Pieces& pieces) {
         std::vector<int> nodes = united(pieces, surroundings, pieces.cells[k].nodes, pieces.cells[other].nodes);
         if (nodes.empty()) continue;
         const double larger = std::max(size, pieces.sizes[other]);
-        const double clearance = best_sight(outline_of(pieces, nodes, false)).clearance;
+        const std::vector<Vec2> outline = outline_of(pieces, nodes, false);
+        if (outline.empty()) continue;
+        const double clearance = best_sight(outline).clearance;
         // Cells of the tree have 0.5: a neighbour is spoiled less by a cut cell.
         if (clearance < 1.5 * own ||
             clearance < std::min(2.0 * fair * larger, clearance_of(pieces, pieces.cells[other])))
@@ -314,6 +321,10 @@ void place_centres(Pieces& pieces, std::vector<Vec2>& trouble) {
       continue;  // untouched cell of the tree; its centre is set
     }
     const std::vector<Vec2> outline = outline_of(pieces, cell.nodes, false);
+    if (outline.empty()) {
+      trouble.push_back(pieces.nodes[cell.nodes.front()]);
+      continue;
+    }
     const Sight sight = best_sight(outline);
     cell.centre = sight.centre;
     if (outline.size() > cell.nodes.size() && !(sight.clearance > seen_beside_arc * pieces.sizes[k])) {
