@@ -159,7 +159,7 @@ std::vector<Broken> abaqus_files() {
       {"a.inp", replaced(a, "11, 2, 3, 6", "11, 2, 3, 7"), "a.inp:16:1: cell 11 has node 7, which is not in the file"},
       {"a.inp", replaced(a, "12, 2, 6, 5", "11, 2, 6, 5"), "a.inp:17:1: element 11 is defined twice"},
       {"a.inp", replaced(a, "11, 2, 3, 6", "11, 2, 3, 1"),
-       "a.inp:16:1: cell 11 (triangle with 3 nodes, nodes 2 3 1) is folded"},
+       "a.inp:16:1: cell 11 (triangle with 3 nodes, nodes 2 3 1) has no area"},
       {"a.inp", replaced(a, "10, 1, 2,\n5, 4", "10, 1, 5,\n2, 4"),
        "a.inp:12:1: cell 10 (quadrilateral with 4 nodes, nodes 1 5 2 4) is folded"},
       {"a.inp", replaced(a, "region_1, S1", "region_9, S1"),

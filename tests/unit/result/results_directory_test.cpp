@@ -219,7 +219,7 @@ TEST_F(Results, SummaryHasTheDocumentedKeys) {
                           "slip", "max_gap", "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));
   EXPECT_THAT(keys_of(increment["certificate"]), ElementsAre("equilibrium", "penetration", "tension", "friction_excess",
                                                              "complementarity", "slip_direction", "rigid_balance"));
-  EXPECT_THAT(keys_of(increment["energy"]), ElementsAre("external", "elastic", "friction"));
+  EXPECT_THAT(keys_of(increment["energy"]), ElementsAre("external", "elastic", "friction", "friction_error"));
 }
 
 // A run drops the pairs of earlier increments; the summary once counted 0 pairs for it.
