@@ -86,6 +86,47 @@ loads: {{weight: {{on: {}, pressure: 1e6}}}}
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CoincidentNodes, testing::Range(0, static_cast<int>(kinds.size())));
 
+// A ring under internal pressure of two rings whose nodes coincide where they meet, Lame: u(b) = 2 p a^2 b / (E (b^2 -
+// a^2)) and the pressure between them.
+TEST(UnlikeSides, RingsWhoseNodesCoincide) {
+  const auto ring = [](double inner, double outer, const char* mesh) {
+    return fmt::format(
+        "{{material: m, mesh: {{{2}}}, shape: {{outline: [{{line: {{from: [{0}, 0], to: [{1}, 0]}}, name: base}}, "
+        "{{arc: {{to: [0, {1}], centre: [0, 0]}}, name: outer}}, {{line: {{to: [0, {0}]}}, name: side}}, "
+        "{{arc: {{to: [{0}, 0], centre: [0, 0], direction: clockwise}}, name: inner}}]}}}}",
+        inner, outer, mesh);
+  };
+  const char *quadratic = "size: 0.1, order: 2", *linear = "size: 0.05, order: 1";
+  for (const bool quadratic_inside : {true, false})
+    for (const char* joint : {"ties", "contacts"})
+      for (const bool swapped : {false, true}) {
+        const auto solution = run(fmt::format(
+            R"(scabo: 1
+materials: {{m: {{young: 1e9, poisson: 0.3}}}}
+bodies:
+  i: {}
+  o: {}
+supports: [{{on: i.base, fix: y}}, {{on: i.side, fix: x}}, {{on: o.base, fix: y}}, {{on: o.side, fix: x}}]
+loads: {{p: {{on: i.inner, pressure: 1e6}}}}
+{}: {{c: {{between: [{}]}}}}
+)",
+            ring(1.0, 1.5, quadratic_inside ? quadratic : linear),
+            ring(1.5, 2.0, quadratic_inside ? linear : quadratic), joint,
+            swapped ? "o.inner, i.outer" : "i.outer, o.inner"));
+        const analysis::IncrementResult& increment = last(solution);
+        for (const analysis::ContactResult& contact : increment.contacts) {
+          const double pressure = 1e6 / 3.0 * (4.0 / 2.25 - 1.0);
+          for (const analysis::PairResult& pair : contact.pairs) EXPECT_NEAR(pair.pressure, pressure, 0.02 * pressure);
+        }
+        const std::vector<Vec2>& nodes = solution.mesh.bodies[1].nodes;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+          if (nodes[i].norm() < 2.0 - 1e-9) continue;
+          const Vec2 u = increment.fields.displacements[1].segment<2>(static_cast<Eigen::Index>(2 * i));
+          EXPECT_NEAR(u.dot(nodes[i].normalized()), 4e6 / 3e9, 3e-3 * 4e6 / 3e9);
+        }
+      }
+}
+
 // ---- ends of rigid edges ---------------------------------------------------------------------------------
 
 struct OnFloors {
