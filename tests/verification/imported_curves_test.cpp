@@ -1,5 +1,5 @@
 // Closed curves of mesh files that touch something in one point: largest pressures are those of Hertz, with the radius
-// of curvature at this point, and forces those of the same circle of a model file.
+// of curvature at this point.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +8,6 @@
 #include <map>
 #include <numbers>
 
-#include "scabo/input/read_model.hpp"
-#include "scabo/mesh/mesh.hpp"
 #include "support/mesh_text.hpp"
 #include "verification/run.hpp"
 
@@ -127,62 +125,6 @@ TEST(ImportedCurves, TurnedSwappedListedOtherwiseAndInOtherUnits) {
         expect_hertz(
             {.ellipse = {.across = 1.3, .angle = angle, .unit = unit}, .swapped = swapped, .ellipse_first = !swapped},
             0.05);
-}
-
-/// The finite elements of a body as a file.
-std::string file_of(const mesh::BodyMesh& body) {
-  test::MeshText text{body.nodes, {}};
-  for (const mesh::Cell& cell : body.cells) {
-    test::MeshText::Cell& made = text.cells.emplace_back();
-    std::vector<int> middle;
-    for (const mesh::LineElement& side : cell.boundary) {
-      made.nodes.push_back(side.nodes.front());
-      if (side.nodes.size() == 3) middle.push_back(side.nodes[1]);
-    }
-    made.type = made.nodes.size() == 3 ? (middle.empty() ? 5 : 22) : (middle.empty() ? 9 : 23);
-    EXPECT_LE(made.nodes.size(), 4u);
-    made.nodes.insert(made.nodes.end(), middle.begin(), middle.end());
-  }
-  return text.file();
-}
-
-/// The force with which a roller on a plate resists a displacement of its top, a node.
-double resistance(const std::string& roller, const std::string& plate, const std::string& contact) {
-  const auto solution = run(fmt::format(R"(scabo: 1
-analysis: {{plane: strain}}
-materials: {{steel: {{young: 210e9, poisson: 0.3}}}}
-bodies:
-  plate: {{material: steel, {}}}
-  roller: {{material: steel, {}}}
-supports:
-  - {{on: {{body: plate, near: [0, 0]}}, fix: [x, y]}}
-  - {{on: {{body: plate, near: [4, 0]}}, fix: [y]}}
-  - {{on: {{body: roller, near: [2, 2]}}, displacement: [0, -1e-4]}}
-contacts: {{c: {{between: [{}], friction: 0.3}}}}
-)",
-                                        plate, roller, contact));
-  return contact_of(last(solution)).normal_force;
-}
-
-// A full circle of a file on a plate had "nodes that do not match". From the same elements, whether they come from a
-// file or a model, the same force. It depends on their size, since supports and loads in points do.
-TEST(ImportedCurves, ACircleOfAFileResistsAsOneOfAModel) {
-  for (const double size : {0.2, 0.1})
-    for (const int order : {1, 2}) {
-      const std::string of_mesh = fmt::format("mesh: {{kind: fem, size: {}, order: {}}}", size, order),
-                        plate = "shape: {rectangle: {corner: [0, 0], size: [4, 1]}}, " + of_mesh,
-                        roller = "shape: {circle: {centre: [2, 1.5], radius: 0.5}}, " + of_mesh;
-      const auto from_file = [](const std::string& body) {
-        const mesh::Mesh mesh = mesh::make_mesh(input::parse_model(
-            "scabo: 1\nmaterials: {m: {young: 1, poisson: 0}}\nbodies: {b: {material: m, " + body + "}}\n",
-            "test.yaml"));
-        return fmt::format("mesh: {{file: {}, elements: fem}}", file_of(mesh.bodies[0]));
-      };
-      const double expected = resistance(roller, plate, "plate.top, roller.rim");
-      for (const char* contact : {"plate.edge_3, roller.edge_1", "roller.edge_1, plate.edge_3"})
-        EXPECT_NEAR(resistance(from_file(roller), from_file(plate), contact), expected, 0.03 * expected)
-            << size << ' ' << order;
-    }
 }
 
 }  // namespace
