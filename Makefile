@@ -1,6 +1,7 @@
 # Two commands do everything on Debian and Ubuntu, packages included: make demo, make test.
 #   make demo        build, run the double cantilever beam, compare with the paper
 #   make test        every test: release, sanitizers, fuzzers; all of them run, then those that failed are named
+#   make test-long   what repeats tests of `make test` at greater length: more increments, more twins
 #   make build       the program, build/bin/scabo; the Python package too if what it needs is installed
 #   make python      the Python package, build/python
 #   make report      the page that `scabo report` fills; brings Node.js and npm if there are none
@@ -34,7 +35,7 @@ configure = cmake $(if $(PYTHON),-DSCABO_PYTHON="$(PYTHON)") --preset
 report = $(shell command -v npm >/dev/null 2>&1 || echo report)
 with_python = python=$$(cmake/find_python.sh "$(PYTHON)") && "$$python"
 
-.PHONY: help demo build python report wheel test test-release test-asan fuzz random bench bench-contact bench-large bench-sizes bench-kills bench-elements bench-python docs format packages install package clean
+.PHONY: help demo build python report wheel test test-release test-asan test-long fuzz random bench bench-contact bench-large bench-sizes bench-kills bench-elements bench-python docs format packages install package clean
 help:
 	@sed -n 's/^#   //p' Makefile
 
@@ -76,6 +77,11 @@ test-asan:
 	@$(configure) asan
 	@cmake --build --preset asan --parallel $(JOBS)
 	@ctest --preset asan --parallel $(JOBS)
+
+test-long:
+	@$(configure) release
+	@cmake --build --preset release --target scabo_program --parallel $(JOBS)
+	@export SCABO_LONG=1 && ctest --preset release -L long --parallel $(JOBS)
 
 fuzz:
 	@$(configure) asan

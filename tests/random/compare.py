@@ -8,6 +8,7 @@ import math
 
 EQUAL, CLOSE = 1e-8, 0.05
 PLACE = 1e-8  # m, of bodies of about a metre
+SLOPE = math.hypot(1.0, 0.5)  # a pair may be aside by half of what it is apart (docs/methods/11_matching.md)
 
 
 def differences(one, other, strict):
@@ -78,7 +79,7 @@ def of_pairs(one, other, time, limit, largest):
             continue
         if len(rows) > 1 and math.dist(rows[0][:2], twins[0][:2]) > math.dist(rows[0][:2], twins[-1][:2]):
             twins = twins[::-1]
-        moved = max(math.dist(row[:2], twin[:2]) - 1.01 * row[4] for row, twin in zip(rows, twins))  # of A, then of B
+        moved = max(math.dist(row[:2], twin[:2]) - SLOPE * (row[4] + one.gap) for row, twin in zip(rows, twins))  # of A, then of B
         if moved > PLACE:
             yield moved, f"places of pairs of {contact}, m:", time
         apart = max(math.dist(row[2:4], twin[2:4]) for row, twin in zip(rows, twins))

@@ -20,7 +20,8 @@ class Outcome:
     reason: str = ""
     warnings: dict = dataclasses.field(default_factory=dict)   # by kind
     increments: list = dataclasses.field(default_factory=list)
-    pairs: dict = dataclasses.field(default_factory=dict)      # by increment and contact: rows (x, y, normal, tangential, gap)
+    pairs: dict = dataclasses.field(default_factory=dict)      # by increment and contact: rows (x, y, normal, tangential, gap with displacements)
+    gap: float = 0.0               # the largest that the model gives
     cells: int = 0
     seconds: float = 0.0
 
@@ -70,6 +71,7 @@ def read(results, change, base):
         if increment["converged"]:
             found.increments.append(forces_of(increment, keys, change))
     found.last = tuple(summary["increments"][-1][key] for key in ("step", "increment")) if summary["increments"] else (0, 0)
+    found.gap = max((abs(contact.get("gap", 0.0)) for contact in base.get("contacts", {}).values()), default=0.0)
     read_pairs(results / "contact.csv", keys, change, found)
     return found
 
@@ -104,4 +106,5 @@ def read_pairs(path, keys, change, found):
             key = int(row["step"]), int(row["increment"]), keys[row["contact"]]
             place = change.point_back([float(row["x"]), float(row["y"])])
             forces = [float(row[name]) / change.force for name in ("normal_force", "tangential_force")]
-            found.pairs.setdefault(key, []).append((*place, *forces, abs(float(row["gap"])) / change.length))
+            along_normal = [float(row[name]) / change.length for name in ("gap", "normal_displacement_a", "normal_displacement_b")]
+            found.pairs.setdefault(key, []).append((*place, *forces, sum(map(abs, along_normal))))

@@ -16,7 +16,7 @@ class Included(Converting):
         return (self.directory / "part.yaml").read_text(), (self.directory / "part_mesh.inp").read_text()
 
     WHOLE = (SQUARE + "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n" + HELD + STATIC.replace("*STATIC\n", "*STATIC\n0.5, 1.\n")
-             + "*CLOAD\n25, 2, 5.\n*DLOAD\n2, P2, 3.\n4, P3, 7.\n*DSLOAD, AMPLITUDE=A\nBODY_TOP, P, 1e6\n*BOUNDARY\n21, 1, 1, 1e-4\n" + END)
+             + "*CLOAD\n25, 2, 5.\n*DLOAD\n2, P2, 3.\n1, P1, 7.\n*DSLOAD, AMPLITUDE=A\nBODY_TOP, P, 1e6\n*BOUNDARY\n21, 1, 1, 1e-4\n" + END)
 
     def test_data_lines_may_stand_in_a_file(self):
         """Of every keyword that has some, all of them or all but the first, in a file that includes another one."""
@@ -239,7 +239,7 @@ class Parts(Converting):
         model = ("scabo: 1\nmaterials: {steel: {young: 210e9, poisson: 0.3}}\nanalysis: {plane: stress, thickness: 2}\nbodies:\n"
                  "  block: {material: steel, mesh: {file: a.inp, region: Block-1, elements: fem}}\n"
                  "  punch: {material: steel, mesh: {file: a.inp, region: Punch-1, elements: fem}}\n"
-                 "supports: [{on: block.edge_1, fix: [x, y]}]\nloads: {p: {on: punch.edge_3, pressure: 1e6}}\n"
+                 "supports: [{on: block.Block-1_ALL_BOTTOM, fix: [x, y]}]\nloads: {p: {on: punch.Punch-1_ALL_TOP, pressure: 1e6}}\n"
                  "contacts: {Rough: {between: [block.Top, punch.Foot], friction: 0.3}}\n")
         (self.directory / "part.yaml").write_text(model)
         run = scabo("run", "part.yaml", "--quiet", cwd=self.directory)

@@ -61,7 +61,8 @@ class Pipes(InTemporaryDirectory):
             with self.subTest(command):
                 run = scabo(command, pipe)
                 self.assertEqual(run.returncode, 1, run.stderr)
-                self.assertIn("results", run.stderr)
+                if command != "report" or "make report" not in run.stderr:  # without its page it does not come that far
+                    self.assertIn("results: is a file, not a", run.stderr)
 
     def test_convert_refuses_it(self):
         run = scabo("convert", self.pipe("part.inp", "*NODE\n1, 0, 0\n"))
@@ -100,7 +101,7 @@ class Pipes(InTemporaryDirectory):
 
     def test_a_run_of_a_pipe_is_resumed_from_a_file(self):
         """What the pipe gave is kept as a digest, which a file with the same text has."""
-        slow = MODEL.replace("increments: 3", "increments: 400").replace("size: 0.5", "size: 0.1")
+        slow = MODEL.replace("increments: 3", "increments: 100").replace("size: 0.5", "size: 0.1")
         pipe = self.pipe("model.yaml", slow)
         results = self.directory / "results"
         run = subprocess.Popen([support.SCABO, "run", str(pipe), "--quiet", "-o", str(results)], stderr=subprocess.DEVNULL)

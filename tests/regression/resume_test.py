@@ -11,9 +11,8 @@ import time
 import unittest
 
 import support
-from support import scabo, summary_of
+from support import SANITIZED, scabo, summary_of
 
-SANITIZED = "SCABO_SANITIZED" in os.environ  # ten times slower
 KILLS = int(os.environ.get("SCABO_KILLS", "2" if SANITIZED else "8"))  # benchmarks/README.md: 50
 SEED = int(os.environ.get("SCABO_SEED", "1"))
 

@@ -16,6 +16,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BEAM = ROOT / "examples" / "01_double_cantilever" / "model.yaml"
 SCABO = None  # set by main()
+SANITIZED = "SCABO_SANITIZED" in os.environ  # ten times slower: a sample of many like runs
+LONG = "SCABO_LONG" in os.environ  # `make test-long`
 PATIENCE = 1200  # seconds until a program counts as hung: a busy machine is slow, and no test judges speed
 
 

@@ -165,27 +165,29 @@ loads:
   }
 }
 
-// The rigid base ends within the first element of the block, which has a pair at its corner and no element with pairs
-// only: the pressure there times the length of the corner, half an element, and the thickness. The block hangs from its
-// top, and the pressure opens the joint.
-TEST(PorePressure, AtAPairWithoutAWholeElementActsOnItsTributaryLength) {
-  const auto solution = run(R"(
+// The rigid base ends within the first element of the block, which is divided there: water presses on what lies on the
+// base, .1 of it, and on nothing beyond. The block hangs from its top, and the pressure opens the joint.
+TEST(PorePressure, ActsToTheEndOfABaseWithinAnElement) {
+  for (const int order : {1, 2}) {
+    const auto solution = run(fmt::format(R"(
 scabo: 1
-analysis: {thickness: 0.5}
-materials: {concrete: {young: 30e9, poisson: 0.2}}
+analysis: {{thickness: 0.5}}
+materials: {{concrete: {{young: 30e9, poisson: 0.2}}}}
 bodies:
-  base: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [1.1, 1]}}}
-  block: {material: concrete, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {size: 0.5, order: 1}}
-supports: [{on: base, fix: [x, y]}, {on: block.top, fix: [x, y]}]
-contacts: {joint: {between: [base.top, block.bottom], friction: 0.6}}
-loads: {uplift: {in: joint, pressure: 150e3}}
-)");
-  const auto& joint = contact_of(last(solution));
-  ASSERT_EQ(joint.pairs.size(), 1u);
-  EXPECT_EQ(joint.open, 1);
-  const double uplift = 150e3 * 0.25 * 0.5;
-  EXPECT_NEAR(*joint.pore_force, uplift, 1e-12 * uplift);
-  EXPECT_NEAR(last(solution).reactions[1].y(), -uplift, 1e-9 * uplift);
+  base: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [1.1, 1]}}}}}}
+  block: {{material: concrete, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}, mesh: {{size: 0.5, order: {}}}}}
+supports: [{{on: base, fix: [x, y]}}, {{on: block.top, fix: [x, y]}}]
+contacts: {{joint: {{between: [base.top, block.bottom], friction: 0.6}}}}
+loads: {{uplift: {{in: joint, pressure: 150e3}}}}
+)",
+                                          order));
+    const auto& joint = contact_of(last(solution));
+    ASSERT_EQ(static_cast<int>(joint.pairs.size()), order + 1);
+    EXPECT_EQ(joint.open, order + 1);
+    const double uplift = 150e3 * 0.1 * 0.5;
+    EXPECT_NEAR(*joint.pore_force, uplift, 1e-12 * uplift);
+    EXPECT_NEAR(last(solution).reactions[1].y(), -uplift, 1e-9 * uplift);
+  }
 }
 
 // In an open crack it is the pressure on both faces; in a closed one it takes as much off the pairs, and the factors

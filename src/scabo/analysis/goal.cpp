@@ -201,6 +201,8 @@ StaticSolution refine_for_goal(const model::Model& given, const Options& options
   ModelRefinement refinement(model);
   std::vector<RefinementPass> passes;
   std::vector<double> sums;
+  constexpr int most_without_bars = 2;
+  int without_bars = 0;
   std::optional<StaticSolution> last;
   std::unique_ptr<const ModelRefinement> of_last;  // from which its mesh was made
   const auto add_own_bars = [&](StaticSolution& solution, const ModelRefinement& from) {
@@ -255,6 +257,9 @@ StaticSolution refine_for_goal(const model::Model& given, const Options& options
       const auto& quantities = solution.increments.back().quantities;
       if (!quantities.empty()) passes.back().error = quantities.front().relative();
       if (!quantities.empty() && quantities.front().reached()) return end(std::move(solution));
+      // Where no richer mesh can be made, finer ones rarely help.
+      if (quantities.empty() && ++without_bars == most_without_bars)
+        return end(without_goal(std::move(solution), model, "no error bar could be computed on two meshes"));
     }
 
     // Shares sum to about 1 when the bar is reached, which decides how much smaller polygons become.

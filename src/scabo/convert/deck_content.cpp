@@ -334,6 +334,16 @@ class ContentReader {
     grow(found->y, value[1], amplitude, line, true);
   }
 
+  /// Whether a line of *DLOAD has no more entries than its type takes.
+  bool has_its_entries(const DeckLine& line, bool gravity) {
+    const std::size_t most = gravity ? 6 : 3;
+    if (line.fields.size() > most)
+      remarks_.essential(line.at,
+                         fmt::format("a load of type '{}' takes {} entries, and '{}' is one more; take it out",
+                                     files::printable(line.fields[1]), most, files::printable(line.fields[most])));
+    return line.fields.size() <= most;
+  }
+
   void dload(const DeckBlock& block) {
     const auto amplitude = amplitude_of(block);
     if (!amplitude || !needs_step(block)) return;
@@ -346,7 +356,10 @@ class ContentReader {
     }
     for (const DeckLine& line : block.lines) {
       const std::string label = line.fields.size() > 1 ? upper(line.fields[1]) : "";
-      if (!line.sides.empty() || (of_surface && label == "P")) {
+      const bool pressure = !line.sides.empty() || (of_surface && label == "P");
+      const bool taken = pressure || label == "GRAV" || label == "BX" || label == "BY";
+      if (taken && !has_its_entries(line, label == "GRAV")) continue;
+      if (pressure) {
         const auto value = number(remarks_, line, 2, "the pressure");
         const auto sides = line.sides.empty() ? sides_named(deck_, line.fields[0]) : sides_of_line(line);
         if (!sides)

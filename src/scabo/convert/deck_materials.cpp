@@ -1,8 +1,8 @@
 #include "scabo/convert/deck_materials.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 

@@ -76,6 +76,7 @@ void add_material_rules(Rules& rules) {
                            1,
                            1,
                            {takes("ELSET"), takes("MATERIAL"), takes("ORIENTATION"), harmless("CONTROLS"),
+                            harmless("OFFSET"),  // out of the plane
                             refuses("COMPOSITE", "has layers; give one material"),
                             refuses("NODAL THICKNESS", "varies the thickness, and a model has one"),
                             refuses("REF NODE", "is a generalised plane strain, which Scabo does not have")}};
@@ -183,6 +184,7 @@ void add_history_rules(Rules& rules) {
                      refuses("FOLLOWER", "is of a load that turns; take it out"),
                      refuses("ORIENTATION", "gives the load axes of its own; write it along x and y")}};
   rules["DSLOAD"] = rules["DLOAD"];
+  rules["DSLOAD"].most_entries = 3;
   rules["INITIALCONDITIONS"] = {DataLines::optional, 0, 0, {}, true};
   rules["RESTART"] = {
       DataLines::optional, 0, 0, {refuses("READ", "goes on from another run, which a deck alone does not tell")}, true};

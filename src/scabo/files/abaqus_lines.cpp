@@ -133,7 +133,7 @@ AbaqusKeyword AbaqusLines::keyword_of_line() {
   const std::vector<std::string_view> fields = split_fields(joined);
   if (fields.empty()) return keyword;
   keyword.name = without_blanks(upper(fields.front()));
-  keyword.written = '*' + with_single_blanks(fields.front());
+  keyword.written = '*' + printable(with_single_blanks(fields.front()));
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const auto equals = fields[i].find('=');
     const std::string_view value = equals == std::string_view::npos ? "" : fields[i].substr(equals + 1);

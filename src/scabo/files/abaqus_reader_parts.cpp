@@ -45,7 +45,9 @@ void AbaqusReader::instance(const AbaqusKeyword& key) {
   const std::string name = key.value("NAME"), of = key.value("PART");
   if (name.empty()) builder_.fail(key.at, "*INSTANCE has no name; write *INSTANCE, NAME=name, PART=part");
   if (key.has("INSTANCE") || key.has("LIBRARY"))
-    builder_.fail(key.at, "*INSTANCE from the results of another run is not read; write the part out");
+    builder_.fail(key.at, fmt::format("*INSTANCE with {} is from the results of another run and is not read; write the "
+                                      "part out",
+                                      key.has("LIBRARY") ? "LIBRARY" : "INSTANCE"));
   if (instances_.find(name) != AbaqusInstances::none)
     builder_.fail(key.at, fmt::format("there are two instances '{}'; give each its own name", printable(name)));
   const Part* part = nullptr;

@@ -65,8 +65,8 @@ std::vector<Diagnostic> close_mouths(const model::Model& model, const std::vecto
   for (const Joint& joint : joints_of(model)) {
     if (!has_cracks(joint.a) && !has_cracks(joint.b)) continue;
     if (!sides_to_match(model, joint, bodies)) continue;
-    const MatchedSide a = side_of(model, joint.a, bodies, none, Vec2::Zero()),
-                      b = side_of(model, joint.b, bodies, none, Vec2::Zero());
+    const MatchedSide a = side_of(model, joint.a.body, joint.a.index, bodies, none, Vec2::Zero()),
+                      b = side_of(model, joint.b.body, joint.b.index, bodies, none, Vec2::Zero());
     auto wrong = close_mouth(a, joint.a.text, b, joint.b.text, joint.source);
     if (!wrong) wrong = close_mouth(b, joint.b.text, a, joint.a.text, joint.source);
     if (wrong) mistakes.push_back(*std::move(wrong));

@@ -143,7 +143,7 @@ Mesh enriched(const model::Model& model, const Mesh& mesh, const std::vector<std
     fine.bodies.push_back(divided ? enriched(mesh.bodies[b], frozen.empty() ? std::vector<bool>{} : frozen[b])
                                   : mesh.bodies[b]);
   }
-  std::vector<Diagnostic> mistakes = add_interfaces(model, fine);
+  std::vector<Diagnostic> mistakes = add_interfaces(model, fine).mistakes;
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
   return fine;
 }

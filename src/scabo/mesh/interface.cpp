@@ -12,6 +12,7 @@
 #include "scabo/geometry/foot_points.hpp"
 #include "scabo/mesh/contact_side.hpp"
 #include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/edge_ends.hpp"
 #include "scabo/mesh/node_matching.hpp"
 #include "scabo/mesh/shared_points.hpp"
 
@@ -62,6 +63,9 @@ class Matching {
     return std::move(interface_);
   }
 
+  /// Whether an element of one side has no equal one on the other side, or is longer than the rigid side.
+  bool is_unlike() const { return unlike_; }
+
  private:
   static bool holds(const model::Body& body, const Vec2& point) {
     return geometry::encloses(body.outline, point) != body.outside;
@@ -104,6 +108,7 @@ class Matching {
     if (!overlap) return some(Lie::averted) ? not_facing() : not_overlapping();
 
     partners_ = std::move(matching.partners);
+    unlike_ = matching.unlike;
     const bool alike = touch_everywhere(), arcs = alike && edge_a_.arc && edge_b_.arc;
     const bool chords = arcs && has_chords(), close = !arcs || touches();
     const auto is_end = [](const ContactSide& side, int node) {
@@ -195,12 +200,14 @@ class Matching {
     const bool a_is_rigid = !side_a_;
     const ContactSide& side = a_is_rigid ? *side_b_ : *side_a_;
     const model::Edge& edge = a_is_rigid ? edge_a_ : edge_b_;
+    unlike_ = are_within_elements(ends_of_rigid(edge, *side.edge), side);
+    const double tolerance = std::max(end_tolerance, matching_tolerance * side.element_length / edge.length());
     std::vector<std::optional<geometry::Foot>> feet(side.size());
     bool over = false;
     bool facing = false;
     for (int i = 0; i < side.size(); ++i) {
       const std::optional<geometry::Foot> foot = geometry::foot_on(edge, side.points[i]);
-      if (!foot || foot->t < -end_tolerance || foot->t > 1.0 + end_tolerance) continue;
+      if (!foot || foot->t < -tolerance || foot->t > 1.0 + tolerance) continue;
       over = true;
       const double cosine = side.normals[i].dot(foot->normal);
       facing |= cosine <= facing_cosine;
@@ -300,6 +307,7 @@ class Matching {
   std::optional<ContactSide> side_b_;
   Partners partners_;  // of interface_.pairs
   Interface interface_;
+  bool unlike_ = false;
 };
 
 }  // namespace
@@ -365,10 +373,18 @@ std::optional<Diagnostic> apart(const model::Model& model, const model::Tie& tie
 
 }  // namespace
 
-std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
+PairingFaults add_interfaces(const model::Model& model, Mesh& mesh) {
   mesh.interfaces.clear();
   mesh.ties.clear();
-  std::vector<Diagnostic> mistakes;
+  PairingFaults faults;
+  std::vector<Diagnostic>& mistakes = faults.mistakes;
+  const std::vector<Joint> joints = joints_of(model, mesh.placement);
+  const auto match = [&](std::size_t j) {
+    Matching matching(model, joints[j], mesh.bodies);
+    auto matched = matching.run();
+    if (matching.is_unlike()) faults.unlike.push_back(j);
+    return matched;
+  };
   const auto has_mesh = [&](const model::Place& place) {  // otherwise its mistake has been reported
     const auto b = static_cast<std::size_t>(place.body);
     return model.bodies[b].rigid || !mesh.bodies[b].nodes.empty();
@@ -378,16 +394,20 @@ std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
     const auto is = [&](model::Place::Kind kind) { return contact.a.kind == kind && contact.b.kind == kind; };
     ensure(is(model::Place::Kind::edge) || is(model::Place::Kind::face), "a contact is between two edges or two faces");
     if (!has_mesh(contact.a) || !has_mesh(contact.b)) continue;
-    auto matched = match_interface(model, static_cast<int>(c), mesh.bodies, mesh.placement);
-    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched))
+    auto matched = contact.a.kind == model::Place::Kind::face ? crack_interface(model, static_cast<int>(c), mesh.bodies)
+                                                              : match(c);
+    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched)) {
       mistakes.push_back(*wrong);
-    else
-      mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
+      continue;
+    }
+    mesh.interfaces.push_back(std::get<Interface>(std::move(matched)));
+    mesh.interfaces.back().contact = static_cast<int>(c);
   }
   share_normals(model, mesh);
-  for (const model::Tie& tie : model.ties) {
+  for (std::size_t t = 0; t < model.ties.size(); ++t) {
+    const model::Tie& tie = model.ties[t];
     if (!has_mesh(tie.a) || !has_mesh(tie.b)) continue;
-    auto matched = match_interface(model, joint_of(tie), mesh.bodies);
+    auto matched = match(model.contacts.size() + t);
     if (const Diagnostic* wrong = std::get_if<Diagnostic>(&matched)) {
       mistakes.push_back(*wrong);
     } else if (const auto gap = apart(model, tie, std::get<Interface>(matched))) {
@@ -396,7 +416,7 @@ std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh) {
       mesh.ties.push_back(std::get<Interface>(std::move(matched)));
     }
   }
-  return mistakes;
+  return faults;
 }
 
 }  // namespace scabo::mesh

@@ -14,7 +14,8 @@
 // the two sides are apart and not parallel (a disc and a plane with equal divisions), corresponding nodes are not
 // exactly opposite: x_B - x_A may then also have any direction between the normals of the two sides, divided or exact.
 // On curved edges of nearly equal curvature (a cylinder in a slightly larger ring) the offset may be up to 1/50 of the
-// node spacing if that is at most half of g. On parallel straight edges only the first rule applies.
+// node spacing if that is at most half of g, and as much as half of g if both are on one ray (rays.hpp). On parallel
+// straight edges only the first rule applies.
 //
 // Partners are searched from the closest pair outwards, node by node along both edges. A node whose foot on the other
 // edge lies beyond the ends of that edge is outside the overlap and has no partner; neither has a node that faces
@@ -62,8 +63,15 @@ std::variant<Interface, Diagnostic> match_interface(const model::Model& model, i
 /// Gaps of pairs along their normals, `added` to the geometric ones, which are 0 within the rounding of coordinates.
 void set_gaps(std::vector<ContactPair>& pairs, double added);
 
-/// The interfaces of all contacts and ties, added to a mesh whose bodies are complete, in its placement; what is wrong
-/// with those that are not added. The sides of a tie must lie on each other.
-std::vector<Diagnostic> add_interfaces(const model::Model& model, Mesh& mesh);
+struct PairingFaults {
+  std::vector<Diagnostic> mistakes;  ///< what is wrong with those that are not added
+  /// Positions in joints_of() of those with nodes that match, but with elements that do not (node_matching.hpp), or
+  /// with a rigid side that ends within an element (edge_ends.hpp).
+  std::vector<std::size_t> unlike;
+};
+
+/// The interfaces of all contacts and ties, added to a mesh whose bodies are complete, in its placement. The sides of a
+/// tie must lie on each other.
+PairingFaults add_interfaces(const model::Model& model, Mesh& mesh);
 
 }  // namespace scabo::mesh

@@ -18,6 +18,7 @@
 #include "scabo/mesh/interface.hpp"
 #include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/match.hpp"
+#include "scabo/mesh/matched_side.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/mesh/tip_rings.hpp"
 #include "scabo/model/limits.hpp"
@@ -191,14 +192,30 @@ Mesh divide_bodies(const model::Model& model, const Division& division, const Si
   return mesh;
 }
 
+/// Sides that could not be divided alike. What is refined alike is checked before it is refined.
+std::vector<Diagnostic> unlike_sides(const model::Model& model, const Mesh& mesh,
+                                     const std::vector<std::size_t>& unlike) {
+  std::vector<Diagnostic> mistakes;
+  const std::vector<Joint> joints = joints_of(model, mesh.placement);
+  for (const std::size_t j : unlike) {
+    const Joint& joint = joints[j];
+    if (!sides_to_match(model, joint, mesh.bodies)) continue;
+    mistakes.push_back({joint.source, fmt::format("the elements of {} and {} do not match, although their nodes do: "
+                                                  "give both bodies the same mesh size and order along the contact",
+                                                  joint.a.text, joint.b.text)});
+  }
+  return mistakes;
+}
+
 /// Divides the sides of contacts and ties alike, in the placement of the mesh, and adds their pairs.
 std::vector<Diagnostic> match_and_pair(const model::Model& model, Mesh& mesh) {
-  auto wrong = add_interfaces(model, mesh);
-  if (wrong.empty()) return wrong;
-  auto matched = match_sides(model, mesh.bodies, mesh.placement);
-  if (!matched) return wrong;
-  mesh.bodies = *std::move(matched);
-  return add_interfaces(model, mesh);
+  PairingFaults faults = add_interfaces(model, mesh);
+  if (faults.mistakes.empty() && faults.unlike.empty()) return {};
+  if (auto matched = match_sides(model, mesh.bodies, mesh.placement)) {
+    mesh.bodies = *std::move(matched);
+    faults = add_interfaces(model, mesh);
+  }
+  return faults.mistakes.empty() ? unlike_sides(model, mesh, faults.unlike) : faults.mistakes;
 }
 
 }  // namespace

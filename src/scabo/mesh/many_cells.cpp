@@ -136,14 +136,17 @@ bool is_folded(const Cell& triangle, const std::vector<Vec2>& nodes) {
   return false;
 }
 
-/// `turn`: of a quadtree (QuadtreeOptions).
-PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double turn) {
+/// `turn`, `curved_sides`: of a quadtree (QuadtreeOptions).
+PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double turn, bool curved_sides) {
   const auto size_of_options = [&body](const Vec2& x) { return wanted_size(body, {}, x); };
   switch (body.mesh.kind) {
     case model::MeshKind::polygons:
       return polygon_mesh(domain);
     case model::MeshKind::quadtree:
-      return quadtree_mesh(domain, {.min_size = body.mesh.min_size, .turn = turn, .size_of_roots = size_of_options});
+      return quadtree_mesh(domain, {.min_size = body.mesh.min_size,
+                                    .turn = turn,
+                                    .curved_sides = curved_sides,
+                                    .size_of_roots = size_of_options});
     case model::MeshKind::parts:
       return star_cells(domain);
     case model::MeshKind::fem:
@@ -399,17 +402,29 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                          body.mesh.size, text_of_count(nodes, most_nodes, 2), most_nodes)};
   const UnitFree own(body, sizes);
   // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places. Few parts that do
-  // not see an arc well, from far along a slab with a hole, get shorter sides on it.
-  constexpr std::array<double, 5> turns{0.5, 0.25, 0.125, 0.125, 0.125}, sizes_per_width{2.0, 1.4, 1.0, 1.0, 1.0},
-      finer_arcs{1.0, 1.0, 1.0, 0.5, 0.25};
-  const std::size_t attempts = body.mesh.kind == model::MeshKind::parts ? turns.size() : turns.size() - 2;
-  for (std::size_t attempt = 0;; ++attempt) {
+  // not see an arc well, from far along a slab with a hole, get shorter sides on it. A quadtree unites cells that do
+  // not see a hollow arc, as between the arc and a line of the tree that is nearly its tangent, with others: smaller
+  // cells are there again.
+  struct Attempt {
+    double turn = 0.5, sizes_per_width = 2.0, finer_arcs = 1.0;
+    bool narrow = false, curved_sides = false;
+  };
+  std::vector<Attempt> attempts{{},
+                                {.turn = 0.25, .sizes_per_width = 1.4, .narrow = true},
+                                {.turn = 0.125, .sizes_per_width = 1.0, .narrow = true}};
+  if (body.mesh.kind == model::MeshKind::quadtree && body.mesh.order > 1)
+    for (const double turn : {0.5, 0.25}) attempts.push_back({.turn = turn, .curved_sides = true});
+  if (body.mesh.kind == model::MeshKind::parts)
+    for (const double finer : {0.5, 0.25})
+      attempts.push_back({.turn = 0.125, .sizes_per_width = 1.0, .finer_arcs = finer, .narrow = true});
+  for (std::size_t a = 0;; ++a) {
+    const Attempt& attempt = attempts[a];
     const BodyDomain of = domain_of(own.body(), own.sizes(),
-                                    {.sizes_per_width = sizes_per_width[attempt],
-                                     .gaps = attempt > 0,
-                                     .arcs = attempt > 0 && body.mesh.kind == model::MeshKind::quadtree,
+                                    {.sizes_per_width = attempt.sizes_per_width,
+                                     .gaps = attempt.narrow,
+                                     .arcs = attempt.narrow && body.mesh.kind == model::MeshKind::quadtree,
                                      .most = most_nodes,
-                                     .finer_arcs = finer_arcs[attempt]});
+                                     .finer_arcs = attempt.finer_arcs});
     const auto in_words = [&](const Vec2& x) {
       const Vec2 real = own.real(x);
       return fmt::format("({:.6g}, {:.6g})", real.x(), real.y());
@@ -422,7 +437,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                       "nodes allowed; make it wider there, or leave the narrow part out",
                       body.name, width, in_words(of.narrow.narrowest), most_nodes)};
     try {
-      const PolygonMesh polygons = polygons_of(of.domain, own.body(), turns[attempt]);
+      const PolygonMesh polygons = polygons_of(of.domain, own.body(), attempt.turn, attempt.curved_sides);
       std::vector<BorderNodes> borders;
       for (std::size_t l = 0; l < of.sources.size(); ++l)
         if (of.sources[l].region >= 0)
@@ -441,7 +456,7 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
                                       body.name, pieces)};
       return mesh;
     } catch (const Refusal& refusal) {
-      if (attempt + 1 < attempts) continue;
+      if (a + 1 < attempts.size()) continue;
       std::optional<Vec2> place;
       if (refusal.near()) place = own.real(*refusal.near());
       const std::string narrow = of.narrow.width > 0.0 ? fmt::format("; its lines are {:.3g} apart near {}", width,

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scabo/mesh/contact_side.hpp"
+#include "scabo/mesh/edge_ends.hpp"
 #include "scabo/mesh/matched_side.hpp"
 #include "scabo/mesh/node_matching.hpp"
 #include "scabo/mesh/replace_elements.hpp"
@@ -49,6 +50,10 @@ FixedNodes fixed_nodes(const model::Model& model, const std::vector<BodyMesh>& b
   return fixed;
 }
 
+const model::Edge& edge_of(const model::Model& model, const model::Place& place) {
+  return model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)];
+}
+
 /// `edge`: that of the place, where it has moved.
 ContactSide contact_side(const model::Place& place, const model::Edge& edge, const std::vector<BodyMesh>& bodies,
                          const Vec2& moved) {
@@ -63,20 +68,57 @@ ContactSide contact_side(const model::Place& place, const model::Edge& edge, con
 /// Fixes the nodes of a contact that match, or returns false if some do not.
 bool matches(const model::Model& model, const SidesToMatch& sides, const std::vector<BodyMesh>& bodies,
              FixedNodes& fixed) {
-  const auto edge_of = [&](const model::Place& place, const Vec2& moved) {
-    return geometry::translated(
-        model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)], moved);
-  };
-  const model::Edge edge_a = edge_of(sides.first, sides.moved[0]), edge_b = edge_of(sides.second, sides.moved[1]);
+  const model::Edge edge_a = geometry::translated(edge_of(model, sides.first), sides.moved[0]),
+                    edge_b = geometry::translated(edge_of(model, sides.second), sides.moved[1]);
   const ContactSide a = contact_side(sides.first, edge_a, bodies, sides.moved[0]),
                     b = contact_side(sides.second, edge_b, bodies, sides.moved[1]);
   const NodeMatching matching = match_nodes(a, b);
-  if (matching.lone) return false;
+  if (matching.lone || matching.unlike) return false;
   for (const auto& [i, j] : matching.partners) {
     fixed[static_cast<std::size_t>(sides.first.body)].insert(a.nodes[static_cast<std::size_t>(i)]);
     fixed[static_cast<std::size_t>(sides.second.body)].insert(b.nodes[static_cast<std::size_t>(j)]);
   }
   return true;
+}
+
+using EndsOnEdges = std::map<std::array<int, 2>, std::vector<FacedEnd>>;  // by body and edge
+
+void add_ends(const model::Place& place, std::vector<FacedEnd> ends, EndsOnEdges& all) {
+  std::vector<FacedEnd>& there = all[{place.body, place.index}];
+  there.insert(there.end(), ends.begin(), ends.end());
+}
+
+/// The ends of the sides of contacts and ties that do not match on the sides that they face.
+void find_ends(const model::Model& model, const SidesToMatch& sides, const std::vector<BodyMesh>& bodies,
+               EndsOnEdges& ends) {
+  const std::array<const model::Place*, 2> places{&sides.first, &sides.second};
+  const std::array<model::Edge, 2> edges{geometry::translated(edge_of(model, sides.first), sides.moved[0]),
+                                         geometry::translated(edge_of(model, sides.second), sides.moved[1])};
+  const Rays rays(edges[0], edges[1]);
+  for (const std::size_t s : {0u, 1u}) {
+    const BodyMesh& mesh = bodies[static_cast<std::size_t>(places[s]->body)];
+    const std::vector<LineElement>& elements = mesh.edges[static_cast<std::size_t>(places[s]->index)];
+    const auto length = [&](const LineElement& element) {
+      return (mesh.nodes[static_cast<std::size_t>(element.nodes.back())] -
+              mesh.nodes[static_cast<std::size_t>(element.nodes.front())])
+          .norm();
+    };
+    add_ends(*places[1 - s],
+             ends_of_elastic(edges[s], {length(elements.front()), length(elements.back())}, edges[1 - s], rays), ends);
+  }
+}
+
+/// The ends of the rigid side of a contact.
+void find_rigid_ends(const model::Model& model, const Joint& joint, EndsOnEdges& ends) {
+  if (joint.a.kind != model::Place::Kind::edge) return;
+  const auto is_rigid = [&](const model::Place& place) {
+    return model.bodies[static_cast<std::size_t>(place.body)].rigid;
+  };
+  if (is_rigid(joint.a) == is_rigid(joint.b)) return;
+  const std::size_t r = is_rigid(joint.a) ? 0 : 1;
+  const std::array<const model::Place*, 2> places{&joint.a, &joint.b};
+  const auto edge = [&](std::size_t s) { return geometry::translated(edge_of(model, *places[s]), joint.moved[s]); };
+  add_ends(*places[1 - r], ends_of_rigid(edge(r), edge(1 - r)), ends);
 }
 
 }  // namespace
@@ -89,13 +131,27 @@ std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, cons
   std::set<int> changed;
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<SidesToMatch> apart;
-    for (const Joint& joint : joints)
-      if (const auto sides = sides_to_match(model, joint, matched); sides && !matches(model, *sides, matched, fixed))
-        apart.push_back(*sides);
+    EndsOnEdges ends;
+    for (const Joint& joint : joints) {
+      find_rigid_ends(model, joint, ends);
+      const auto sides = sides_to_match(model, joint, matched);
+      if (!sides || matches(model, *sides, matched, fixed)) continue;
+      apart.push_back(*sides);
+      find_ends(model, *sides, matched, ends);
+    }
     bool any = false;
+    for (auto& [edge, of_others] : ends) {
+      const auto& [body, index] = edge;
+      const auto& edges = matched[static_cast<std::size_t>(body)].edges;
+      if (edges.empty() || edges[static_cast<std::size_t>(index)].empty()) continue;  // it has no nodes
+      if (!divide_at_ends(side_of(model, body, index, matched, fixed, Vec2::Zero()), of_others, matched, fixed))
+        continue;
+      changed.insert(body);
+      any = true;
+    }
     for (const auto& [first, second, moved] : apart) {
-      if (!unite_sides(side_of(model, first, matched, fixed, moved[0]),
-                       side_of(model, second, matched, fixed, moved[1]), matched, fixed))
+      if (!unite_sides(side_of(model, first.body, first.index, matched, fixed, moved[0]),
+                       side_of(model, second.body, second.index, matched, fixed, moved[1]), matched, fixed))
         continue;
       changed.insert({first.body, second.body});
       any = true;

@@ -1,23 +1,47 @@
 #include "scabo/mesh/matched_side.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "scabo/geometry/foot_points.hpp"
 
 namespace scabo::mesh {
 
-MatchedSide side_of(const model::Model& model, const model::Place& place, const std::vector<BodyMesh>& bodies,
+namespace {
+
+/// The order of two sides: the shorter edge first, then that of fewer elements, so that the order of the bodies, or the
+/// unit and the place of the model, make no difference; only where all this is equal the number of the body decides.
+bool is_before(const model::Model& model, const model::Place& a, const model::Place& b,
+               const std::vector<BodyMesh>& bodies) {
+  const auto length = [&](const model::Place& place) {
+    const auto& edges = model.bodies[static_cast<std::size_t>(place.body)].outline.edges;
+    return edges[static_cast<std::size_t>(place.index)].length();
+  };
+  const auto elements = [&](const model::Place& place) {
+    const auto& edges = bodies[static_cast<std::size_t>(place.body)].edges;
+    return edges[static_cast<std::size_t>(place.index)].size();
+  };
+  if (std::abs(length(a) - length(b)) > 1e-9 * length(a)) return length(a) < length(b);
+  if (elements(a) != elements(b)) return elements(a) < elements(b);
+  return std::pair(a.body, a.index) < std::pair(b.body, b.index);
+}
+
+}  // namespace
+
+MatchedSide side_of(const model::Model& model, int body, int edge, const std::vector<BodyMesh>& bodies,
                     const FixedNodes& fixed, const Vec2& moved) {
-  const BodyMesh& mesh = bodies[static_cast<std::size_t>(place.body)];
-  const std::vector<LineElement>& elements = mesh.edges[static_cast<std::size_t>(place.index)];
+  const auto b = static_cast<std::size_t>(body), e = static_cast<std::size_t>(edge);
+  const BodyMesh& mesh = bodies[b];
+  const std::vector<LineElement>& elements = mesh.edges[e];
   MatchedSide side;
-  side.edge = std::make_shared<const model::Edge>(geometry::translated(
-      model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)], moved));
+  side.edge = std::make_shared<const model::Edge>(geometry::translated(model.bodies[b].outline.edges[e], moved));
   side.moved = moved;
-  side.body = place.body;
-  side.index = place.index;
+  side.body = body;
+  side.index = edge;
   side.length = side.edge->length();
   // Also where a crack ends at the first point, so that there are two nodes.
   side.closed = (side.edge->at(0.0) - side.edge->at(1.0)).norm() <= 1e-9 * side.length;
-  const std::set<int>& stay = fixed[static_cast<std::size_t>(place.body)];
+  const std::set<int>& stay = fixed[b];
   for (std::size_t k = 0; k <= elements.size(); ++k) {
     BreakPoint at;
     at.before = k > 0 ? elements[k - 1].nodes.back() : -1;
@@ -53,9 +77,9 @@ std::optional<SidesToMatch> sides_to_match(const model::Model& model, const Join
     const std::vector<std::vector<LineElement>>& edges = bodies[static_cast<std::size_t>(place.body)].edges;
     if (edges.empty() || edges[static_cast<std::size_t>(place.index)].empty()) return std::nullopt;
   }
-  const auto key = [](const model::Place& place) { return std::pair(place.body, place.index); };
-  return key(joint.b) < key(joint.a) ? SidesToMatch{joint.b, joint.a, {joint.moved[1], joint.moved[0]}}
-                                     : SidesToMatch{joint.a, joint.b, joint.moved};
+  if (is_before(model, joint.b, joint.a, bodies))
+    return SidesToMatch{joint.b, joint.a, {joint.moved[1], joint.moved[0]}};
+  return SidesToMatch{joint.a, joint.b, joint.moved};
 }
 
 }  // namespace scabo::mesh

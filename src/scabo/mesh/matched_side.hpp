@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/rays.hpp"
 
 namespace scabo::mesh {
 
@@ -35,6 +36,7 @@ struct MatchedSide {
   double length = 0.0;
   std::vector<BreakPoint> breaks;
   std::vector<int> orders;
+  std::optional<Rays> rays;  // along which the other side sees it; empty beside a rigid side
 
   double length_at(std::size_t i) const {  // of the shorter adjacent element
     double shortest = length;
@@ -52,8 +54,8 @@ struct MatchedSide {
   }
 };
 
-/// The side of a contact at `place`, an edge of an elastic body, moved by `moved`.
-MatchedSide side_of(const model::Model& model, const model::Place& place, const std::vector<BodyMesh>& bodies,
+/// The side of a contact at an edge of an elastic body, moved by `moved`.
+MatchedSide side_of(const model::Model& model, int body, int edge, const std::vector<BodyMesh>& bodies,
                     const FixedNodes& fixed, const Vec2& moved);
 
 /// The two sides of a contact between elastic bodies, always in the same order, however the contact names them.

@@ -23,7 +23,14 @@ double offset_along(const ContactSide& a, int i, const ContactSide& b, int j) {
   return (b.points[j] - a.points[i]).dot(tangent_of(common_normal(a.normals[i], b.normals[j])));
 }
 
-bool nodes_match(const ContactSide& a, int i, const ContactSide& b, int j) {
+/// Two sides, and the rays along which they are divided.
+struct Sides {
+  const ContactSide &a, &b;
+  Rays rays{*a.edge, *b.edge};
+};
+
+bool nodes_match(const Sides& sides, int i, int j) {
+  const ContactSide &a = sides.a, &b = sides.b;
   if (a.normals[i].dot(b.normals[j]) > pairing_cosine) return false;
   const Vec2 n = common_normal(a.normals[i], b.normals[j]);
   const Vec2 t = tangent_of(n);
@@ -45,9 +52,10 @@ bool nodes_match(const ContactSide& a, int i, const ContactSide& b, int j) {
   if (least - tolerance <= along && along <= most + tolerance) return true;
 
   const auto is_curved = [](const model::Edge& edge) { return edge.arc || edge.is_chain(); };
-  const bool curved = is_curved(*a.edge) || is_curved(*b.edge);
-  return curved &&
-         std::abs(along) <= std::min(curved_tolerance * std::min(a.spacing, b.spacing), curved_slope * std::abs(gap));
+  if (!is_curved(*a.edge) && !is_curved(*b.edge)) return false;
+  if (std::abs(along) > curved_slope * std::abs(gap)) return false;
+  const bool on_one_ray = std::abs(cross(sides.rays.through(a.points[i]).direction, offset)) <= tolerance;
+  return on_one_ray || std::abs(along) <= curved_tolerance * std::min(a.spacing, b.spacing);
 }
 
 std::vector<Lie> lies_of(const ContactSide& side, const ContactSide& other) {
@@ -84,16 +92,16 @@ bool is_mouth(const ContactSide& side, int i, int step) {
 }
 
 /// The closest pair of nodes that match, if there is one.
-std::optional<std::array<int, 2>> closest_partners(const ContactSide& a, const ContactSide& b,
-                                                   const std::vector<int>& nearest_b,
+std::optional<std::array<int, 2>> closest_partners(const Sides& sides, const std::vector<int>& nearest_b,
                                                    const std::vector<int>& nearest_a) {
+  const ContactSide &a = sides.a, &b = sides.b;
   std::optional<std::array<int, 2>> closest;
   double shortest = std::numeric_limits<double>::max();
   const auto at_mouth = [](const ContactSide& side, int i) { return is_mouth(side, i, 1) || is_mouth(side, i, -1); };
   const auto consider = [&](int i, int j) {
     if (at_mouth(a, i) || at_mouth(b, j)) return;  // which of its nodes, the way along the sides will tell
     const double distance = (b.points[j] - a.points[i]).squaredNorm();
-    if (!(distance < shortest) || !nodes_match(a, i, b, j)) return;
+    if (!(distance < shortest) || !nodes_match(sides, i, j)) return;
     shortest = distance;
     closest = {i, j};
   };
@@ -105,14 +113,15 @@ std::optional<std::array<int, 2>> closest_partners(const ContactSide& a, const C
 /// From the closest pair in both directions as long as the nodes match, in the order of the boundary of A. Both nodes
 /// at the mouth of a crack are partners of the node that faces them; of two mouths that face each other, those on one
 /// side.
-Partners partners_along(const ContactSide& a, const ContactSide& b, const std::array<int, 2>& closest) {
+Partners partners_along(const Sides& sides, const std::array<int, 2>& closest) {
+  const ContactSide &a = sides.a, &b = sides.b;
   const auto moved = [&](std::array<int, 2> at, int by_a, int by_b) -> std::optional<std::array<int, 2>> {
     at[0] += by_a;
     at[1] += by_b;
     if (a.closed) at[0] = (at[0] + a.size()) % a.size();
     if (b.closed) at[1] = (at[1] + b.size()) % b.size();
     if (at[0] < 0 || at[0] >= a.size() || at[1] < 0 || at[1] >= b.size()) return std::nullopt;
-    if (!nodes_match(a, at[0], b, at[1])) return std::nullopt;
+    if (!nodes_match(sides, at[0], at[1])) return std::nullopt;
     return at;
   };
   const auto step = [&](const std::array<int, 2>& at, int direction) {
@@ -137,30 +146,74 @@ bool is_seen(const ContactSide& side, int i, const ContactSide& other, const Ray
   return facing_point(*other.edge, rays.through(side.points[i]), side.true_normals[i], facing_cosine).has_value();
 }
 
-/// The first node of `side`, from its start or, if `backwards`, from its end, that should have a partner but has none,
-/// and that would (`nearest_matches`) or would not match the nearest node.
-std::optional<int> first_alone(const ContactSide& side, const std::vector<Lie>& lies, const std::vector<bool>& paired,
-                               const ContactSide& other, const std::vector<int>& nearest, bool backwards,
+/// The first node of side A or B, from its start or, if `backwards`, from its end, that should have a partner but has
+/// none, and that would (`nearest_matches`) or would not match the nearest node.
+std::optional<int> first_alone(const Sides& sides, bool on_a, const std::vector<Lie>& lies,
+                               const std::vector<bool>& paired, const std::vector<int>& nearest, bool backwards,
                                bool nearest_matches) {
-  const Rays rays(*side.edge, *other.edge);
+  const ContactSide &side = on_a ? sides.a : sides.b, &other = on_a ? sides.b : sides.a;
   for (int k = 0; k < side.size(); ++k) {
     const int i = backwards ? side.size() - 1 - k : k;
-    if (lies[i] != Lie::face_to_face || paired[i] || !is_seen(side, i, other, rays)) continue;
-    if (nodes_match(side, i, other, nearest[i]) == nearest_matches) return i;
+    if (lies[i] != Lie::face_to_face || paired[i] || !is_seen(side, i, other, sides.rays)) continue;
+    const bool match = on_a ? nodes_match(sides, i, nearest[i]) : nodes_match(sides, nearest[i], i);
+    if (match == nearest_matches) return i;
   }
   return std::nullopt;
+}
+
+/// Whether an element of `side` has several partners that are not those of one element of the same order of `other`. An
+/// element with one partner lies beyond the end of the other side. `partners`: of nodes that face each other.
+bool is_unlike(const ContactSide& side, const ContactSide& other, const Partners& partners) {
+  std::vector<std::vector<int>> partners_of(side.nodes.size()), elements_at(other.nodes.size());
+  for (const auto& [i, j] : partners) partners_of[i].push_back(j);
+  for (int e = 0; e < static_cast<int>(other.elements.size()); ++e)
+    for (const int node : other.elements[e].nodes) elements_at[node].push_back(e);
+  const auto is_equal = [&](const std::vector<int>& own, const std::vector<int>& facing) {
+    for (std::size_t k = 0; own.size() == facing.size() && k < own.size(); ++k) {
+      const std::vector<int>& of_node = partners_of[own[k]];
+      const int expected = facing[facing.size() - 1 - k];
+      if (!of_node.empty() && std::find(of_node.begin(), of_node.end(), expected) == of_node.end()) return false;
+    }
+    return own.size() == facing.size();
+  };
+  for (const LineElement& element : side.elements) {
+    const std::vector<int>& own = element.nodes;
+    std::set<int> met;
+    int paired = 0;
+    for (const int node : own) {
+      paired += partners_of[node].empty() ? 0 : 1;
+      for (const int j : partners_of[node]) met.insert(elements_at[j].begin(), elements_at[j].end());
+    }
+    const auto equals_own = [&](int f) { return is_equal(own, other.elements[f].nodes); };
+    if (paired > 1 && std::none_of(met.begin(), met.end(), equals_own)) return true;
+  }
+  return false;
+}
+
+/// Whether elements do not match where the sides face each other. Beyond, where curved sides turn away from each other,
+/// nodes may be partners, but need not.
+bool have_unlike_elements(const ContactSide& a, const ContactSide& b, const NodeMatching& matching) {
+  const auto faces = [](Lie lie) { return lie == Lie::face_to_face || lie == Lie::at_end; };
+  Partners of_a, of_b;
+  for (const auto& [i, j] : matching.partners) {
+    if (!faces(matching.lies_a[i]) || !faces(matching.lies_b[j])) continue;
+    of_a.push_back({i, j});
+    of_b.push_back({j, i});
+  }
+  return is_unlike(a, b, of_a) || is_unlike(b, a, of_b);
 }
 
 }  // namespace
 
 NodeMatching match_nodes(const ContactSide& a, const ContactSide& b) {
+  const Sides sides{a, b};
   NodeMatching matching;
   matching.lies_a = lies_of(a, b);
   matching.lies_b = lies_of(b, a);
   const std::vector<int> nearest_b = nearest_nodes(a, b);
   const std::vector<int> nearest_a = nearest_nodes(b, a);
-  if (const auto closest = closest_partners(a, b, nearest_b, nearest_a)) {
-    matching.partners = partners_along(a, b, *closest);
+  if (const auto closest = closest_partners(sides, nearest_b, nearest_a)) {
+    matching.partners = partners_along(sides, *closest);
   }
   std::vector<bool> paired_a(a.size(), false);
   std::vector<bool> paired_b(b.size(), false);
@@ -172,15 +225,16 @@ NodeMatching match_nodes(const ContactSide& a, const ContactSide& b) {
   // Nodes that do not match their nearest node come first: they show the mistake itself, the others its consequences.
   const bool backwards = runs_backwards(a.points.front(), a.points.back());
   for (const bool nearest_matches : {false, true}) {
-    if (const auto i = first_alone(a, matching.lies_a, paired_a, b, nearest_b, backwards, nearest_matches)) {
+    if (const auto i = first_alone(sides, true, matching.lies_a, paired_a, nearest_b, backwards, nearest_matches)) {
       matching.lone = {true, *i, nearest_b[*i], std::abs(offset_along(a, *i, b, nearest_b[*i]))};
       break;
     }
-    if (const auto j = first_alone(b, matching.lies_b, paired_b, a, nearest_a, !backwards, nearest_matches)) {
+    if (const auto j = first_alone(sides, false, matching.lies_b, paired_b, nearest_a, !backwards, nearest_matches)) {
       matching.lone = {false, *j, nearest_a[*j], std::abs(offset_along(b, *j, a, nearest_a[*j]))};
       break;
     }
   }
+  matching.unlike = have_unlike_elements(a, b, matching);
   return matching;
 }
 

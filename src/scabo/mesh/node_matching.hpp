@@ -1,5 +1,5 @@
-// Node-to-node matching of two elastic edges: partners, and nodes that should have a partner but have none.
-// interface.hpp defines which nodes match.
+// Node-to-node matching of two elastic edges: partners, nodes that should have a partner but have none, and elements of
+// which the nodes have partners but not the shape functions. interface.hpp defines which nodes match.
 #pragma once
 
 #include <array>
@@ -30,6 +30,9 @@ struct NodeMatching {
   std::vector<Lie> lies_a, lies_b;           ///< for every node of A and of B
   std::vector<std::array<int, 2>> partners;  ///< positions in A and B, in the order of the boundary of A
   std::optional<LoneNode> lone;              ///< the first one along the interface
+  /// Whether an element has other displacements than the other side, although their nodes match: its partners are those
+  /// of several elements, or of one of another order.
+  bool unlike = false;
 };
 
 NodeMatching match_nodes(const ContactSide& a, const ContactSide& b);
@@ -45,6 +48,8 @@ constexpr double facing_cosine = -0.5;
 /// ... but a partner may be found up to a deviation of about 87 degrees, slightly less than 90, because 90 degrees
 /// falls on nodes of half circles.
 constexpr double pairing_cosine = -0.05;
+/// Largest cosine of the angle between the normals of points that are made opposite each other, between those two.
+constexpr double sight_cosine = -0.25;
 /// Largest offset along the edge, in element lengths, at which nodes lie opposite each other.
 constexpr double matching_tolerance = 1e-6;
 

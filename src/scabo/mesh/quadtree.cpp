@@ -48,6 +48,7 @@ class Grower {
       std::vector<Vec2> trouble;
       const std::vector<int> leaves = forest_.leaves();
       Pieces pieces = cut_leaves(forest_, leaves, lists_, curves_, regions_, patches_, trouble);
+      if (options_.curved_sides) pieces.curved = domain_.lines;
       if (trouble.empty()) {
         collapse_short_sides(pieces, options_.shortest_side);
         divide_unseen_cells(pieces);

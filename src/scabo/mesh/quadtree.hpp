@@ -21,6 +21,8 @@ struct QuadtreeOptions {
   /// In parts of the size of a cell, 0 to 0.3: sides that cutting makes shorter than this are collapsed where the cells
   /// around remain well shaped.
   double shortest_side = 0.15;
+  /// Sides on arcs are going to be arcs: cells see their hollow sides, too. Otherwise they see the chords.
+  bool curved_sides = false;
   /// Wanted size from which the roots are made; empty: that of the domain. Meshes of the same roots are nested where no
   /// line cuts them.
   std::function<double(const Vec2&)> size_of_roots = {};

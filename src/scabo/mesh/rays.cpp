@@ -1,7 +1,9 @@
 #include "scabo/mesh/rays.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "scabo/geometry/foot_points.hpp"
@@ -31,13 +33,15 @@ std::vector<Vec2> meetings(const geometry::Edge& edge, const Ray& ray) {
     std::vector<Vec2> points;
     const int last = edge.segments() - 1;
     const double slack = 1e-9;
+    const bool open = edge.start != edge.end;  // a closed chain has no continuations
     for (int i = 0; i <= last; ++i) {
       const Vec2& from = edge.chain_point(i);
       const Vec2 along = edge.chain_point(i + 1) - from;
       const double steepness = cross(along, ray.direction);
       if (std::abs(steepness) < 1e-9 * along.norm()) continue;
       const double t = cross(ray.point - from, ray.direction) / steepness;
-      if ((i > 0 && t < -slack) || (i < last && t > 1.0 + slack)) continue;  // on another segment of the chain
+      const bool before = t<-slack, beyond = t> 1.0 + slack;
+      if ((before && !(open && i == 0)) || (beyond && !(open && i == last))) continue;  // on another segment
       points.push_back(from + t * along);
     }
     return points;
@@ -57,31 +61,91 @@ double radius_around(const Vec2& centre, const geometry::Edge& chain) {
   return sum / chain.segments();
 }
 
-/// A chain as the line or arc whose rays suit it; other edges as they are. Of an arc only the centre, the radius and the
-/// sense are meant.
-geometry::Edge smoothed(const geometry::Edge& edge) {
-  if (!edge.is_chain()) return edge;
-  geometry::Edge smooth;
-  smooth.start = edge.start;
-  smooth.end = edge.end;
-  if (edge.start == edge.end) {
-    geometry::Outline closed;
-    closed.edges = {edge};
-    const Vec2 centre = closed.centroid();
-    smooth.arc = geometry::Arc{centre, radius_around(centre, edge), 0.0, closed.area() > 0.0 ? 1.0 : -1.0};
-    return smooth;
-  }
-  const Vec2 chord = edge.end - edge.start, arm = edge.at(0.5) - edge.start;
+/// A closed chain as a circle around its centroid. Of the arc only the centre, the radius and the sense are meant.
+geometry::Edge around_centroid(const geometry::Edge& chain) {
+  geometry::Outline closed;
+  closed.edges = {chain};
+  const Vec2 centre = closed.centroid();
+  geometry::Edge circle = chain;
+  circle.points.clear();
+  circle.arc = geometry::Arc{centre, radius_around(centre, chain), 0.0, closed.area() > 0.0 ? 1.0 : -1.0};
+  return circle;
+}
+
+/// The circle through three points, in the direction of the chain; nothing if they are on a line.
+std::optional<geometry::Arc> circle_through(const Vec2& from, const Vec2& middle, const Vec2& to) {
+  const Vec2 chord = to - from, arm = middle - from;
   const double turn = cross(arm, chord);  // > 0 where the chain runs to the right of its chord, and so turns left
-  if (std::abs(turn) < 1e-3 * chord.squaredNorm()) return smooth;
-  // Circle through the ends and the middle: the centre is equally far from all three.
+  if (std::abs(turn) < 1e-3 * chord.squaredNorm()) return std::nullopt;
   const Vec2 offset = (chord * arm.squaredNorm() - arm * chord.squaredNorm()) / (2.0 * turn);
-  const Vec2 centre = edge.start + Vec2(offset.y(), -offset.x());
-  const double radius = (edge.start - centre).norm(), near = 0.05 * std::abs(turn) / chord.norm();
-  for (const Vec2& point : edge.points)
-    if (std::abs((point - centre).norm() - radius) > near) return smooth;
-  smooth.arc = geometry::Arc{centre, radius, 0.0, turn > 0.0 ? 1.0 : -1.0};
-  return smooth;
+  const Vec2 centre = from + Vec2(offset.y(), -offset.x());
+  return geometry::Arc{centre, (from - centre).norm(), 0.0, turn > 0.0 ? 1.0 : -1.0};
+}
+
+bool all_near(const geometry::Edge& chain, const geometry::Arc& arc, double near) {
+  return std::all_of(chain.points.begin(), chain.points.end(),
+                     [&](const Vec2& point) { return std::abs((point - arc.centre).norm() - arc.radius) <= near; });
+}
+
+geometry::Edge straightened(const geometry::Edge& edge) {
+  geometry::Edge line;
+  line.start = edge.start;
+  line.end = edge.end;
+  return line;
+}
+
+/// A chain as the line or arc that is near all of it; other edges as they are. Nothing if a chain is neither.
+std::optional<geometry::Edge> plain(const geometry::Edge& edge) {
+  if (!edge.is_chain()) return edge;
+  geometry::Edge smooth = straightened(edge);
+  if (edge.start == edge.end) {
+    smooth = around_centroid(edge);
+    if (all_near(edge, *smooth.arc, 0.02 * smooth.arc->radius)) return smooth;
+    return std::nullopt;
+  }
+  const Vec2 middle = edge.at(0.5);
+  smooth.arc = circle_through(edge.start, middle, edge.end);
+  if (!smooth.arc) return smooth;
+  const Vec2 chord = edge.end - edge.start;
+  const double rise = std::abs(cross(Vec2(middle - edge.start), chord)) / chord.norm();
+  if (all_near(edge, *smooth.arc, 0.05 * rise)) return smooth;
+  return std::nullopt;
+}
+
+/// How far a chain is from another edge: its nearest point, and the largest distance.
+struct Approach {
+  int nearest = 0;
+  double least = std::numeric_limits<double>::max(), most = 0.0;
+};
+Approach approach_of(const geometry::Edge& chain, const geometry::Edge& other) {
+  const int stride = std::max(1, chain.segments() / 200);
+  Approach approach;
+  const auto look = [&](int i) {
+    const double distance = geometry::distance_to(other, chain.chain_point(i));
+    if (distance < approach.least) approach.least = distance, approach.nearest = i;
+    approach.most = std::max(approach.most, distance);
+  };
+  for (int i = 0; i < chain.segments(); i += stride) look(i);
+  look(chain.segments());
+  const int from = std::max(0, approach.nearest - stride), to = std::min(chain.segments(), approach.nearest + stride);
+  for (int i = from; i <= to; ++i) look(i);
+  return approach;
+}
+
+/// A chain that is neither line nor arc. Where it follows the other edge, rays along its chord, or from the middle of a
+/// closed one, meet both alike. Where they touch in a short zone, the circle of its curvature there counts.
+geometry::Edge smoothed(const geometry::Edge& chain, const geometry::Edge& other) {
+  constexpr double following = 0.05, part = 1.0 / 16.0;  // of the length
+  const Approach approach = approach_of(chain, other);
+  const bool closed = chain.start == chain.end;
+  if (approach.most <= following * chain.length()) return closed ? around_centroid(chain) : straightened(chain);
+  const double middle = geometry::closest_position(chain, chain.chain_point(approach.nearest));
+  const auto at = [&](double t) { return chain.at(closed ? t - std::floor(t) : std::clamp(t, 0.0, 1.0)); };
+  geometry::Edge local;
+  local.start = at(middle - part);
+  local.end = at(middle + part);
+  local.arc = circle_through(local.start, at(middle), local.end);
+  return local;
 }
 
 /// The fraction on a closed edge, where 0 and 1 are the same point, that is nearest to another one.
@@ -93,7 +157,13 @@ double fraction_near(const geometry::Edge& edge, double t, double expected) {
 }  // namespace
 
 Rays::Rays(const geometry::Edge& of_a, const geometry::Edge& of_b) {
-  const geometry::Edge a = smoothed(of_a), b = smoothed(of_b);
+  const std::optional<geometry::Edge> plain_a = plain(of_a), plain_b = plain(of_b);
+  if (plain_a.has_value() != plain_b.has_value() && !(plain_a ? plain_a : plain_b)->arc) {
+    const geometry::Edge& straight = plain_a ? *plain_a : *plain_b;  // its normal is between those of any convex edge
+    direction_ = normal_at(straight, straight.start);
+    return;
+  }
+  const geometry::Edge a = plain_a ? *plain_a : smoothed(of_a, of_b), b = plain_b ? *plain_b : smoothed(of_b, of_a);
   if (!a.arc && !b.arc) {
     direction_ = normal_at(a, a.start) - normal_at(b, b.start);
     if (direction_.norm() < 1e-6) direction_ = normal_at(a, a.start);  // they do not face each other

@@ -11,8 +11,10 @@
 //                                r_A = r_B
 //     a straight edge, an arc    through the point of the circle that is farthest from the straight edge, the limit of
 //     S
-//     a chain                    as the circle through its ends and its middle if that is near all of it, else as the
-//     line from end to end; a closed chain as a circle around its centroid
+//     a chain                    as the circle through its ends and its middle, or around the centroid of a closed one,
+//                                if that is near all of it; else, beside a straight edge, parallel to its normal;
+//                                beside a curved edge that it follows, as the line from end to end, or the circle
+//                                around the centroid; else as the circle of its curvature where it is nearest
 //
 // Every ray has a direction between the normals of the two edges where it meets them, so that nodes on one ray match in
 // the sense of interface.hpp. Parallel straight edges and concentric arcs are seen along their normals.

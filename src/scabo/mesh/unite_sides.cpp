@@ -1,6 +1,8 @@
 #include "scabo/mesh/unite_sides.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "scabo/geometry/foot_points.hpp"
@@ -8,32 +10,23 @@
 #include "scabo/mesh/contact_side.hpp"
 #include "scabo/mesh/node_matching.hpp"
 #include "scabo/mesh/rays.hpp"
-#include "scabo/mesh/replace_elements.hpp"
+#include "scabo/mesh/rebuilt_side.hpp"
 
 namespace scabo::mesh {
 
 namespace {
 
-/// Break points nearer than this fraction of the adjacent elements become opposite each other.
-constexpr double snapping = 0.1;
-/// Those nearer than this fraction are opposite each other already.
-constexpr double coincidence = matching_tolerance;
-/// Inner nodes that are nearer than this to their places, relative to the element, stay.
-constexpr double in_place = 1e-7;
-/// Largest cosine of the angle between the normals of points that are made opposite each other. Nodes need a partner up
-/// to `facing_cosine`, and pairs are found up to `pairing_cosine`.
-constexpr double sight_cosine = -0.25;
-
 /// Divides the two sides of one contact alike.
 class Union {
  public:
-  Union(MatchedSide a, MatchedSide b) : sides_{std::move(a), std::move(b)}, rays_(*sides_[0].edge, *sides_[1].edge) {}
+  Union(MatchedSide a, MatchedSide b) : sides_{std::move(a), std::move(b)}, rays_(*sides_[0].edge, *sides_[1].edge) {
+    for (MatchedSide& side : sides_) side.rays = rays_;
+  }
 
   /// Whether anything has changed.
   bool apply(std::vector<BodyMesh>& bodies) {
     for (const MatchedSide& side : sides_)
-      for (std::size_t i = 1; i < side.breaks.size(); ++i)
-        if (!(side.breaks[i - 1].t < side.breaks[i].t)) return false;  // not the nodes of this edge
+      if (!is_ascending(side)) return false;  // not the nodes of this edge
     find_opposite();
     join_near();
     add_breaks();
@@ -49,18 +42,31 @@ class Union {
   }
 
  private:
-  /// For every break point where the other side faces it.
+  /// Where the other side faces a point of side s.
+  std::optional<double> opposite_to(int s, const Vec2& point, double cosine, double tolerance = 0.0) const {
+    const std::optional<geometry::Foot> foot = geometry::foot_on(*sides_[s].edge, point);
+    if (!foot) return std::nullopt;
+    return facing_point(*sides_[1 - s].edge, rays_.through(point), foot->normal, cosine, tolerance);
+  }
+
+  /// For every break point where the other side faces it, and the lengths of the elements around it that the other side
+  /// faces: what is beyond the ends of the other side may be divided because of other contacts.
   void find_opposite() {
     for (const int s : {0, 1}) {
       const MatchedSide& side = sides_[s];
       const MatchedSide& other = sides_[1 - s];
-      for (std::size_t i = 0; i < side.breaks.size(); ++i) {
-        const BreakPoint& at = side.breaks[i];
-        const std::optional<geometry::Foot> foot = geometry::foot_on(*side.edge, at.point);
-        opposite_[s].push_back(foot ? facing_point(*other.edge, rays_.through(at.point), foot->normal, sight_cosine,
-                                                   matching_tolerance * other.length_at(0) / other.length)
-                                    : std::nullopt);
+      const double tolerance = matching_tolerance * other.length_at(0) / other.length;
+      for (const BreakPoint& at : side.breaks)
+        opposite_[s].push_back(opposite_to(s, at.point, sight_cosine, tolerance));
+      lengths_[s].assign(side.breaks.size(), std::numeric_limits<double>::infinity());
+      for (std::size_t k = 0; k + 1 < side.breaks.size(); ++k) {
+        const double from = side.breaks[k].t, to = side.breaks[k + 1].t;
+        if (!opposite_to(s, side.edge->at(0.5 * (from + to)), sight_cosine)) continue;
+        for (const std::size_t end : {k, k + 1})
+          lengths_[s][end] = std::min(lengths_[s][end], (to - from) * side.length);
       }
+      for (std::size_t i = 0; i < side.breaks.size(); ++i)
+        if (std::isinf(lengths_[s][i])) lengths_[s][i] = side.length_at(i);
     }
   }
 
@@ -68,16 +74,26 @@ class Union {
   std::size_t last_of(int s) const { return sides_[s].breaks.size() - (sides_[s].closed ? 1 : 0); }
   std::size_t own(int s, std::size_t i) const { return i == last_of(s) ? 0 : i; }
 
+  /// Joins the nearest break points first, whichever side they are found from.
   void join_near() {
+    struct Near {
+      double distance;  // relative to the adjacent elements
+      int s;
+      std::size_t i, j;
+    };
+    std::vector<Near> near;
     for (const int s : {0, 1})
       for (std::size_t i = 0; i < last_of(s); ++i) {
-        if (!opposite_[s][i] || sides_[s].breaks[i].event >= 0) continue;
+        if (!opposite_[s][i]) continue;
         const std::size_t j = sides_[1 - s].nearest(*opposite_[s][i]);
-        const BreakPoint& there = sides_[1 - s].breaks[own(1 - s, j)];
-        if (there.event >= 0) continue;
-        const double distance = std::abs(*opposite_[s][i] - sides_[1 - s].breaks[j].t) * sides_[1 - s].length;
-        join(s, i, j, distance / std::min(sides_[s].length_at(i), sides_[1 - s].length_at(j)));
+        const double distance = std::abs(*opposite_[s][i] - sides_[1 - s].breaks[j].t) * sides_[1 - s].length,
+                     relative = distance / std::min(lengths_[s][i], lengths_[1 - s][j]);
+        if (relative <= snapping) near.push_back({relative, s, i, j});
       }
+    std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.distance < b.distance; });
+    for (const Near& one : near)
+      if (sides_[one.s].breaks[one.i].event < 0 && sides_[1 - one.s].breaks[own(1 - one.s, one.j)].event < 0)
+        join(one.s, one.i, one.j, one.distance);
   }
 
   /// Makes break point i of side s and j of the other one opposite each other, if `distance`, relative to the adjacent
@@ -88,7 +104,7 @@ class Union {
     BreakPoint& here = side.breaks[i];
     BreakPoint& there = other.breaks[own(1 - s, j)];
     if (distance > coincidence) {
-      if (distance > snapping || (here.fixed && there.fixed)) return;
+      if (here.fixed && there.fixed) return;
       const Vec2 there_point = there.point;
       const Ray ray = here.fixed ? rays_.through(here.point)
                       : there.fixed
@@ -199,121 +215,60 @@ class Union {
 
   /// The point of the second side that is opposite a point of the first one.
   std::optional<double> opposite_to(double t, double cosine) const {
-    const Vec2 point = sides_[0].edge->at(t);
-    const std::optional<geometry::Foot> foot = geometry::foot_on(*sides_[0].edge, point);
-    if (!foot) return std::nullopt;
-    return facing_point(*sides_[1].edge, rays_.through(point), foot->normal, cosine);
-  }
-
-  /// The element of side s between break points k and k + 1.
-  struct Piece {
-    int old = -1;              // element that it is, or is a part of
-    bool whole = true;         // the element is not divided
-    std::optional<int> faces;  // piece of the other side
-  };
-
-  std::vector<Piece> pieces_of(int s) const {
-    const std::vector<BreakPoint>& breaks = sides_[s].breaks;
-    std::vector<Piece> pieces;
-    int old = -1;
-    for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
-      if (!breaks[k].added) ++old;
-      Piece& piece = pieces.emplace_back();
-      piece.old = old;
-      piece.whole = !breaks[k].added && !breaks[k + 1].added;
-    }
-    return pieces;
+    return opposite_to(0, sides_[0].edge->at(t), cosine);
   }
 
   /// Pieces between the same two common points face each other.
-  void pair_pieces(std::array<std::vector<Piece>, 2>& pieces) const {
+  std::array<std::vector<std::optional<std::size_t>>, 2> facing_pieces() const {
     std::map<std::array<int, 2>, std::size_t> of_a;  // events at its start and end
     const std::vector<BreakPoint>&a = sides_[0].breaks, &b = sides_[1].breaks;
-    for (std::size_t k = 0; k < pieces[0].size(); ++k)
+    std::array<std::vector<std::optional<std::size_t>>, 2> faces;
+    faces[0].resize(a.size() - 1);
+    faces[1].resize(b.size() - 1);
+    for (std::size_t k = 0; k < faces[0].size(); ++k)
       if (a[k].event >= 0 && a[k + 1].event >= 0) of_a[{a[k].event, a[k + 1].event}] = k;
-    for (std::size_t k = 0; k < pieces[1].size(); ++k) {
+    for (std::size_t k = 0; k < faces[1].size(); ++k) {
       const auto found = of_a.find({b[k + 1].event, b[k].event});  // the two edges have opposite directions
       if (found == of_a.end()) continue;
-      pieces[1][k].faces = static_cast<int>(found->second);
-      pieces[0][found->second].faces = static_cast<int>(k);
+      faces[1][k] = found->second;
+      faces[0][found->second] = k;
     }
+    return faces;
   }
 
   bool rebuild(std::vector<BodyMesh>& bodies) {
-    std::array<std::vector<Piece>, 2> pieces{pieces_of(0), pieces_of(1)};
-    pair_pieces(pieces);
+    std::array<std::vector<Piece>, 2> pieces{pieces_of(sides_[0]), pieces_of(sides_[1])};
+    const auto faces = facing_pieces();
+    const auto own_order = [&](int s, std::size_t k) {
+      return sides_[s].orders[static_cast<std::size_t>(pieces[s][k].old)];
+    };
+    for (const int s : {0, 1})
+      for (std::size_t k = 0; k < pieces[s].size(); ++k) {
+        Piece& piece = pieces[s][k];
+        const std::optional<std::size_t> other = faces[s][k];
+        piece.placed = other.has_value();
+        if (other) piece.inner = facing_points(s, k, *other, std::max(own_order(s, k), own_order(1 - s, *other)));
+      }
     bool changed = false;
-    for (const int s : {0, 1}) changed |= rebuild(s, pieces, bodies[static_cast<std::size_t>(sides_[s].body)]);
+    for (const int s : {0, 1})
+      changed |= rebuild_side(sides_[s], pieces[s], bodies[static_cast<std::size_t>(sides_[s].body)]);
     return changed;
   }
 
-  bool rebuild(int s, const std::array<std::vector<Piece>, 2>& pieces, BodyMesh& mesh) {
-    MatchedSide& side = sides_[s];
-    std::map<int, Vec2> moved;
-    for (BreakPoint& at : side.breaks) {
-      if (at.added) {
-        at.before = at.after = static_cast<int>(mesh.nodes.size());
-        mesh.nodes.push_back(at.point - side.moved);
-      } else if (at.moved) {
-        moved[at.before] = at.point - side.moved;
-      }
-    }
-    const std::vector<LineElement>& elements = mesh.edges[static_cast<std::size_t>(side.index)];
-    Replacements replacements;
-    for (std::size_t k = 0; k < pieces[s].size(); ++k) {
-      const Piece& piece = pieces[s][k];
-      const LineElement& old = elements[static_cast<std::size_t>(piece.old)];
-      int order = side.orders[static_cast<std::size_t>(piece.old)];
-      if (piece.faces) {
-        const Piece& other = pieces[1 - s][static_cast<std::size_t>(*piece.faces)];
-        order = std::max(order, sides_[1 - s].orders[static_cast<std::size_t>(other.old)]);
-      }
-      const std::vector<Vec2> inner = inner_points(s, k, piece, order);
-      if (piece.whole && keeps(s, k, piece, old, inner, mesh)) continue;
-      LineElement made;
-      made.nodes.push_back(side.breaks[k].after);
-      for (const Vec2& point : inner) {
-        made.nodes.push_back(static_cast<int>(mesh.nodes.size()));
-        mesh.nodes.push_back(point - side.moved);
-      }
-      made.nodes.push_back(side.breaks[k + 1].before);
-      replacements[old.nodes].push_back(std::move(made));
-    }
-    if (replacements.empty() && moved.empty()) return false;
-    move_nodes(mesh, moved, replacements);
-    replace_elements(mesh, replacements);
-    return true;
-  }
-
-  /// Whether an element that is not divided stays as it is.
-  bool keeps(int s, std::size_t k, const Piece& piece, const LineElement& old, const std::vector<Vec2>& inner,
-             const BodyMesh& mesh) const {
-    const BreakPoint &from = sides_[s].breaks[k], &to = sides_[s].breaks[k + 1];
-    if (from.moved || to.moved || old.nodes.size() != inner.size() + 2) return false;
-    if (!piece.faces) return true;
-    const double tolerance = in_place * (to.t - from.t) * sides_[s].length;
-    for (std::size_t i = 0; i < inner.size(); ++i)
-      if ((mesh.nodes[static_cast<std::size_t>(old.nodes[i + 1])] + sides_[s].moved - inner[i]).norm() > tolerance)
-        return false;
-    return true;
-  }
-
-  /// Positions of the inner nodes of a piece: along the rays if it faces another one, otherwise along the edge.
-  std::vector<Vec2> inner_points(int s, std::size_t k, const Piece& piece, int order) const {
+  /// Positions of the inner nodes of piece k of side s, along the rays to the piece that it faces.
+  std::vector<Vec2> facing_points(int s, std::size_t k, std::size_t other, int order) const {
     const MatchedSide& side = sides_[s];
     const BreakPoint &from = side.breaks[k], &to = side.breaks[k + 1];
     const std::vector<double> points = geometry::lobatto_points(order);
+    // Both sides use the same rays: those of the piece of the first side.
+    const std::size_t m = s == 0 ? k : other;
+    const std::vector<BreakPoint>& first = sides_[0].breaks;
     std::vector<Vec2> inner;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       const double share = 0.5 * (1.0 + points[i]);
       double t = std::lerp(from.t, to.t, share);
-      if (piece.faces) {
-        // Both sides use the same rays: those of the piece of the first side.
-        const auto m = static_cast<std::size_t>(s == 0 ? static_cast<int>(k) : *piece.faces);
-        const std::vector<BreakPoint>& first = sides_[0].breaks;
-        const Ray ray = rays_.between(first[m].point, first[m + 1].point, s == 0 ? share : 0.5 * (1.0 - points[i]));
-        if (const std::optional<double> met = meet(*side.edge, ray, t); met && from.t < *met && *met < to.t) t = *met;
-      }
+      const Ray ray = rays_.between(first[m].point, first[m + 1].point, s == 0 ? share : 0.5 * (1.0 - points[i]));
+      if (const std::optional<double> met = meet(*side.edge, ray, t); met && from.t < *met && *met < to.t) t = *met;
       inner.push_back(side.edge->at(t));
     }
     return inner;
@@ -322,6 +277,7 @@ class Union {
   std::array<MatchedSide, 2> sides_;
   Rays rays_;
   std::array<std::vector<std::optional<double>>, 2> opposite_;  // before anything is moved
+  std::array<std::vector<double>, 2> lengths_;                  // of the shorter element at a break point
   int events_ = 0;
 };
 

@@ -70,6 +70,26 @@ TEST(Matching, RaisesTheLowerOrder) {
   }
 }
 
+TEST(Matching, DividesWhereNodesCoincideButElementsDoNot) {
+  // Two elements of order 1 have the nodes of one of order 2; all become elements of half the length and order 2.
+  const std::vector<double> breaks{0, 1.5, 3, 4.5, 6, 7.5, 9, 10.5, 12};
+  const model::Model coarse_below = blocks(4, 8, 2, 1), coarse_above = blocks(8, 4, 1, 2);
+  for (const model::Model& model : {coarse_below, coarse_above, swapped(coarse_below), swapped(coarse_above)}) {
+    const Mesh mesh = sound_mesh(model);
+    ASSERT_EQ(mesh.interfaces[0].pairs.size(), 17u);
+    expect_near(breaks_of(mesh.bodies[0], 2), breaks);
+    expect_near(breaks_of(mesh.bodies[1], 0), breaks);
+    for (const int body : {0, 1})
+      for (const LineElement& element : mesh.bodies[body].edges[body == 0 ? 2 : 0]) EXPECT_EQ(element.nodes.size(), 3u);
+  }
+  // Elements of order 2 of half a length aside, and one that ends at the middle node of another.
+  model::Model aside = pair_of(elastic("floor", rectangle({0, -1}, {6, 1}), 1.0, 2), "top",
+                               elastic("block", rectangle({1.5, 0}, {3, 1}), 1.0, 2), "bottom");
+  expect_near(breaks_of(sound_mesh(aside).bodies[1], 0), {0, 0.5, 1, 1.5, 2, 2.5, 3});
+  aside.bodies[1] = elastic("block", rectangle({1, 0}, {2.5, 1}), 0.5, 1);
+  expect_near(breaks_of(sound_mesh(aside).bodies[0], 2), {0, 1, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6});
+}
+
 TEST(Matching, KeepsWhatMatches) {
   // The left halves match; the right ones do not. Order 2: no node of the left halves moves, by not one bit.
   model::Model model = blocks(4, 4, 2, 2);

@@ -99,7 +99,12 @@ TEST(PairedElements, FaceEachOtherInReverse) {
 
 TEST(PairedElements, OfAnotherOrderStayAlone) {
   const model::Model model = stacked(4.0, 0.5, 1);  // nodes match, elements do not
-  const PairedElements paired = paired_elements(model, make_mesh(model));
+  Mesh mesh;
+  mesh.bodies = divided_bodies(model);  // before the sides are divided alike
+  const PairingFaults faults = add_interfaces(model, mesh);
+  EXPECT_TRUE(faults.mistakes.empty());
+  EXPECT_EQ(faults.unlike.size(), 1u);
+  const PairedElements paired = paired_elements(model, mesh);
   EXPECT_TRUE(paired.alike.empty());
   EXPECT_EQ(paired.alone.size(), 4u + 8u);
 }

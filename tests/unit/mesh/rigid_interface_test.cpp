@@ -51,11 +51,29 @@ TEST(RigidInterface, PairsOnlyNodesUnderAFlatPunch) {
   }
 }
 
-TEST(RigidInterface, KeepsOnlyWholeElementsForThePressure) {
+/// x of the pairs under a punch from `left` to `right`.
+std::vector<double> under_punch(double left, double right, bool swap = false) {
   model::Model model = punch();
-  model.bodies[1].outline = rectangle({-0.4, 0}, {0.8, 1});
-  const Interface joint = match_rigid(model);
-  EXPECT_EQ(joint.pairs.size(), 7u);  // -0.375 ... 0.375
+  model.bodies[1].outline = rectangle({left, 0}, {right - left, 1});
+  const Interface joint = match_rigid(swap ? swapped(model) : model);
+  std::vector<double> x;
+  for (const ContactPair& pair : joint.pairs) x.push_back(pair.point_a.x());
+  return x;
+}
+
+TEST(RigidInterface, DividesElementsAtTheEndsOfThePunch) {
+  const double tolerance = 1e-14;
+  using testing::DoubleNear;
+  using testing::ElementsAre;
+  const auto near = [&](double x) { return DoubleNear(x, tolerance); };
+  for (const bool swap : {false, true}) {
+    EXPECT_THAT(under_punch(-0.4, 0.4, swap), ElementsAre(near(-0.4), near(-0.325), near(-0.25), near(-0.125),
+                                                          near(0.0), near(0.125), near(0.25), near(0.325), near(0.4)));
+    // A middle node is not an end of an element; both ends are in one element; a node nearer than a tenth moves.
+    EXPECT_THAT(under_punch(0.0, 0.125, swap), ElementsAre(near(0.0), near(0.0625), near(0.125)));
+    EXPECT_THAT(under_punch(0.01, 0.03, swap), ElementsAre(near(0.01), near(0.02), near(0.03)));
+    EXPECT_THAT(under_punch(-0.01, 0.24, swap), ElementsAre(near(-0.01), near(0.115), near(0.24)));
+  }
 }
 
 TEST(RigidInterface, SwapsToTheOppositeNormal) {
@@ -157,11 +175,9 @@ TEST(RigidInterface, HoldsInAConcaveRigidSeat) {
 }
 
 TEST(RigidInterface, CountsNodesWithinRoundingOfTheEndAsOnTheEdge) {
-  model::Model model = punch();
-  model.bodies[1].outline = rectangle({-0.5 + 1e-10, 0}, {1 - 2e-10, 1});
-  EXPECT_EQ(match_rigid(model).pairs.size(), 9u);
-  model.bodies[1].outline = rectangle({-0.5 + 1e-7, 0}, {1 - 2e-7, 1});
-  EXPECT_EQ(match_rigid(model).pairs.size(), 7u);
+  for (const double beyond : {1e-10, 1e-7}) EXPECT_EQ(under_punch(-0.5 + beyond, 0.5 - beyond).front(), -0.5);
+  EXPECT_NEAR(under_punch(-0.5 + 1e-5, 0.5 - 1e-5).front(), -0.5 + 1e-5, 1e-14);
+  for (const double beyond : {1e-10, 1e-7, 1e-5}) EXPECT_EQ(under_punch(-0.5 + beyond, 0.5 - beyond).size(), 9u);
 }
 
 TEST(RigidInterfaceMistake, NothingAboveOrBelow) {
@@ -170,8 +186,8 @@ TEST(RigidInterfaceMistake, NothingAboveOrBelow) {
   EXPECT_EQ(message_of(model),
             "model.yaml:24:3: contacts.joint: no node of block.top lies opposite the rigid punch.bottom: move a body, "
             "name other edges, or use a smaller mesh size");
-  model.bodies[1].outline = rectangle({0.01, 0}, {0.02, 1});  // between two nodes
-  EXPECT_THAT(message_of(swapped(model)), HasSubstr("no node of block.top lies opposite the rigid punch.bottom"));
+  model.bodies[1].outline = rectangle({0.01, 0}, {0.02, 1});  // between two nodes: the element is divided
+  EXPECT_EQ(message_of(swapped(model)), "no error");
 }
 
 TEST(RigidInterfaceMistake, TheWrongEdgeOfThePunch) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "unit/mesh/models.hpp"
@@ -33,14 +34,40 @@ TEST(TributaryLengths, CountOnlyElementsThatTakePart) {
   expect_lengths(lengths_of(test::pair_of(block, "bottom", floor, "top")), {1. / 6, 4. / 6, 1. / 6});
 }
 
-// Elements of other orders whose nodes match: the mean of both sides, the same when they are swapped.
-TEST(TributaryLengths, AreTheMeanOfBothSides) {
+// Two elements of order 1 have the nodes of one of order 2: both sides get elements of half the length and order 2.
+TEST(TributaryLengths, OfOtherOrdersAreThoseOfTheElementsMadeAlike) {
   const auto lower = test::elastic("lower", test::rectangle({0, 0}, {2, 1}), 1.0, 2),
              upper = test::elastic("upper", test::rectangle({0, 1}, {2, 1}), 0.5, 1);
-  const std::vector<double> expected = {(1. / 6 + 1. / 4) / 2, (4. / 6 + 1. / 2) / 2, (2. / 6 + 1. / 2) / 2,
-                                        (4. / 6 + 1. / 2) / 2, (1. / 6 + 1. / 4) / 2};
+  std::vector<double> expected;
+  for (const double sixths : {1., 4., 2., 4., 2., 4., 2., 4., 1.}) expected.push_back(0.5 * sixths / 6);
   expect_lengths(lengths_of(test::pair_of(lower, "top", upper, "bottom")), expected);
   expect_lengths(lengths_of(test::pair_of(upper, "bottom", lower, "top")), expected);
+}
+
+// A quarter of a cylinder in a bore whose radius is larger by the gap: elements of both turn by the same angle, so that
+// all lengths are those on the circle between. Parabolas through three points of it, by hand.
+TEST(TributaryLengths, AreTheMeanOfBothSides) {
+  const auto quarter = [](const char* name, double inner, double outer) {
+    model::Body body = test::elastic(
+        name,
+        test::outline({test::line("base", {inner, 0}, {outer, 0}), test::arc("outer", {0, 0}, outer, 0.0, test::pi / 2),
+                       test::line("side", {0, outer}, {0, inner}),
+                       test::arc("inner", {0, 0}, inner, test::pi / 2, -test::pi / 2)}),
+        0.5, 2);
+    body.mesh.kind = model::MeshKind::polygons;
+    return body;
+  };
+  const auto cylinder = quarter("cylinder", 0.5, 1.0), sleeve = quarter("sleeve", 1.2, 1.7);
+  const std::vector<double> lengths = lengths_of(test::pair_of(cylinder, "outer", sleeve, "inner"));
+  ASSERT_GE(lengths.size(), 5u);
+  const double elements = 0.5 * (static_cast<double>(lengths.size()) - 1), turn = test::pi / 2 / elements, r = 1.1,
+               along = 2 * std::sin(turn / 2) - std::sin(turn) / 2,
+               across = 2 * (1 - std::cos(turn / 2)) - (1 - std::cos(turn)) / 2;
+  std::vector<double> expected(lengths.size(), 4 * r / 3 * std::sin(turn / 2));
+  for (std::size_t i = 2; i + 1 < lengths.size(); i += 2) expected[i] = 2 * r / 3 * along;
+  expected.front() = expected.back() = r / 3 * std::hypot(along, across);
+  expect_lengths(lengths, expected);
+  expect_lengths(lengths_of(test::pair_of(sleeve, "inner", cylinder, "outer")), expected);
 }
 
 // On an arc they add up to its length as elements shrink. The other side is rigid and has none.

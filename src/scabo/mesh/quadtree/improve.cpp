@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/quadtree/pieces.hpp"
 
 namespace scabo::mesh::quadtree {
@@ -13,6 +14,10 @@ namespace {
 // no cell much worse; cells with less than `poor`, or with an area below `small`, are merged with a neighbour if that
 // helps.
 constexpr double fair = 0.08, poor = 0.05, small_area = 0.1;
+/// Least sight of a cell beside a hollow arc.
+constexpr double seen_beside_arc = 0.01;
+/// Least distance of a side on an arc from its centre, in radii: it turns by less than about 90 degrees.
+constexpr double least_turned = 0.7;
 
 std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes) {
   std::vector<Vec2> corners;
@@ -21,12 +26,34 @@ std::vector<Vec2> corners_of(const Pieces& pieces, const std::vector<int>& nodes
   return corners;
 }
 
+/// The corners of a cell, and where its sides are hollow arcs the points at which their end tangents meet: such a side
+/// is seen from where these tangents are seen. Empty if a side turns too far.
+std::vector<Vec2> outline_of(const Pieces& pieces, const std::vector<int>& nodes, bool open) {
+  if (pieces.curved.empty()) return corners_of(pieces, nodes);
+  std::vector<Vec2> outline;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const int a = nodes[i], b = nodes[i + 1 < nodes.size() ? i + 1 : 0];
+    const Vec2 &from = pieces.nodes[a], &to = pieces.nodes[b];
+    outline.push_back(from);
+    const auto side = pieces.line_sides.find(side_key(a, b));
+    if (side == pieces.line_sides.end() || (open && i + 1 == nodes.size())) continue;
+    const std::optional<geometry::Arc>& arc = pieces.curved[side->second].arc;
+    if (!arc) continue;
+    const Vec2 middle = 0.5 * (from + to) - arc->centre;
+    if (!(middle.norm() > least_turned * arc->radius)) return {};
+    if (cross(from - arc->centre, to - arc->centre) >= 0.0) continue;  // it bulges outwards
+    outline.push_back(arc->centre + (from - arc->centre).squaredNorm() / middle.squaredNorm() * middle);
+  }
+  return outline;
+}
+
 /// Whether the centre is a point of the domain: of open cells, and of cells around a corner of several regions.
 bool is_fixed(const PolygonCell& cell) { return cell.open || !cell.side_regions.empty(); }
 
 /// Of a cell that is to have the given nodes.
 double clearance_with(const Pieces& pieces, const PolygonCell& cell, const std::vector<int>& nodes) {
-  const std::vector<Vec2> corners = corners_of(pieces, nodes);
+  const std::vector<Vec2> corners = outline_of(pieces, nodes, cell.open);
+  if (corners.empty()) return -1.0;
   return is_fixed(cell) ? clearance_from(cell.centre, corners, !cell.open) : best_sight(corners).clearance;
 }
 
@@ -179,13 +206,11 @@ void collapse_short_sides(Pieces& pieces, double shortest) {
 
 void divide_unseen_cells(Pieces& pieces) {
   for (std::size_t k = pieces.first_cut; k < pieces.cells.size(); ++k) {
-    while (!is_fixed(pieces.cells[k]) && pieces.cells[k].nodes.size() > 3 &&
-           clearance_of(pieces, pieces.cells[k]) < 0.4 * poor * pieces.sizes[k]) {
+    while (!is_fixed(pieces.cells[k]) && pieces.cells[k].nodes.size() > 3) {
+      const double clearance = best_sight(corners_of(pieces, pieces.cells[k].nodes)).clearance;
+      if (!(clearance < 0.4 * poor * pieces.sizes[k])) break;
       Halves halves = best_division(pieces.cells[k].nodes, pieces.nodes);
-      if (halves.first.empty() ||
-          !(halves.clearance > clearance_of(pieces, pieces.cells[k]) || halves.clearance <= 0.0)) {
-        break;
-      }
+      if (halves.first.empty() || !(halves.clearance > clearance || halves.clearance <= 0.0)) break;
       pieces.cells.push_back({std::move(halves.second), Vec2::Zero(), pieces.cells[k].region, {}, false});
       pieces.sizes.push_back(pieces.sizes[k]);
       pieces.cells[k].nodes = std::move(halves.first);
@@ -258,7 +283,9 @@ void merge_small_cells(Pieces& pieces) {
         std::vector<int> nodes = united(pieces, surroundings, pieces.cells[k].nodes, pieces.cells[other].nodes);
         if (nodes.empty()) continue;
         const double larger = std::max(size, pieces.sizes[other]);
-        const double clearance = best_sight(corners_of(pieces, nodes)).clearance;
+        const std::vector<Vec2> outline = outline_of(pieces, nodes, false);
+        if (outline.empty()) continue;
+        const double clearance = best_sight(outline).clearance;
         // Cells of the tree have 0.5: a neighbour is spoiled less by a cut cell.
         if (clearance < 1.5 * own ||
             clearance < std::min(2.0 * fair * larger, clearance_of(pieces, pieces.cells[other])))
@@ -293,8 +320,19 @@ void place_centres(Pieces& pieces, std::vector<Vec2>& trouble) {
                                             [&](int node) { return pieces.holds[node] == Hold::nothing; })) {
       continue;  // untouched cell of the tree; its centre is set
     }
-    const Sight sight = best_sight(corners_of(pieces, cell.nodes));
+    const std::vector<Vec2> outline = outline_of(pieces, cell.nodes, false);
+    if (outline.empty()) {
+      trouble.push_back(pieces.nodes[cell.nodes.front()]);
+      continue;
+    }
+    const Sight sight = best_sight(outline);
     cell.centre = sight.centre;
+    if (outline.size() > cell.nodes.size() && !(sight.clearance > seen_beside_arc * pieces.sizes[k])) {
+      const KernelCentre seeing = kernel_centre(outline, seen_beside_arc);
+      if (!(seeing.visibility > seen_beside_arc)) trouble.push_back(pieces.nodes[cell.nodes.front()]);
+      cell.centre = seeing.centre;
+      continue;
+    }
     // Sharp corners leave cells with little clearance, which no refinement changes.
     if (!(sight.clearance > 1e-5 * pieces.sizes[k])) trouble.push_back(pieces.nodes[cell.nodes.front()]);
   }

@@ -21,6 +21,7 @@ struct Pieces {
   std::size_t first_cut = 0;                          // cells before are rectangles of the tree
   std::vector<std::vector<int>> chains;               // nodes along each line from its start to its end
   std::unordered_map<std::uint64_t, int> line_sides;  // sides on lines, by `side_key`
+  std::vector<DomainLine> curved;  // the lines, if sides on arcs are going to be arcs; empty if they remain chords
 };
 
 /// Of the side between two nodes, the same in both directions.
