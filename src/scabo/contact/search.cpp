@@ -34,11 +34,10 @@ Search::Search(const Problem& problem, const Start& start, const SolverOptions& 
   has_history_ = !start_.p.isZero(0.0);
   best_ = start_;
 
-  // Well below the tolerance, but not below the rounding of the gaps themselves (a body far above its support).
   const double epsilon = std::numeric_limits<double>::epsilon(), reference = measure_.reference();
-  small_ = by_natural_map()
-               ? epsilon * reference
-               : std::max(0.01 * options.tolerance * reference, 4.0 * epsilon * (n > 0 ? scaled_.q.lpNorm<Eigen::Infinity>() : 0.0));
+  small_ = by_natural_map() ? epsilon * reference : 0.01 * options.tolerance * reference;
+  // Of the gaps themselves: a body far above its support, or that springs would allow to go far.
+  if (n > 0) rounding_ = 4.0 * epsilon * scaled_.q.lpNorm<Eigen::Infinity>();
   // The certificate knows complementarity as a product, p_n g; where it decides, the natural map must be small as well.
   const double asked = 0.9 * options.tolerance, asked_of_map = by_natural_map() ? asked : 100.0 * asked;
   accepts_ = [this, asked, asked_of_map, in_forces = measure_.of_forces()](const Vector& p, const Vector& a,
@@ -52,6 +51,7 @@ NewtonEnd Search::newton_from(Point from, const NewtonRun& run) {
   const BDifferentiableEquations equations(scaled_, options_.r_factor);
   NewtonOptions options;
   options.small = small_;
+  options.rounding = rounding_;
   if (!by_natural_map()) options.relative = 0.01 * options_.tolerance;
   options.iterations = run.iterations > 0 ? run.iterations : options_.iterations;
   options.patience = run.patience;
@@ -66,7 +66,6 @@ NewtonEnd Search::newton_from(Point from, const NewtonRun& run) {
     };
   NewtonEnd end = newton(equations, std::move(from.p), std::move(from.a), options);
   add_trace(std::move(end.trace), end.iterations);
-  end.converged = end.converged && accepts_(end.p, end.a, motion_of(scaled_, end.p, end.a));
   offer(end.p, end.a, end.residual, end.converged);
   return end;
 }

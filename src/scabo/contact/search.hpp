@@ -75,7 +75,8 @@ class Search {
   Point start_;
   bool has_history_ = false;
   std::vector<bool> touching_;
-  double small_ = 0.0;  // |H| that is rounding, or far below the tolerance
+  double small_ = 0.0;     // |H| far below the tolerance
+  double rounding_ = 0.0;  // |H| that may be rounding
   IsSolution accepts_;
 
   Point best_;

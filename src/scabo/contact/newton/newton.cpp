@@ -93,7 +93,8 @@ class Newton {
 
   void keep_best() {
     const double merit = at_.merit();
-    const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit));
+    const bool stuck = no_longer_falls(merit);
+    const bool asked = options_.content && (!options_.ask_when_stuck || stuck || at_.largest() <= aim());
     const bool content = asked && options_.content(at_point_.p, at_point_.a, at_.motion);
     if (merit < progress_.best || content) {
       progress_.best = merit;
@@ -101,7 +102,8 @@ class Newton {
       end_.a = at_point_.a;
       end_.residual = at_.largest();
     }
-    end_.converged = content || end_.residual <= aim();
+    end_.converged = content || (end_.residual <= aim() && (!options_.content || stuck)) ||
+                     (end_.residual <= options_.rounding && stuck);
     if (end_.iterations == 0) progress_.merits.fill(merit);
     progress_.merits[static_cast<std::size_t>(end_.iterations % constants.memory)] = merit;
   }
@@ -117,7 +119,7 @@ class Newton {
 
   /// |H| is near its aim and was not halved: what is left may be rounding.
   bool no_longer_falls(double merit) const {
-    return at_.largest() <= constants.near * aim() && merit > constants.halved * progress_.best;
+    return at_.largest() <= constants.near * std::max(aim(), options_.rounding) && merit > constants.halved * progress_.best;
   }
 
   double aim() const {

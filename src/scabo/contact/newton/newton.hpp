@@ -37,15 +37,17 @@ inline constexpr NewtonConstants newton_constants;
 
 struct NewtonOptions {
   double small = 0.0;     ///< converged when the largest |H| is not above it,
-  double relative = 0.0;  ///< or not above this part of the largest force
+  double relative = 0.0;  ///< or not above this part of the largest force,
+  double rounding = 0.0;  ///< or where it falls no longer, and not above what may be rounding
   int iterations = 50;    ///< most
   int patience = 0;       ///< ends when the smallest merit was not halved in so many iterations; 0: never
   std::string stage = "newton";
   Deadline deadline = {};                                   ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration = {};  ///< may be empty; what it throws ends the solve
-  /// Converged as well when this says so of forces and motions; may be empty.
+  /// Converged when this says so of forces and motions; where it does not and |H| is small enough but falls no longer, as
+  /// well. May be empty.
   IsSolution content = {};
-  bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small and no longer falls
+  bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small enough, or near it and no longer falls
 };
 
 struct NewtonEnd {

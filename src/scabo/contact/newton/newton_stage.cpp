@@ -41,10 +41,19 @@ bool from_history(Search& search, NewtonEnd& end) {
   return !floats && kept && done(*std::move(kept), "newton from states kept");
 }
 
+/// Where nothing presses, no force is the solution.
+bool is_solved_at_rest(Search& search) {
+  const Point& rest = search.start();
+  if (search.has_history() || !search.accepts(rest.p, rest.a, motion_of(search.problem(), rest.p, rest.a))) return false;
+  search.offer(rest.p, rest.a, search.residual_at(rest.p, rest.a), true);
+  return true;
+}
+
 }  // namespace
 
 StageEnd newton_stage(Search& search) {
   const Problem& problem = search.problem();
+  if (is_solved_at_rest(search)) return {true, {}};
   const int patience = patience_of(problem);
   NewtonEnd end;
   const auto done = [&](Point from, const char* stage) {

@@ -1,7 +1,7 @@
 // Many thousands of sweeps (gauss_seidel.hpp) with extrapolation between rounds of twenty, for problems whose W is rank
 // deficient: stacks of rigid bodies, where forces travel from body to body and their states settle late.
 //
-// sweeps.hpp extrapolates after every sweep. While states still change that foretells little: after 10,000 sweeps a
+// While states still change, extrapolation after every sweep foretells little: after 10,000 sweeps a
 // wall of 8 x 8 blocks was at a natural map of 3.7e-5. Here a round of twenty sweeps is the map p -> S(p) whose fixed
 // point is sought; what it has not damped are few slow modes, and with the last eight changes of p and of f = S(p) - p
 // (Anderson, J. ACM 12 (1965) 547; type II)
