@@ -12,6 +12,8 @@ namespace {
 constexpr GmresOptions refining_gmres{1e-13, 40, 80};
 constexpr GmresOptions line_gmres{1e-12, 40, 40};
 constexpr double as_good_as_double = 1e-11;    // residual of a direction by GMRES
+// Beside soft springs a regular matrix has 1e-13 and less; refinement says whether its digits suffice.
+constexpr double least_condition = 1e-15;
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as expensive
 
 }  // namespace
@@ -57,7 +59,7 @@ bool NewtonDirection::solve_dense(double regularisation) {
   const auto matrix = A.topLeftCorner(n, n);
   work_->factor.topLeftCorner(n, n) = matrix;
   const double scale = 1e-9 * right.lpNorm<Eigen::Infinity>();
-  if (work_->solver.factorise(work_->factor, n) && work_->solver.reciprocal_condition() > 1e-13) {
+  if (work_->solver.factorise(work_->factor, n) && work_->solver.reciprocal_condition() > least_condition) {
     y = right;
     work_->solver.solve_in_place(y_);
     residual = right;

@@ -39,12 +39,12 @@ class Newton {
     for (;; ++end_.iterations) {
       keep_best();
       record();
-      if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) ||
-          creeps())
-        break;
+      if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) || creeps()) break;
       options_.deadline.spend(operations);
       if (options_.deadline.passed() || !advance()) break;
     }
+    // However the search ended: what is left may be rounding.
+    end_.converged = end_.converged || end_.residual <= std::max(aim(), options_.rounding);
     return std::move(end_);
   }
 
@@ -93,8 +93,7 @@ class Newton {
 
   void keep_best() {
     const double merit = at_.merit();
-    const bool stuck = no_longer_falls(merit);
-    const bool asked = options_.content && (!options_.ask_when_stuck || stuck || at_.largest() <= aim());
+    const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit) || at_.largest() <= aim());
     const bool content = asked && options_.content(at_point_.p, at_point_.a, at_.motion);
     if (merit < progress_.best || content) {
       progress_.best = merit;
@@ -102,18 +101,18 @@ class Newton {
       end_.a = at_point_.a;
       end_.residual = at_.largest();
     }
-    end_.converged = content || (end_.residual <= aim() && (!options_.content || stuck)) ||
-                     (end_.residual <= options_.rounding && stuck);
+    end_.converged = content || (!options_.content && end_.residual <= aim());
     if (end_.iterations == 0) progress_.merits.fill(merit);
     progress_.merits[static_cast<std::size_t>(end_.iterations % constants.memory)] = merit;
   }
 
-  /// Short steps from kink to kink, which lead on but not to an end.
+  /// Short steps from kink to kink, which lead on but not to an end; or what is left is small and may be rounding.
   bool creeps() {
     if (progress_.best <= 0.5 * progress_.halved) {
       progress_.halved = progress_.best;
       progress_.halved_at = end_.iterations;
     }
+    if (end_.residual <= std::max(aim(), options_.rounding) && end_.iterations > progress_.halved_at) return true;
     return options_.patience > 0 && end_.iterations - progress_.halved_at >= options_.patience;
   }
 

@@ -44,8 +44,8 @@ struct NewtonOptions {
   std::string stage = "newton";
   Deadline deadline = {};                                   ///< no iteration begins after it
   std::function<void(const Iteration&)> on_iteration = {};  ///< may be empty; what it throws ends the solve
-  /// Converged when this says so of forces and motions; where it does not and |H| is small enough but falls no longer, as
-  /// well. May be empty.
+  /// Converged when this says so of forces and motions, or, where it does not, when |H| is small enough and falls no
+  /// longer. May be empty.
   IsSolution content = {};
   bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small enough, or near it and no longer falls
 };
