@@ -242,7 +242,9 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
     const auto is_same_at_half = [&] {
       return is_same_scaled(prepared, reached.state, tried, factors_at(reached.part + 0.5 * part));
     };
-    const bool closes_in = no_equilibrium && least && may_halve && (large || !is_same_at_half());
+    // A mechanism is a proof; that stages found nothing is none, and the last equilibrium is part of the answer.
+    const bool may_close_in = no_equilibrium && (least || tried.solution.status == contact::Status::collapse);
+    const bool closes_in = may_close_in && may_halve && (large || !is_same_at_half());
     if (closes_in) reached.limit = next;
     const bool smaller_steps_may_help = (!no_equilibrium || closes_in) && !tried.lost;
     reached.stopped = smaller_steps_may_help && options.stop && *options.stop;

@@ -65,13 +65,13 @@ NewtonEnd Search::newton_from(Point from, const NewtonRun& run) {
       options_.on_iteration(iteration);
     };
   NewtonEnd end = newton(equations, std::move(from.p), std::move(from.a), options);
-  add_trace(std::move(end.trace), end.iterations);
+  add_trace(end.trace, end.iterations);
   offer(end.p, end.a, end.residual, end.converged);
   return end;
 }
 
 void Search::offer(const Vector& p, const Vector& a, double residual, bool solved) {
-  if (solved_ || !(solved || residual < best_residual_)) return;
+  if (solved_ ? !(solved && residual < best_residual_) : !(solved || residual < best_residual_)) return;
   best_ = {p, a};
   best_residual_ = residual;
   solved_ = solved;

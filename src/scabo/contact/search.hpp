@@ -52,7 +52,7 @@ class Search {
 
   /// Newton's method from `from`; its end counts as found, and its iterations are told.
   NewtonEnd newton_from(Point from, const NewtonRun& run);
-  /// Counts the point if it is the best so far. `solved`: it is known to be a solution.
+  /// Counts the point if it is the best so far. `solved`: it is known to be a solution; of several the most exact counts.
   void offer(const Vector& p, const Vector& a, double residual, bool solved);
   /// |H| of a point, its largest entry.
   double residual_at(const Vector& p, const Vector& a) const;

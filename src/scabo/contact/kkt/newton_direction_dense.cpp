@@ -14,6 +14,7 @@ constexpr GmresOptions line_gmres{1e-12, 40, 40};
 constexpr double as_good_as_double = 1e-11;    // residual of a direction by GMRES
 // Beside soft springs a regular matrix has 1e-13 and less; refinement says whether its digits suffice.
 constexpr double least_condition = 1e-15;
+constexpr double rounding = 1e-15;
 constexpr Eigen::Index most_orthogonal = 120;  // unknowns of an orthogonal decomposition, ten times as expensive
 
 }  // namespace
@@ -68,7 +69,9 @@ bool NewtonDirection::solve_dense(double regularisation) {
     y += residual;  // one step of refinement: the certificate is judged at 1e-10
     residual = right;
     residual.noalias() -= matrix * y;
-    if (y.allFinite() && residual.lpNorm<Eigen::Infinity>() <= scale) return true;
+    const double left = residual.lpNorm<Eigen::Infinity>();
+    // Beside soft springs a small step may cause large motions, whose rounding is all that is left.
+    if (y.allFinite() && (left <= scale || left <= rounding * (matrix.cwiseAbs() * y.cwiseAbs()).maxCoeff())) return true;
   }
   if (n <= most_orthogonal) {  // the shortest solution, if there is one
     Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;

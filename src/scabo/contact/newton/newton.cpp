@@ -34,6 +34,7 @@ class Newton {
     const double operations = operations_of_system(equations_.problem());
     end_.p = at_point_.p;
     end_.a = at_point_.a;
+    end_.trace.reserve(static_cast<std::size_t>(options_.iterations) + 1);
     end_.residual = HUGE_VAL;  // stays where H is not finite: never converged
     equations_.evaluate(at_point_.p, at_point_.a, at_);
     for (;; ++end_.iterations) {

@@ -5,6 +5,7 @@
 #include "scabo/contact/newton/bonded_start.hpp"
 #include "scabo/contact/newton/coarse_start.hpp"
 #include "scabo/contact/newton/kept_states.hpp"
+#include "scabo/contact/newton/undecided_pairs.hpp"
 #include "scabo/contact/stages.hpp"
 
 namespace scabo::contact {
@@ -23,6 +24,17 @@ std::string why_of(const NewtonEnd& end, const Search& search) {
   return "Newton's method stalled after " + std::to_string(end.iterations) + " iterations";
 }
 
+/// Newton's method. At crack tips forces and gaps are as small as |H|: where the states of many pairs still change at its
+/// end, once more from where these stick.
+NewtonEnd newton_until_settled(Search& search, Point from, const NewtonRun& run) {
+  NewtonEnd end = search.newton_from(std::move(from), run);
+  if (!end.converged || end.trace.back().states_changed == 0) return end;
+  const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
+  if (std::optional<Point> stuck = with_undecided_stuck(equations, {end.p, end.a}))
+    search.newton_from(*std::move(stuck), run);
+  return end;
+}
+
 /// From the last increment: of a body that contact alone holds first with the states as they were (kept_states.hpp).
 /// Whether that ends the search.
 bool from_history(Search& search, NewtonEnd& end) {
@@ -30,7 +42,7 @@ bool from_history(Search& search, NewtonEnd& end) {
   const int patience = patience_of(search.problem());
   const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
   const auto done = [&](Point from, const char* stage) {
-    end = search.newton_from(std::move(from), {stage, 0, patience});
+    end = newton_until_settled(search, std::move(from), {stage, 0, patience});
     return end.converged || search.late();
   };
   std::optional<Point> kept;
@@ -57,7 +69,7 @@ StageEnd newton_stage(Search& search) {
   const int patience = patience_of(problem);
   NewtonEnd end;
   const auto done = [&](Point from, const char* stage) {
-    end = search.newton_from(std::move(from), {stage, 0, patience});
+    end = newton_until_settled(search, std::move(from), {stage, 0, patience});
     return end.converged || search.late();
   };
   if (search.has_history() && from_history(search, end)) return {end.converged, why_of(end, search)};
