@@ -135,6 +135,21 @@ void accept(Attempt tried, double part, Reached& reached) {
   reached.part = part;
 }
 
+/// Whether no equilibrium was found because joints have broken, after which the bodies are a mechanism.
+bool gives_up_broken(const Prepared& prepared, const Attempt& tried, Reached& reached) {
+  if (!breaks(prepared)) return false;
+  const auto motion = contact::mechanism_once_broken(tried.problem, laws_at(prepared, tried.state.factors),
+                                                     reached.state.history);
+  if (!motion) return false;
+  reached.mechanism = true;
+  reached.motion = mechanism_of(prepared, *motion, FlowRule::associated, tried.problem.f);
+  reached.reason = fmt::format(
+      "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
+      "remaining strength after {} halvings",
+      describe_motions(prepared, *motion), reached.halvings);
+  return true;
+}
+
 /// Why an attempt to reach part `part` of the increment is the last one.
 void give_up(const Prepared& prepared, const Attempt& tried, double part, Reached& reached) {
   using contact::Status;
@@ -142,6 +157,8 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   const double tolerance = prepared.model.solver.tolerance;
   reached.residual = tried.solution.residual;
   reached.certificate = tried.certificate;
+  if ((status == Status::not_converged || status == Status::collapse) && gives_up_broken(prepared, tried, reached))
+    return;
   reached.mechanism = status == Status::mechanism;
   reached.collapse = status == Status::collapse;
   if (status == Status::mechanism) {
@@ -159,17 +176,6 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
     reached.reason =
         fmt::format("contact did not converge after {} halvings: {}", reached.halvings, tried.solution.reason);
   if (status != Status::not_converged) return;
-  if (breaks(prepared))
-    if (const auto motion = contact::mechanism_once_broken(tried.problem, laws_at(prepared, tried.state.factors),
-                                                           reached.state.history)) {
-      reached.mechanism = true;
-      reached.motion = mechanism_of(prepared, *motion, FlowRule::associated, tried.problem.f);
-      reached.reason = fmt::format(
-          "mechanism: {}, which only the strength of the joints could prevent; no equilibrium was found with their "
-          "remaining strength after {} halvings",
-          describe_motions(prepared, *motion), reached.halvings);
-      return;
-    }
   contact::SolverOptions solver;
   solver.tolerance = tolerance;
   solver.force_scale = tried.force_scale;

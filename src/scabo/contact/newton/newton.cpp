@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scabo/contact/kkt/newton_direction.hpp"
+#include "scabo/contact/newton/undecided_pairs.hpp"
 #include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
@@ -42,7 +43,7 @@ class Newton {
       record();
       if (end_.converged || end_.iterations >= options_.iterations || !std::isfinite(at_.merit()) || creeps()) break;
       options_.deadline.spend(operations);
-      if (options_.deadline.passed() || !advance()) break;
+      if (options_.deadline.passed() || !(settle() || advance())) break;
     }
     // However the search ended: what is left may be rounding.
     end_.converged = end_.converged || end_.residual <= std::max(aim(), options_.rounding);
@@ -61,6 +62,16 @@ class Newton {
       end_.singular = !found;
       return false;
     }
+  }
+
+  /// Where the iterations go around, and many pairs have forces and motions as small as |H|, as at crack tips: the step to
+  /// where these stick, without a search.
+  bool settle() {
+    if (end_.iterations - progress_.halved_at != constants.going_around) return false;
+    trial_ = at_;
+    const int undecided = equations_.stick_below(undecided_pairs.below * at_.largest(), at_point_.p, trial_);
+    if (undecided_pairs.few * undecided <= equations_.problem().pairs()) return false;
+    return direction_.find(trial_, 0.0, d_) && take(1.0);
   }
 
   double regularisation() const {

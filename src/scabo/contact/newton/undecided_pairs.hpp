@@ -13,6 +13,12 @@
 
 namespace scabo::contact {
 
+struct UndecidedPairs {
+  double below = 30.0;  ///< times |H|: forces and motions below it. At crack tips 10 and 100 do as well, with 1 there are none
+  int few = 10;         ///< of so many pairs not more than one is undecided: Newton's method finds its state itself
+};
+inline constexpr UndecidedPairs undecided_pairs;
+
 /// The point after that step; nothing where less than a tenth of the pairs are undecided, or there is no step.
 std::optional<Point> with_undecided_stuck(const BDifferentiableEquations& equations, const Point& from);
 
