@@ -352,7 +352,9 @@ TEST(Block, BelowACeilingSlidesAtTheFrictionLimitOfTheFloor) {
   EXPECT_EQ(solution.outcome, analysis::Outcome::collapse);
   const std::size_t end = solution.reason.find("the last equilibrium was found at ");
   ASSERT_NE(end, std::string::npos) << solution.reason;
-  EXPECT_NEAR(std::stod(solution.reason.substr(end + 34)), 0.47, 0.03) << solution.reason;  // it slides at 0.5
+  const double last = std::stod(solution.reason.substr(end + 34));
+  EXPECT_LE(last, 0.5) << solution.reason;  // there it slides
+  EXPECT_GE(last, 0.45) << solution.reason;
   EXPECT_NE(solution.reason.find("body 'block': translation along (1, 0)"), std::string::npos) << solution.reason;
 }
 

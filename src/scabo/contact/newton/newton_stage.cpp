@@ -35,6 +35,12 @@ NewtonEnd newton_until_settled(Search& search, Point from, const NewtonRun& run)
   return end;
 }
 
+/// A start that took a factorisation of its own.
+Point counted(Search& search, Point start) {
+  search.add_trace({}, 1);
+  return start;
+}
+
 /// From the last increment: of a body that contact alone holds first with the states as they were (kept_states.hpp).
 /// Whether that ends the search.
 bool from_history(Search& search, NewtonEnd& end) {
@@ -47,10 +53,10 @@ bool from_history(Search& search, NewtonEnd& end) {
   };
   std::optional<Point> kept;
   if (floats) kept = with_states_kept(equations, search.start());
-  if (kept && done(*std::move(kept), "newton from states kept")) return true;
+  if (kept && done(counted(search, *std::move(kept)), "newton from states kept")) return true;
   if (done(search.start(), "newton")) return true;
   if (!floats) kept = with_states_kept(equations, search.start());
-  return !floats && kept && done(*std::move(kept), "newton from states kept");
+  return !floats && kept && done(counted(search, *std::move(kept)), "newton from states kept");
 }
 
 /// Where nothing presses, no force is the solution.
@@ -75,7 +81,7 @@ StageEnd newton_stage(Search& search) {
   if (search.has_history() && from_history(search, end)) return {end.converged, why_of(end, search)};
   if (problem.G.cols() > 0)
     if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
-      if (done(*std::move(bonded), "newton from bonded pairs")) return {end.converged, why_of(end, search)};
+      if (done(counted(search, *std::move(bonded)), "newton from bonded pairs")) return {end.converged, why_of(end, search)};
   if (std::optional<CoarseStart> coarse = coarse_start(problem, search.start().a)) {
     search.add_coarse(std::move(coarse->trace), coarse->iterations);
     if (done(std::move(coarse->point), "newton from fewer pairs")) return {end.converged, why_of(end, search)};
