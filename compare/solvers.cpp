@@ -13,9 +13,9 @@
 #include "compare/tresca.hpp"
 #include "compare/trial_and_error.hpp"
 #include "scabo/contact/newton/b_differentiable.hpp"
+#include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/questions/infeasibility.hpp"
 #include "scabo/contact/questions/lemke.hpp"
-#include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
 
 namespace scabo::compare {

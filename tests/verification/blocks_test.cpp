@@ -360,7 +360,8 @@ TEST(Block, BelowACeilingSlidesAtTheFrictionLimitOfTheFloor) {
 
 // Nine stones in three courses over a gap. Nothing presses the middle stone of the second course from the sides: it
 // falls, whatever the friction. Forces that balance every stone do exist from a friction of 0.4 on, with a thrust that
-// nothing calls forth. Bodies let go from rest may call it forth, so that the run may not say what falls; it never says that they stand.
+// nothing calls forth. Bodies let go from rest may call it forth, so that the run may not say what falls; it never says
+// that they stand.
 TEST(Stones, OverAGapFallAtAnyFriction) {
   for (const double friction : {0.5, 0.55, 0.6, 0.7, 1.0}) {
     const auto solution = run(fmt::format(

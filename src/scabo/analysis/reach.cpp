@@ -119,7 +119,8 @@ void set_motion_of_mechanism(const Prepared& prepared, const Attempt& tried, Rea
 /// In an attempt to go from part `from` of an increment to part `to`; `motion`: of the bodies, m numbers.
 std::string describe_collapse(const Prepared& prepared, const Vector& motion, double from, double to) {
   return fmt::format(
-      "collapse: no equilibrium was found at {:.4g} of the increment, and the bodies begin to move when they are let go "
+      "collapse: no equilibrium was found at {:.4g} of the increment, and the bodies begin to move when they are let "
+      "go "
       "there ({}); the last equilibrium was found at {:.4g}",
       to, describe_motions(prepared, motion), from);
 }
@@ -138,8 +139,8 @@ void accept(Attempt tried, double part, Reached& reached) {
 /// Whether no equilibrium was found because joints have broken, after which the bodies are a mechanism.
 bool gives_up_broken(const Prepared& prepared, const Attempt& tried, Reached& reached) {
   if (!breaks(prepared)) return false;
-  const auto motion = contact::mechanism_once_broken(tried.problem, laws_at(prepared, tried.state.factors),
-                                                     reached.state.history);
+  const auto motion =
+      contact::mechanism_once_broken(tried.problem, laws_at(prepared, tried.state.factors), reached.state.history);
   if (!motion) return false;
   reached.mechanism = true;
   reached.motion = mechanism_of(prepared, *motion, FlowRule::associated, tried.problem.f);
@@ -243,8 +244,8 @@ Reached reach(const Prepared& prepared, Reached reached, const std::function<Fac
       if (reached.pairs_are_due) break;
       continue;
     }
-    const bool no_equilibrium = tried.solution.status == contact::Status::mechanism ||
-                                tried.solution.status == contact::Status::collapse;
+    const bool no_equilibrium =
+        tried.solution.status == contact::Status::mechanism || tried.solution.status == contact::Status::collapse;
     const auto is_same_at_half = [&] {
       return is_same_scaled(prepared, reached.state, tried, factors_at(reached.part + 0.5 * part));
     };

@@ -17,8 +17,9 @@
 
 namespace scabo::analysis {
 
-/// Replaces forces that are not unique by the smoothest ones that the solution admits (contact/questions/smoothest_forces.hpp),
-/// judged anew. Does nothing to a problem that is not solved, or would not be with them.
+/// Replaces forces that are not unique by the smoothest ones that the solution admits
+/// (contact/questions/smoothest_forces.hpp), judged anew. Does nothing to a problem that is not solved, or would not be
+/// with them.
 void give_smoothest_forces(const Prepared& prepared, const contact::Problem& problem, const contact::Start& start,
                            const contact::SolverOptions& options, contact::Solution& solution);
 

@@ -4,7 +4,8 @@
 // friction together, atan mu_1 + atan mu_2, both friction cones have a direction in common: forces r of any size along
 // it balance each other. If the other two bodies do not give way either, r moves nothing, W r = 0 and G'r = 0. With
 // q.r < 0 these bodies are driven towards each other along r, and no finite force makes room: Coulomb's law has in
-// general no solution (contact/questions/infeasibility.hpp). In the continuum the stress in such a tip grows as 1 / distance.
+// general no solution (contact/questions/infeasibility.hpp). In the continuum the stress in such a tip grows as 1 /
+// distance.
 #pragma once
 
 #include <string>

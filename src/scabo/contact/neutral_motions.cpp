@@ -37,7 +37,8 @@ bool all_are_felt(const Problem& problem, const std::vector<ContactState>& state
     for (int k = 0; k < (states[static_cast<std::size_t>(i)] == ContactState::stick ? problem.dimension : 1); ++k)
       rows.push_back(problem.dimension * i + k);
   const Matrix felt = problem.G.dense()(rows, Eigen::all);
-  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(felt.transpose() * felt, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector values =
+      Eigen::SelfAdjointEigenSolver<Matrix>(felt.transpose() * felt, Eigen::EigenvaluesOnly).eigenvalues();
   return values[0] > surely_felt * values[values.size() - 1];
 }
 

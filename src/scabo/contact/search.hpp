@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "scabo/contact/solution.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/newton/newton.hpp"
+#include "scabo/contact/solution.hpp"
 #include "scabo/contact/solve.hpp"
 
 namespace scabo::contact {
@@ -27,8 +27,8 @@ struct StageEnd {
 /// How a stage runs Newton's method.
 struct NewtonRun {
   std::string stage = "newton";
-  int iterations = 0;     ///< 0: those of the options
-  int patience = 0;       ///< NewtonOptions::patience
+  int iterations = 0;  ///< 0: those of the options
+  int patience = 0;    ///< NewtonOptions::patience
 };
 
 class Search {
@@ -52,7 +52,8 @@ class Search {
 
   /// Newton's method from `from`; its end counts as found, and its iterations are told.
   NewtonEnd newton_from(Point from, const NewtonRun& run);
-  /// Counts the point if it is the best so far. `solved`: it is known to be a solution; of several the most exact counts.
+  /// Counts the point if it is the best so far. `solved`: it is known to be a solution; of several the most exact
+  /// counts.
   void offer(const Vector& p, const Vector& a, double residual, bool solved);
   /// |H| of a point, its largest entry.
   double residual_at(const Vector& p, const Vector& a) const;

@@ -9,8 +9,8 @@
 namespace scabo::contact {
 
 /// mechanism: no forces at all balance the loads, which is proven. collapse: no stage found an equilibrium, and the
-/// bodies begin to move when they are let go (questions/onset.hpp); friction may still allow an equilibrium. infeasible:
-/// the problem has no solution, as shown by `proof` (questions/infeasibility.hpp).
+/// bodies begin to move when they are let go (questions/onset.hpp); friction may still allow an equilibrium.
+/// infeasible: the problem has no solution, as shown by `proof` (questions/infeasibility.hpp).
 enum class Status { solved, not_converged, mechanism, collapse, infeasible };
 
 /// One iteration, as written to a trace.
@@ -37,8 +37,8 @@ struct Solution {
   double natural_map_residual = 0.0;  ///< residual of the natural map (contact/judge.hpp)
   double rounding = 0.0;              ///< estimated rounding of the motions, relative (contact/judge.hpp)
   Vector motion;  ///< with `mechanism`, the motion that is not restrained, with `collapse` that of the fall, m numbers
-  Vector proof;         ///< with `infeasible`, forces in equilibrium with themselves, d N numbers
-  Matrix undetermined;  ///< m x k: rigid motions not determined by contact and loads (solved nevertheless)
+  Vector proof;   ///< with `infeasible`, forces in equilibrium with themselves, d N numbers
+  Matrix undetermined;           ///< m x k: rigid motions not determined by contact and loads (solved nevertheless)
   std::vector<Iteration> trace;  ///< every iteration of every stage
   std::string reason;            ///< why the problem was not solved, as a sentence
 };

@@ -36,7 +36,8 @@ namespace {
   states.reserve(static_cast<std::size_t>(problem.pairs()));
   // Without contact loads may move bodies by 1e6 times the slips of pairs (soft springs), and a slip is none beside
   // that. 1e-4 is well above the gaps that the tolerance leaves.
-  const double length = std::clamp(motion.size() > 0 ? motion.lpNorm<Eigen::Infinity>() : 0.0, 1e-4 * scales.length, scales.length);
+  const double length =
+      std::clamp(motion.size() > 0 ? motion.lpNorm<Eigen::Infinity>() : 0.0, 1e-4 * scales.length, scales.length);
   const Eigen::Index d = problem.dimension;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const double p_n = p[d * i], tension = problem.tension_of(i);
@@ -140,10 +141,9 @@ void mark_collapse(const Problem& problem, const SolverOptions& options, Solutio
   solution.reason = "no equilibrium was found, and the bodies begin to move when they are let go";
 }
 
-/// The stages in turn, until one finds a solution; why they did not. Of few bodies it costs next to nothing to ask first
-/// whether there is one, of many as much as a solve.
-std::string search_in_stages(Search& search, const Problem& problem, const SolverOptions& options,
-                             Solution& solution) {
+/// The stages in turn, until one finds a solution; why they did not. Of few bodies it costs next to nothing to ask
+/// first whether there is one, of many as much as a solve.
+std::string search_in_stages(Search& search, const Problem& problem, const SolverOptions& options, Solution& solution) {
   const bool asked_first = !has_many_motions(problem);
   if (asked_first && is_mechanism(problem, solution)) return {};
   std::string story;

@@ -63,11 +63,11 @@ struct CostConstants {
   double wall_seconds = 1e-6;               ///< for 2N k of many bodies and one iteration, k of an average body
   double wall_first_iterations = 8.0;       ///< of the first increment: 2 to 10
   double wall_iterations = 6.0;             ///< of each one after it: 4 under small loads, 10 near the collapse load
-  double wall_bytes = 300.0;          ///< for 2N k of many bodies: their saddle matrix and its factor
-  double joined_iterations = 15.0;    ///< of Newton, each with twice the time of a factorisation
-  double field_seconds = 1.8e-6;      ///< for n and one increment with fields
-  double fem_field_seconds = 8.5e-7;  ///< for n of finite elements
-  double own_field_seconds = 3.2e-6;  ///< for n of polygons and cells of a file besides
+  double wall_bytes = 300.0;                ///< for 2N k of many bodies: their saddle matrix and its factor
+  double joined_iterations = 15.0;          ///< of Newton, each with twice the time of a factorisation
+  double field_seconds = 1.8e-6;            ///< for n and one increment with fields
+  double fem_field_seconds = 8.5e-7;        ///< for n of finite elements
+  double own_field_seconds = 3.2e-6;        ///< for n of polygons and cells of a file besides
 };
 
 struct Plan {

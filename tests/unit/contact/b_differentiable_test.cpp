@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
+#include "scabo/contact/newton/newton.hpp"
 #include "unit/contact/problems.hpp"
 
 namespace scabo::contact {

@@ -193,7 +193,8 @@ TEST(CoarseStart, IterationsOnFewerPairsAreCountedApartAndStandInTheTrace) {
   std::vector<std::string> stages;
   for (const Iteration& at : solution.trace)
     if (stages.empty() || stages.back() != at.stage) stages.push_back(at.stage);
-  EXPECT_EQ(stages, (std::vector<std::string>{"newton, 25 pairs", "newton, 50 pairs", "newton, 100 pairs", "newton from fewer pairs"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"newton, 25 pairs", "newton, 50 pairs", "newton, 100 pairs",
+                                              "newton from fewer pairs"}));
   EXPECT_EQ(solution.trace.front().iteration, 0);
   EXPECT_EQ(solution.trace.back().iteration, solution.iterations + solution.coarse_iterations);
   const Solution again = solve(problem, {solution.p, {}});  // with history there are none

@@ -6,14 +6,14 @@
 
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/contact/files/text_problem.hpp"
-#include "scabo/contact/questions/infeasibility.hpp"
 #include "scabo/contact/laws/cohesive.hpp"
 #include "scabo/contact/laws/coulomb.hpp"
 #include "scabo/contact/laws/evolution.hpp"
+#include "scabo/contact/questions/infeasibility.hpp"
 #include "scabo/contact/questions/lemke.hpp"
-#include "scabo/contact/sweeps/pair_problem.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
 #include "scabo/contact/questions/uniqueness.hpp"
+#include "scabo/contact/sweeps/pair_problem.hpp"
 #include "unit/contact/problems.hpp"
 #include "unit/contact/saved_problems.hpp"
 

@@ -1,7 +1,5 @@
 // Interior points and long sweeps on towers of rigid blocks: W = H' M^-1 H has far fewer independent rows than pairs.
 // What they find is asked of the law itself, pair by pair.
-#include "scabo/contact/interior/interior_points.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,11 +11,12 @@
 #include <utility>
 
 #include "scabo/contact/interior/held_slips.hpp"
+#include "scabo/contact/interior/interior_points.hpp"
 #include "scabo/contact/judge.hpp"
-#include "scabo/contact/search.hpp"
-#include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
+#include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
+#include "scabo/contact/search.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "scabo/contact/sweeps/long_sweeps.hpp"

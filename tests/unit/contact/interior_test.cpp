@@ -7,12 +7,12 @@
 #include <random>
 #include <string>
 
-#include "scabo/contact/newton/b_differentiable.hpp"
 #include "scabo/contact/interior/held_slips.hpp"
 #include "scabo/contact/interior/interior_points.hpp"
-#include "scabo/contact/kkt/saddle_system.hpp"
 #include "scabo/contact/interior/tangential_cone.hpp"
 #include "scabo/contact/judge.hpp"
+#include "scabo/contact/kkt/saddle_system.hpp"
+#include "scabo/contact/newton/b_differentiable.hpp"
 #include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/solve.hpp"
 #include "support/decompositions.hpp"

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <random>
 
-#include "scabo/contact/kkt/joint_system.hpp"
 #include "scabo/contact/judge.hpp"
+#include "scabo/contact/kkt/joint_system.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "unit/contact/towers.hpp"

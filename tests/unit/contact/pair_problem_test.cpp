@@ -83,9 +83,9 @@ TEST(PairProblem, ObeysItWithCohesionAndTensileStrength) {
   for (int k = 0; k < 8000; ++k) {
     const int d = 2 + k % 2;
     const PairLaw law{k / 2 % 3 == 0 ? 0.0 : 0.4, strength(random),
-                  k / 6 % 3 == 0   ? 0.0
-                  : k / 6 % 3 == 1 ? strength(random)
-                                   : std::numeric_limits<double>::infinity()};
+                      k / 6 % 3 == 0   ? 0.0
+                      : k / 6 % 3 == 1 ? strength(random)
+                                       : std::numeric_limits<double>::infinity()};
     const Matrix W = random_block(random, d);
     const Vector free = random_vector(random, d), p = solved(W, free, law);
     EXPECT_LE(broken(W, free, law, p), 1e-12) << k << ": " << p.transpose();

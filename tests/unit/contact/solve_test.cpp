@@ -160,7 +160,8 @@ TEST(Solve, TheAnswerDoesNotDependOnR) {
       SolverOptions options;
       options.r_factor = factor;
       const Solution solution = solve(problem, {}, options);
-      EXPECT_EQ(solution.status, Status::solved) << "problem " << k << ", r times " << factor << ": " << solution.reason;
+      EXPECT_EQ(solution.status, Status::solved)
+          << "problem " << k << ", r times " << factor << ": " << solution.reason;
       EXPECT_LT((solution.p - reference.p).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + reference.p.cwiseAbs().maxCoeff()))
           << "problem " << k << ", r times " << factor;
     }

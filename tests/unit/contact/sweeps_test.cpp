@@ -1,11 +1,11 @@
-// Chains of bodies, and pairs that hardly move, by sweeps and by all stages. Sweeps of single pairs: pair_problem_test.cpp.
-#include "scabo/contact/sweeps/long_sweeps.hpp"
-
+// Chains of bodies, and pairs that hardly move, by sweeps and by all stages. Sweeps of single pairs:
+// pair_problem_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "scabo/contact/solve.hpp"
+#include "scabo/contact/sweeps/long_sweeps.hpp"
 #include "support/decompositions.hpp"
 
 namespace scabo::contact {

@@ -147,8 +147,8 @@ class FixedPoint {
   Measure measure_;
   InteriorSteps<d> steps_;
   double scale_, change_;
-  Vector held_;                       // lifts
-  std::vector<Passed> passed_;        // of this round and those before it, m falling from round to round
+  Vector held_;                 // lifts
+  std::vector<Passed> passed_;  // of this round and those before it, m falling from round to round
   Remembered remembered_;
   Way way_ = Way::plain;
   double fallen_ = HUGE_VAL, first_off_ = 0.0;

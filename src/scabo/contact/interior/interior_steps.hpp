@@ -34,8 +34,8 @@
 #include <utility>
 #include <vector>
 
-#include "scabo/contact/kkt/saddle_system.hpp"
 #include "scabo/contact/interior/tangential_cone.hpp"
+#include "scabo/contact/kkt/saddle_system.hpp"
 
 namespace scabo::contact {
 

@@ -68,8 +68,7 @@ NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
   // In large walls pairs are redundant, and a singular matrix costs three times the operations of a regular one.
   constexpr int many_motions = 60, many_pairs = 1000;
   const Problem& problem = equations.problem();
-  work_->redundant =
-      problem.G.cols() > many_motions && problem.pairs() > many_pairs;
+  work_->redundant = problem.G.cols() > many_motions && problem.pairs() > many_pairs;
 }
 NewtonDirection::~NewtonDirection() = default;
 

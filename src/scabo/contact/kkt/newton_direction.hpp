@@ -29,8 +29,8 @@
 #include <optional>
 #include <vector>
 
-#include "scabo/contact/newton/b_differentiable.hpp"
 #include "scabo/contact/kkt/gmres.hpp"
+#include "scabo/contact/newton/b_differentiable.hpp"
 
 namespace scabo::contact {
 
@@ -89,7 +89,7 @@ class NewtonDirection {
   Vector known_, moved_, right_, y_;
   struct Workspace;
   std::unique_ptr<Workspace> work_;
-  std::vector<bool> immovable_;           // dN, or empty
+  std::vector<bool> immovable_;  // dN, or empty
 };
 
 }  // namespace scabo::contact

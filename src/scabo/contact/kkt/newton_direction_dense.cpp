@@ -11,7 +11,7 @@ namespace {
 
 constexpr GmresOptions refining_gmres{1e-13, 40, 80};
 constexpr GmresOptions line_gmres{1e-12, 40, 40};
-constexpr double as_good_as_double = 1e-11;    // residual of a direction by GMRES
+constexpr double as_good_as_double = 1e-11;  // residual of a direction by GMRES
 // Beside soft springs a regular matrix has 1e-13 and less; refinement says whether its digits suffice.
 constexpr double least_condition = 1e-15;
 constexpr double rounding = 1e-15;
@@ -71,7 +71,8 @@ bool NewtonDirection::solve_dense(double regularisation) {
     residual.noalias() -= matrix * y;
     const double left = residual.lpNorm<Eigen::Infinity>();
     // Beside soft springs a small step may cause large motions, whose rounding is all that is left.
-    if (y.allFinite() && (left <= scale || left <= rounding * (matrix.cwiseAbs() * y.cwiseAbs()).maxCoeff())) return true;
+    if (y.allFinite() && (left <= scale || left <= rounding * (matrix.cwiseAbs() * y.cwiseAbs()).maxCoeff()))
+      return true;
   }
   if (n <= most_orthogonal) {  // the shortest solution, if there is one
     Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;

@@ -11,7 +11,7 @@ namespace scabo::contact {
 
 namespace {
 
-constexpr double softness = 1e-3;  // eps
+constexpr double softness = 1e-3;     // eps
 constexpr double free_motion = 1e-6;  // E where the bodies are not held without it
 constexpr double balance = 1e-4;      // of forces, relative to the largest
 

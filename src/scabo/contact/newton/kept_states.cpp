@@ -8,8 +8,8 @@ namespace scabo::contact {
 
 namespace {
 
-constexpr double no_force = 1e-13;      // of the largest: what rounding leaves
-constexpr double at_bound = 1e-10;      // of the bound of friction
+constexpr double no_force = 1e-13;          // of the largest: what rounding leaves
+constexpr double at_bound = 1e-10;          // of the bound of friction
 constexpr int one_of_so_many_changes = 10;  // Newton's method finds so few changes itself
 
 /// The state of pair `i` that its forces tell, and H on that branch in place of that on the branch of `at`. Whether

@@ -18,10 +18,10 @@ constexpr const NewtonConstants& constants = newton_constants;
 /// How far the iterations have come.
 struct Progress {
   std::array<double, constants.memory> merits;  // the last few
-  double best = HUGE_VAL;     // merit
-  double halved = HUGE_VAL;   // the best one when it was last halved,
-  int halved_at = 0;          // and the iteration
-  int unchecked = 0;          // whole steps that did not pass the search
+  double best = HUGE_VAL;                       // merit
+  double halved = HUGE_VAL;                     // the best one when it was last halved,
+  int halved_at = 0;                            // and the iteration
+  int unchecked = 0;                            // whole steps that did not pass the search
   bool regularised = false;
   double step = 0.0;  // the last one
 };
@@ -64,8 +64,8 @@ class Newton {
     }
   }
 
-  /// Where the iterations go around, and many pairs have forces and motions as small as |H|, as at crack tips: the step to
-  /// where these stick, without a search.
+  /// Where the iterations go around, and many pairs have forces and motions as small as |H|, as at crack tips: the step
+  /// to where these stick, without a search.
   bool settle() {
     if (end_.iterations - progress_.halved_at != constants.going_around) return false;
     trial_ = at_;
@@ -90,7 +90,8 @@ class Newton {
       trial_p_ = at_point_.p + step * d_.head(at_point_.p.size());
       trial_.motion = at_.motion + step * change_;
       equations_.evaluate_at_motion(trial_p_, trial_);
-      if (trial_.merit() <= largest - 2.0 * constants.sufficient * step * merit) return step;  // theta'(z; d) = -2 theta
+      if (trial_.merit() <= largest - 2.0 * constants.sufficient * step * merit)
+        return step;  // theta'(z; d) = -2 theta
     }
     return 0.0;
   }
@@ -105,7 +106,8 @@ class Newton {
 
   void keep_best() {
     const double merit = at_.merit();
-    const bool asked = options_.content && (!options_.ask_when_stuck || no_longer_falls(merit) || at_.largest() <= aim());
+    const bool asked =
+        options_.content && (!options_.ask_when_stuck || no_longer_falls(merit) || at_.largest() <= aim());
     const bool content = asked && options_.content(at_point_.p, at_point_.a, at_.motion);
     if (merit < progress_.best || content) {
       progress_.best = merit;
@@ -130,7 +132,8 @@ class Newton {
 
   /// |H| is near its aim and was not halved: what is left may be rounding.
   bool no_longer_falls(double merit) const {
-    return at_.largest() <= constants.near * std::max(aim(), options_.rounding) && merit > constants.halved * progress_.best;
+    return at_.largest() <= constants.near * std::max(aim(), options_.rounding) &&
+           merit > constants.halved * progress_.best;
   }
 
   double aim() const {

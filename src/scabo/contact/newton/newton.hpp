@@ -6,9 +6,9 @@
 // Numer. Anal. 23 (1986) 707): a step is taken where the merit falls below the largest of the last few.
 //
 // Where the matrix of a branch is singular, or no step along its direction passes the search, the system is regularised
-// from then on: alpha on its rows of motions, -alpha on its rows of balance, a tenth of |H| over the largest force. What
-// is not determined then moves little, and as alpha falls with |H| convergence stays fast (Yamashita and Fukushima,
-// Computing Suppl. 15 (2001) 239).
+// from then on: alpha on its rows of motions, -alpha on its rows of balance, a tenth of |H| over the largest force.
+// What is not determined then moves little, and as alpha falls with |H| convergence stays fast (Yamashita and
+// Fukushima, Computing Suppl. 15 (2001) 239).
 #pragma once
 
 #include <functional>

@@ -24,8 +24,8 @@ std::string why_of(const NewtonEnd& end, const Search& search) {
   return "Newton's method stalled after " + std::to_string(end.iterations) + " iterations";
 }
 
-/// Newton's method. At crack tips forces and gaps are as small as |H|: where the states of many pairs still change at its
-/// end, once more from where these stick.
+/// Newton's method. At crack tips forces and gaps are as small as |H|: where the states of many pairs still change at
+/// its end, once more from where these stick.
 NewtonEnd newton_until_settled(Search& search, Point from, const NewtonRun& run) {
   NewtonEnd end = search.newton_from(std::move(from), run);
   if (!end.converged || end.trace.back().states_changed == 0) return end;
@@ -62,7 +62,8 @@ bool from_history(Search& search, NewtonEnd& end) {
 /// Where nothing presses, no force is the solution.
 bool is_solved_at_rest(Search& search) {
   const Point& rest = search.start();
-  if (search.has_history() || !search.accepts(rest.p, rest.a, motion_of(search.problem(), rest.p, rest.a))) return false;
+  if (search.has_history() || !search.accepts(rest.p, rest.a, motion_of(search.problem(), rest.p, rest.a)))
+    return false;
   search.offer(rest.p, rest.a, search.residual_at(rest.p, rest.a), true);
   return true;
 }
@@ -81,7 +82,8 @@ StageEnd newton_stage(Search& search) {
   if (search.has_history() && from_history(search, end)) return {end.converged, why_of(end, search)};
   if (problem.G.cols() > 0)
     if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
-      if (done(counted(search, *std::move(bonded)), "newton from bonded pairs")) return {end.converged, why_of(end, search)};
+      if (done(counted(search, *std::move(bonded)), "newton from bonded pairs"))
+        return {end.converged, why_of(end, search)};
   if (std::optional<CoarseStart> coarse = coarse_start(problem, search.start().a)) {
     search.add_coarse(std::move(coarse->trace), coarse->iterations);
     if (done(std::move(coarse->point), "newton from fewer pairs")) return {end.converged, why_of(end, search)};

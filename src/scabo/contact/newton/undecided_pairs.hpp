@@ -14,8 +14,9 @@
 namespace scabo::contact {
 
 struct UndecidedPairs {
-  double below = 30.0;  ///< times |H|: forces and motions below it. At crack tips 10 and 100 do as well, with 1 there are none
-  int few = 10;         ///< of so many pairs not more than one is undecided: Newton's method finds its state itself
+  double below =
+      30.0;      ///< times |H|: forces and motions below it. At crack tips 10 and 100 do as well, with 1 there are none
+  int few = 10;  ///< of so many pairs not more than one is undecided: Newton's method finds its state itself
 };
 inline constexpr UndecidedPairs undecided_pairs;
 

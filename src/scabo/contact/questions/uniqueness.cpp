@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "scabo/contact/questions/lemke.hpp"
 #include "scabo/contact/newton/newton.hpp"
+#include "scabo/contact/questions/lemke.hpp"
 
 namespace scabo::contact {
 

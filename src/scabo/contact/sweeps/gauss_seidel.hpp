@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "scabo/contact/sweeps/pair_problem.hpp"
 #include "scabo/contact/problem.hpp"
 #include "scabo/contact/sweeps/joint_sweeps.hpp"
+#include "scabo/contact/sweeps/pair_problem.hpp"
 
 namespace scabo::contact {
 

@@ -16,8 +16,8 @@
 #pragma once
 
 #include "scabo/contact/deadline.hpp"
-#include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "scabo/contact/judge.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 
 namespace scabo::contact {
 
@@ -39,7 +39,7 @@ class LongSweeps {
   double natural_map() const { return least_; }  ///< the least one met after a round
   int sweeps() const { return sweeps_; }
   bool of_joints() const { return iteration_.of_joints(); }  ///< of rigid bodies: joints.hpp
-  int extrapolations() const { return extrapolations_; }  ///< that were kept
+  int extrapolations() const { return extrapolations_; }     ///< that were kept
 
  private:
   void remember(const Vector& before);
