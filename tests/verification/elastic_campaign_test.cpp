@@ -47,7 +47,7 @@ void follow(const Path& path, int number, Tally& tally) {
     ++tally.increments;
     tally.iterations += solution.iterations;
     tally.worst = std::max(tally.worst, solution.iterations);
-    tally.fallbacks += solution.trace.back().stage != "newton";
+    tally.fallbacks += !solution.trace.empty() && solution.trace.back().stage.rfind("newton", 0) != 0;
     if (solution.status != contact::Status::solved) {
       ++tally.reported;
       EXPECT_FALSE(solution.reason.empty());
