@@ -14,7 +14,7 @@ namespace {
 
 /// Iterations without halving |H| after which Newton's method creeps from kink to kink, and another start or stage is
 /// better, if there is one.
-constexpr int patience = 8;
+constexpr int patience = 16;
 
 int patience_of(const Problem& problem) { return may_take_interior_points(problem) ? patience : 0; }
 
