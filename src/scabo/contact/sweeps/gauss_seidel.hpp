@@ -1,6 +1,6 @@
 // Nonsmooth Gauss-Seidel: pair by pair, the exact solution of the problem of one pair (Jourdan, Alart, Jean, Comput.
-// Methods Appl. Mech. Engrg. 155 (1998) 31). Convergence is at best linear. The method provides starts for Newton, a
-// third stage, and the iteration that long_sweeps.hpp accelerates.
+// Methods Appl. Mech. Engrg. 155 (1998) 31). Convergence is at best linear. It is the iteration
+// that long_sweeps.hpp accelerates.
 #pragma once
 
 #include <variant>

@@ -78,16 +78,6 @@ bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadli
   return false;
 }
 
-void LongSweeps::restart(const Vector& p) {
-  if (p.size() != p_.size()) return;
-  const double map = measure_.natural_map(problem_, p, motion_of(problem_, p, Vector()));
-  if (!(map < least_)) return;
-  p_ = best_ = p;
-  least_ = map;
-  extrapolated_ = false;
-  forget();
-}
-
 void LongSweeps::remember(const Vector& before) {
   Vector f = p_ - before;
   if (has_last_) {

@@ -32,9 +32,6 @@ class LongSweeps {
   /// least natural map.
   bool run(int most, const IsSolution& content, const Deadline& deadline = {});
 
-  /// Goes on from `p` if its natural map is smaller than the least one so far.
-  void restart(const Vector& p);
-
   const Vector& p() const { return best_; }      ///< accepted, or of the least natural map
   double natural_map() const { return least_; }  ///< the least one met after a round
   int sweeps() const { return sweeps_; }
