@@ -91,7 +91,7 @@ struct NewOptions {
 
 /// `cluster`: the other processes, or null.
 ExitStatus run(const RunOptions& options, Cluster* cluster);
-/// Continues a run from its checkpoint (analysis/checkpoint.hpp).
+/// Continues a run from its checkpoint (analysis/state/checkpoint.hpp).
 ExitStatus resume(const ResumeOptions& options, Cluster* cluster);
 /// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scabo/analysis/mechanism.hpp"
+#include "scabo/analysis/diagnostics/mechanism.hpp"
 #include "scabo/result/summary.hpp"
 #include "scabo/result/version.hpp"
 #include "scabo/run/failures.hpp"

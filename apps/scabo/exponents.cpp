@@ -1,5 +1,5 @@
 // `scabo exponents`: the exponents of every super-element, u ~ xi^lambda.
-#include "scabo/analysis/exponents.hpp"
+#include "scabo/element/exponents.hpp"
 
 #include <fmt/format.h>
 
@@ -17,18 +17,18 @@ namespace scabo::app {
 
 namespace {
 
-std::string text_of(const std::string& body, const analysis::BodyExponents& found) {
+std::string text_of(const std::string& body, const element::BodyExponents& found) {
   std::vector<std::vector<std::string>> rows = {{"real", "imaginary", "multiplicity", "meaning"}};
-  for (const analysis::Exponent& exponent : found.exponents)
+  for (const element::Exponent& exponent : found.exponents)
     rows.push_back({fmt::format("{:.12g}", exponent.value.real()),
                     exponent.value.imag() == 0.0 ? "0" : fmt::format("+-{:.12g}", exponent.value.imag()),
                     fmt::format("{}", exponent.multiplicity), exponent.meaning});
   return fmt::format("{}: {}, {} degrees of freedom\n", body, found.kind, found.dofs) + result::table(rows);
 }
 
-nlohmann::ordered_json json_of(const analysis::BodyExponents& found) {
+nlohmann::ordered_json json_of(const element::BodyExponents& found) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const analysis::Exponent& exponent : found.exponents)
+  for (const element::Exponent& exponent : found.exponents)
     list.push_back({{"real", exponent.value.real()},
                     {"imaginary", exponent.value.imag()},
                     {"multiplicity", exponent.multiplicity},
@@ -42,10 +42,10 @@ nlohmann::ordered_json json_of(const analysis::BodyExponents& found) {
 
 ExitStatus print_exponents(const ExponentsOptions& options) {
   const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
-  const std::vector<analysis::BodyExponents> all = analysis::exponents_of(model);
+  const std::vector<element::BodyExponents> all = element::exponents_of(model);
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   std::string text;
-  for (const analysis::BodyExponents& found : all) {
+  for (const element::BodyExponents& found : all) {
     const std::string& name = model.bodies[static_cast<std::size_t>(found.body)].name;
     json[name] = json_of(found);
     text += (text.empty() ? "" : "\n") + text_of(name, found);

@@ -16,7 +16,7 @@
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
-#include "scabo/analysis/checkpoint.hpp"
+#include "scabo/analysis/state/checkpoint.hpp"
 #include "scabo/input/settings.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/files.hpp"

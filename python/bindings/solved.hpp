@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 
 namespace scabo::python {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "arrays.hpp"
-#include "scabo/analysis/mechanism.hpp"
+#include "scabo/analysis/diagnostics/mechanism.hpp"
 #include "scabo/mesh/output_points.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/stress.hpp"

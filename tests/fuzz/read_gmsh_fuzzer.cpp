@@ -2,7 +2,8 @@
 #include "scabo/files/gmsh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  check_mesh_reader(
-      data, size, [](std::string_view bytes, const std::string& file) { return scabo::files::parse_gmsh(bytes, file); });
+  check_mesh_reader(data, size, [](std::string_view bytes, const std::string& file) {
+    return scabo::files::parse_gmsh(bytes, file);
+  });
   return 0;
 }

@@ -23,7 +23,8 @@ std::string MeshText::vtu() const {
     regions += fmt::format("{}\n", cell.region);
   }
   const auto array = [](const char* type, const char* name, const std::string& values, const char* more = "") {
-    return fmt::format("<DataArray type=\"{}\" Name=\"{}\"{} format=\"ascii\">\n{}</DataArray>\n", type, name, more, values);
+    return fmt::format("<DataArray type=\"{}\" Name=\"{}\"{} format=\"ascii\">\n{}</DataArray>\n", type, name, more,
+                       values);
   };
   return fmt::format(
       "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
@@ -88,7 +89,8 @@ MeshText mesh_of_rectangle(int type, double width, double height, int nx, int ny
       Vec2 x(i * step.x(), j * step.y());
       const bool border = region && i > 0 && i < nx && j > 0 && j < ny &&
                           (region(i - 1, j - 1) != region(i, j) || region(i, j - 1) != region(i - 1, j));
-      if (inside(i, j) && !border) x += 0.2 * Vec2(step.x() * std::sin(5.0 * i + j), step.y() * std::cos(3.0 * j + 2.0 * i));
+      if (inside(i, j) && !border)
+        x += 0.2 * Vec2(step.x() * std::sin(5.0 * i + j), step.y() * std::cos(3.0 * j + 2.0 * i));
       mesh.nodes.push_back(x);
     }
   const auto node = [&](int i, int j) { return j * (nx + 1) + i; };

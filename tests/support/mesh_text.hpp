@@ -10,8 +10,8 @@
 
 namespace scabo::test {
 
-/// Cells by the types of VTK: 5 triangle, 9 quadrilateral, 22 and 23 the same with middle nodes, 7 polygon, 36 quadratic
-/// polygon; 3 a line, which names sides `boundary_N` by the value of `region`, and 1 a point.
+/// Cells by the types of VTK: 5 triangle, 9 quadrilateral, 22 and 23 the same with middle nodes, 7 polygon, 36
+/// quadratic polygon; 3 a line, which names sides `boundary_N` by the value of `region`, and 1 a point.
 struct MeshText {
   struct Cell {
     int type = 9;
@@ -28,13 +28,13 @@ struct MeshText {
 };
 
 /// Divides `width` x `height` into nx x ny quadrilaterals (types 9 and 23), pairs of triangles (5 and 22) or hexagons
-/// (7 and 36: two quadrilaterals beside each other; nx even). Nodes inside are moved by up to a fifth of a cell, sides inside are
-/// curved if they have middle nodes. `region`: of a cell by its column and row.
+/// (7 and 36: two quadrilaterals beside each other; nx even). Nodes inside are moved by up to a fifth of a cell, sides
+/// inside are curved if they have middle nodes. `region`: of a cell by its column and row.
 MeshText mesh_of_rectangle(int type, double width, double height, int nx, int ny,
                            const std::function<int(int, int)>& region = {});
 
-/// A disc of radius 1 (region 1) in a ring up to radius 2 (region 2): a polygon of `sides` sides in the middle, then quadrilaterals;
-/// with middle nodes on circles if `quadratic`.
+/// A disc of radius 1 (region 1) in a ring up to radius 2 (region 2): a polygon of `sides` sides in the middle, then
+/// quadrilaterals; with middle nodes on circles if `quadratic`.
 MeshText mesh_of_disc_in_ring(int sides, bool quadratic);
 
 }  // namespace scabo::test

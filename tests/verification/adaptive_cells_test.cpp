@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scabo/analysis/adaptive.hpp"
+#include "scabo/analysis/adaptive/adaptive.hpp"
 #include "scabo/mesh/division.hpp"
 #include "verification/models.hpp"
 #include "verification/run.hpp"

@@ -4,10 +4,10 @@
 
 #include <random>
 
-#include "scabo/element/cell_library.hpp"
 #include "scabo/contact/solve.hpp"
-#include "scabo/mesh/mesh.hpp"
+#include "scabo/element/cell_library.hpp"
 #include "scabo/input/read_model.hpp"
+#include "scabo/mesh/mesh.hpp"
 #include "scabo/system/contact_system.hpp"
 
 namespace scabo::verification {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "cook.hpp"
-#include "scabo/analysis/adaptive.hpp"
+#include "scabo/analysis/adaptive/adaptive.hpp"
 #include "verification/models.hpp"
 #include "verification/run.hpp"
 

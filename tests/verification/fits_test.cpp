@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "run.hpp"
-#include "scabo/analysis/restart.hpp"
+#include "scabo/analysis/state/restart.hpp"
 
 namespace scabo::verification {
 namespace {

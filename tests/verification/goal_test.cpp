@@ -1,6 +1,6 @@
-// Error bars of single numbers (analysis/goal.hpp): the exact number lies inside the bar, and the bar is at most five
-// times the error. Truths are closed forms, published numbers, or numbers of other methods; each says which.
-#include "scabo/analysis/goal.hpp"
+// Error bars of single numbers (analysis/adaptive/goal.hpp): the exact number lies inside the bar, and the bar is at
+// most five times the error. Truths are closed forms, published numbers, or numbers of other methods; each says which.
+#include "scabo/analysis/adaptive/goal.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "scabo/analysis/quantities.hpp"
+#include "scabo/analysis/state/quantities.hpp"
 #include "support/mesh_text.hpp"
 #include "verification/models.hpp"
 #include "verification/run.hpp"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 #include "scabo/input/read_model.hpp"
 
 namespace scabo::verification {

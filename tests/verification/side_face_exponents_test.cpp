@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "run.hpp"
-#include "scabo/analysis/exponents.hpp"
+#include "scabo/element/exponents.hpp"
 
 namespace scabo::verification {
 namespace {
@@ -32,8 +32,8 @@ loads: {{pull: {{on: wedge.edge_2, traction: [1, 0]}}}}
 
 std::vector<std::complex<double>> exponents_below(const std::string& text, double most) {
   std::vector<std::complex<double>> below;
-  for (const auto& body : analysis::exponents_of(input::parse_model(text, "test.yaml")))
-    for (const analysis::Exponent& exponent : body.exponents)
+  for (const auto& body : element::exponents_of(input::parse_model(text, "test.yaml")))
+    for (const element::Exponent& exponent : body.exponents)
       if (exponent.value.real() < most) below.push_back(exponent.value);
   return below;
 }

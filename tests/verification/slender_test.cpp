@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "run.hpp"
-#include "scabo/analysis/warnings.hpp"
+#include "scabo/analysis/diagnostics/warnings.hpp"
 #include "scabo/result/probe.hpp"
 
 namespace scabo::verification {

@@ -53,8 +53,7 @@ TEST(SoftParts, ThatAreTooSoftAreNamed) {
   for (const char* kind : {"superelement", "fem"}) {
     const analysis::StaticSolution solution = with_strip(kind, 1.0);
     EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged) << kind;
-    EXPECT_NE(solution.reason.find("body 'block' gives way "), std::string::npos)
-        << solution.reason;
+    EXPECT_NE(solution.reason.find("body 'block' gives way "), std::string::npos) << solution.reason;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "run.hpp"
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 
 namespace scabo::verification {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "run.hpp"
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 #include "scabo/result/probe.hpp"
 #include "scabo/system/dofs.hpp"
 

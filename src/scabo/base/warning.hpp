@@ -22,8 +22,8 @@ enum class WarningKind {
   slender,   ///< a slender super-element whose sides are too long for its order to bend
   large_displacement,
   near_collapse,  ///< friction dissipates more than bodies store that only contact holds
-  no_reference,  ///< an unbounded body under a resultant, without a reference point
-  crack,         ///< stress intensity factors that are undefined or not resolved; overlapping faces
+  no_reference,   ///< an unbounded body under a resultant, without a reference point
+  crack,          ///< stress intensity factors that are undefined or not resolved; overlapping faces
   infinite_stress,
   no_estimate,  ///< of the error
   few_modes

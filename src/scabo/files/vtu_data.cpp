@@ -50,8 +50,7 @@ class VtuDecoder {
   }
 
  private:
-  static constexpr const char* truncated =
-      "ends before the size that it announces; write it again";
+  static constexpr const char* truncated = "ends before the size that it announces; write it again";
   static constexpr const char* too_many =
       "has more values than NumberOfPoints and NumberOfCells allow; write the file again";
 

@@ -1,4 +1,5 @@
-// Closed boundaries of straight lines, chains of straight lines and circular arcs, with the names that a model file gives them.
+// Closed boundaries of straight lines, chains of straight lines and circular arcs, with the names that a model file
+// gives them.
 #pragma once
 
 #include <optional>
@@ -19,8 +20,8 @@ struct Arc {
 };
 
 /// One edge of the boundary of a body, a straight line, a chain of straight lines or an arc, directed counter-clockwise
-/// around the body (material on the left). A chain comes from a mesh file, and only one, or a full circle, ends where it
-/// starts.
+/// around the body (material on the left). A chain comes from a mesh file, and only one, or a full circle, ends where
+/// it starts.
 struct Edge {
   std::vector<std::string> names;  ///< its own name first (`edge_3`), then those given by the user
   Vec2 start = Vec2::Zero();

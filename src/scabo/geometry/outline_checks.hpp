@@ -21,12 +21,12 @@ struct Crossing {
   Vec2 point = Vec2::Zero();
 };
 
-/// The first crossing of the closed outline with itself, if there is one; chains, which come from meshes, are passed over. A sweep along x or y compares the bounding
-/// box of an edge only with those that it overlaps in that direction.
+/// The first crossing of the closed outline with itself, if there is one; chains, which come from meshes, are passed
+/// over. A sweep along x or y compares the bounding box of an edge only with those that it overlaps in that direction.
 std::optional<Crossing> find_crossing(const Outline& outline);
 
-/// The points that two edges share, up to `tolerance` apart from either, each once. Of edges that lie on each other: the
-/// ends of what they share.
+/// The points that two edges share, up to `tolerance` apart from either, each once. Of edges that lie on each other:
+/// the ends of what they share.
 std::vector<Vec2> shared_points(const Edge& a, const Edge& b, double tolerance);
 
 /// Edges, none of them a chain, that are not entirely visible from `centre`. An edge is visible when the tangent at

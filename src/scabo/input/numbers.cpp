@@ -102,8 +102,7 @@ std::variant<double, std::string> parse_number(std::string_view text) {
   if (code != std::errc() || end != digits.data() + digits.size()) {
     return fmt::format("must be a number, not '{}'", shown);
   }
-  if (std::abs(value) > 1e100)
-    return fmt::format("'{}' is larger in size than 1e100: write a smaller number", shown);
+  if (std::abs(value) > 1e100) return fmt::format("'{}' is larger in size than 1e100: write a smaller number", shown);
   if (value != 0.0 && std::abs(value) < 1e-100)
     return fmt::format("'{}' is smaller in size than 1e-100: write 0 or a larger number", shown);
   return value == 0.0 ? 0.0 : value;  // no -0

@@ -155,9 +155,10 @@ std::optional<int> read_body_of(Reading& reading, const MapReader& map) {
 }
 
 void read_output(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value,
-                      {"points", "lines", "grid", "history", "fields", "every", "error", "error_of", "discrete_problems"},
-                      output_example);
+  const MapReader map(
+      reading.report, value,
+      {"points", "lines", "grid", "history", "fields", "every", "error", "error_of", "discrete_problems"},
+      output_example);
   if (const auto points = map.get("points")) read_points(reading, *points);
   if (const auto lines = map.get("lines")) read_lines(reading, *lines);
   if (const auto grid = map.get("grid")) read_grid(reading, *grid);

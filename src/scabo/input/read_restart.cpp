@@ -1,5 +1,5 @@
 // `restart`: a directory with the results of another run. Its file of factors tells where the loads of the first step
-// start; its state is read by the analysis (analysis/restart.hpp).
+// start; its state is read by the analysis (analysis/state/restart.hpp).
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -50,9 +50,10 @@ void read_restart(Reading& reading, const Value& value) {
   const NodePtr root =
       stream.is_open() && fs::exists(directory / state_at_end_file, error) ? parse_yaml(text, mistakes) : NodePtr();
   if (!root || root->kind != Node::Kind::map || !mistakes.empty()) {
-    reading.report.error(value, fmt::format("{} has no state at its end to start from: only a static run that was "
-                                            "solved, without error bars, tolerances and large slip, leaves one; run it again",
-                                            quoted_name(*name)));
+    reading.report.error(value,
+                         fmt::format("{} has no state at its end to start from: only a static run that was "
+                                     "solved, without error bars, tolerances and large slip, leaves one; run it again",
+                                     quoted_name(*name)));
     return;
   }
   Restart restart;

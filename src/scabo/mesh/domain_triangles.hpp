@@ -13,8 +13,8 @@ namespace scabo::mesh {
 struct LinePoints {
   std::vector<Vec2> points;
   std::vector<std::vector<int>> lines;  ///< for each line of the domain, the indices of its points
-  /// For each segment (its smaller index first) the line and the position along it of its first point in the direction of
-  /// the line.
+  /// For each segment (its smaller index first) the line and the position along it of its first point in the direction
+  /// of the line.
   struct Segment {
     int from = -1, to = -1;  ///< in the direction of the line
     int line = -1;
@@ -27,8 +27,8 @@ struct LinePoints {
 LinePoints points_of_lines(const Domain& domain);
 LinePoints coarse_points_of_lines(const Domain& domain, double turn);
 
-/// Triangles of the domain and their regions; those outside are left out, and neighbours in another region or outside are
-/// -1 or constrained.
+/// Triangles of the domain and their regions; those outside are left out, and neighbours in another region or outside
+/// are -1 or constrained.
 struct RegionTriangles {
   std::vector<Triangle> triangles;
   std::vector<int> regions;

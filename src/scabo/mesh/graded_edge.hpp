@@ -21,9 +21,9 @@ struct EdgePart {
 /// How finely a part of an edge is divided at least.
 struct LeastDivision {
   double elements = 1.0;
-  double turn = 0.0;      ///< radian; an element of an arc turns by at most this; 0: by any angle
-  double rounding = 1e-6; ///< part of an element by which their number may be rounded down
-  double most = 1e7;      ///< elements; with more there is no division
+  double turn = 0.0;       ///< radian; an element of an arc turns by at most this; 0: by any angle
+  double rounding = 1e-6;  ///< part of an element by which their number may be rounded down
+  double most = 1e7;       ///< elements; with more there is no division
 };
 
 /// Fractions of the length of the edge at which the part is divided, both its ends included: as many elements as the

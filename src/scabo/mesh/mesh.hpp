@@ -37,9 +37,9 @@ struct HeldFaces {
 /// crack the two nodes have the same position.
 struct Cell {
   CellKind kind = CellKind::superelement;
-  Vec2 centre = Vec2::Zero();         ///< scaling centre, from which the whole boundary is visible
-  std::vector<LineElement> boundary;  ///< counter-clockwise; each begins where the one before ends
-  std::vector<int> materials;         ///< indices into Model::materials: one, or one for each boundary element
+  Vec2 centre = Vec2::Zero();                  ///< scaling centre, from which the whole boundary is visible
+  std::vector<LineElement> boundary;           ///< counter-clockwise; each begins where the one before ends
+  std::vector<int> materials;                  ///< indices into Model::materials: one, or one for each boundary element
   std::shared_ptr<const HeldFaces> held = {};  ///< open super-element: null if no support holds its side faces
   /// Size relative to the body, where the cell is what rings have left of a body that was one super-element
   /// (tip_rings.hpp).
@@ -102,7 +102,7 @@ struct Mesh {
   std::vector<Interface> interfaces;  ///< one for each contact of the model
   std::vector<Interface> ties;        ///< one for each tie: nodes that are one; gaps are rounding, `contact` is -1
   Placement placement;
-  int nodes() const;                  ///< number of nodes of all bodies
+  int nodes() const;  ///< number of nodes of all bodies
   /// Where the point of a pair on side 0 (A) or 1 (B) is in its body at the start.
   Vec2 point_of(int contact, const ContactPair& pair, int side) const;
 };

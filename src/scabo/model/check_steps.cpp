@@ -150,6 +150,10 @@ void check_ends(Checking& checking, const std::string& path, const Step& step) {
 
 }  // namespace
 
+bool has_large_slip(const std::vector<Contact>& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [](const Contact& contact) { return contact.large_slip; });
+}
+
 bool has_one_coefficient(const Contact& contact) {
   return !contact.bond && !contact.shear_strength && !contact.dynamic_friction && contact.friction_along.empty();
 }

@@ -49,5 +49,7 @@ struct Tie {
 
 /// Whether the contact has one coefficient of friction, or one for each direction of slip, which a step may change.
 bool has_one_coefficient(const Contact& contact);
+/// Whether pairs of any of them are found anew.
+bool has_large_slip(const std::vector<Contact>& contacts);
 
 }  // namespace scabo::model

@@ -45,7 +45,7 @@ struct SolverOptions {
   Factorisation factorisation = Factorisation::cholmod;
 };
 
-/// Results of another run, whose end is the start of this one (analysis/restart.hpp).
+/// Results of another run, whose end is the start of this one (analysis/state/restart.hpp).
 struct Restart {
   std::string directory;
   /// At its end, for the loads and supports of this model; 0 for one that it does not have. The first step starts from

@@ -61,7 +61,8 @@ struct ResultAxes {
   Vec2 second() const { return {-first.y(), first.x()}; }
 };
 
-/// Resultant of all that acts on an elastic body through one of its edges, and its moment (analysis/edge_forces.hpp).
+/// Resultant of all that acts on an elastic body through one of its edges, and its moment
+/// (analysis/state/edge_forces.hpp).
 struct EdgeResultant {
   Place on;                   ///< an edge, or a face on which supports, springs or a contact act
   Vec2 about = Vec2::Zero();  ///< point of the moment

@@ -1,4 +1,4 @@
-// Files of a results directory that another run may start from (analysis/restart.hpp writes and reads them).
+// Files of a results directory that another run may start from (analysis/state/restart.hpp writes and reads them).
 #pragma once
 
 namespace scabo::model {

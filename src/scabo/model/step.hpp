@@ -11,8 +11,8 @@
 
 namespace scabo::model {
 
-/// Limits of increments whose size follows from what changes (analysis/increment_size.hpp). All are parts of the step,
-/// 0 < smallest <= first <= largest <= 1. The last increment of a step may be smaller than `smallest`.
+/// Limits of increments whose size follows from what changes (analysis/march/increment_size.hpp). All are parts of the
+/// step, 0 < smallest <= first <= largest <= 1. The last increment of a step may be smaller than `smallest`.
 struct AutomaticIncrements {
   double first = 0.1;
   double largest = 0.25;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 
 namespace scabo::result {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/contact/solution.hpp"
 
 namespace scabo::result {

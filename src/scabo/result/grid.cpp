@@ -82,9 +82,9 @@ GridFields without_bodies(const Grid& grid, const Fields& fields, const std::vec
   }
   rest.fields.displacement = kept(fields.displacement, 3, points);
   rest.fields.stress = kept(fields.stress, 6, points);
-  for (const auto member : {&Fields::stress_xx, &Fields::stress_yy, &Fields::stress_xy, &Fields::stress_zz,
-                            &Fields::principal_1, &Fields::principal_2, &Fields::principal_3, &Fields::principal_angle,
-                            &Fields::von_mises})
+  for (const auto member :
+       {&Fields::stress_xx, &Fields::stress_yy, &Fields::stress_xy, &Fields::stress_zz, &Fields::principal_1,
+        &Fields::principal_2, &Fields::principal_3, &Fields::principal_angle, &Fields::von_mises})
     rest.fields.*member = kept(fields.*member, 1, points);
   return rest;
 }

@@ -9,7 +9,13 @@
 namespace scabo::result {
 
 /// Numbers of VTK cell types.
-enum class CellType : std::uint8_t { triangle = 5, polygon = 7, quad = 9, quadratic_triangle = 22, quadratic_quad = 23 };
+enum class CellType : std::uint8_t {
+  triangle = 5,
+  polygon = 7,
+  quad = 9,
+  quadratic_triangle = 22,
+  quadratic_quad = 23
+};
 
 /// Points and cells at which fields are given, the same for every increment. The points of a body are consecutive, and
 /// so are its cells; the first points of an elastic body are its nodes, in their order.

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "scabo/analysis/quantities.hpp"
+#include "scabo/analysis/state/quantities.hpp"
 
 namespace scabo::result {
 

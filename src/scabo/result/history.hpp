@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/section.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 
 namespace scabo::result {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 
 namespace scabo::result {
 

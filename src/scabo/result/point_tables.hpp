@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/element/interior_field.hpp"
 #include "scabo/mesh/output_points.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/element/cell_locator.hpp"
 #include "scabo/element/finite_element.hpp"
 #include "scabo/element/interior_field.hpp"

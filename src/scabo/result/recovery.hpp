@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/result/body_grid.hpp"
 
 namespace scabo::result {

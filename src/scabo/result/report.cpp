@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "scabo/analysis/mechanism.hpp"
+#include "scabo/analysis/diagnostics/mechanism.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/result/summary.hpp"
 #include "scabo/result/version.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 
 namespace scabo::result {
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "scabo/analysis/static_analysis.hpp"
-#include "scabo/analysis/written_results.hpp"
+#include "scabo/analysis/state/solution.hpp"
+#include "scabo/analysis/state/written_results.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/history.hpp"
 #include "scabo/result/old_results.hpp"

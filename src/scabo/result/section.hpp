@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/mesh/output_points.hpp"
 
 namespace scabo::result {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scabo/analysis/mechanism.hpp"
+#include "scabo/analysis/diagnostics/mechanism.hpp"
 #include "scabo/result/model_content.hpp"
 #include "scabo/result/version.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/result/history.hpp"
 
 namespace scabo::result {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 
 namespace scabo::run {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scabo/analysis/restart.hpp"
+#include "scabo/analysis/state/restart.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/model/wording.hpp"

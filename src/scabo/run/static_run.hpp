@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scabo/analysis/checkpoint.hpp"
+#include "scabo/analysis/state/checkpoint.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/result/results_directory.hpp"
 #include "scabo/run/failures.hpp"

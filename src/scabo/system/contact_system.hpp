@@ -28,8 +28,8 @@ struct ContactSystem {
   contact::JointLaws laws;                               // law of every pair
   contact::Delassus W;  // 2N x 2N, a sum over parts: sparse if there are many, by products beyond 6,000 pairs; those
                         // and large dense ones have a holder (joined_bodies.hpp), and need the structure
-  contact::RigidMap G;                                   // 2N x m
-  std::vector<int> first_rigid;                          // per part: its first column in G; an absent one has none
+  contact::RigidMap G;  // 2N x m
+  std::vector<int> first_rigid;  // per part: its first column in G; an absent one has none
 
   int rigid_motions() const { return static_cast<int>(G.cols()); }
 };
@@ -37,9 +37,9 @@ struct ContactSystem {
 /// The parts on up to `threads` threads.
 ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads = 1);
 
-/// What is left of a system where some parts are absent: the pairs between parts that are there, in their order and with
-/// their numbers, and the rigid motions of these parts; `absent`: one for each part. W is a sum over parts, and a part
-/// contributes only to its own pairs, so that a block of W is exact.
+/// What is left of a system where some parts are absent: the pairs between parts that are there, in their order and
+/// with their numbers, and the rigid motions of these parts; `absent`: one for each part. W is a sum over parts, and a
+/// part contributes only to its own pairs, so that a block of W is exact.
 ContactSystem without_parts(const ContactSystem& whole, const Structure& structure, const model::Model& model,
                             const std::vector<char>& absent);
 

@@ -1,5 +1,5 @@
 // Normals of contacts with large slip do not turn with the bodies.
-#include "scabo/analysis/large_rotations.hpp"
+#include "scabo/analysis/diagnostics/large_rotations.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "scabo/analysis/reach.hpp"
+#include "scabo/analysis/march/reach.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

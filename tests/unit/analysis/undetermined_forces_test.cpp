@@ -1,6 +1,6 @@
 // Forces of pairs that are not unique although displacements are: bodies that meet in a point, and rigid bodies with
 // more pairs than equations of equilibrium. How many pairs, and which totals, follows by hand.
-#include "scabo/analysis/undetermined_forces.hpp"
+#include "scabo/analysis/diagnostics/undetermined_forces.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string>
 
-#include "scabo/analysis/increment.hpp"
+#include "scabo/analysis/quasistatic/attempt.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/read_model.hpp"
 

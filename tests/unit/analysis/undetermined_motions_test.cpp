@@ -1,5 +1,5 @@
 // Which motion of a loose body is given: the smallest one, in any unit.
-#include "scabo/analysis/undetermined_motions.hpp"
+#include "scabo/analysis/diagnostics/undetermined_motions.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

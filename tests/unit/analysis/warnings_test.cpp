@@ -95,9 +95,10 @@ TEST(Warnings, OfPressureThatTheTheoryDoesNotCover) {
 
 TEST(Warnings, OfAContactThatNeverCloses) {
   const StaticSolution solution = solve(stack(-1e-3));
-  EXPECT_THAT(texts_of(solution.warnings),
-              ElementsAre("contact 'joint' never closes: the smallest gap is 0.001; as drawn it is 0.001: the loads hardly "
-                          "change it"));
+  EXPECT_THAT(
+      texts_of(solution.warnings),
+      ElementsAre("contact 'joint' never closes: the smallest gap is 0.001; as drawn it is 0.001: the loads hardly "
+                  "change it"));
   EXPECT_THAT(texts_of(solve(stack(-1e-3, "steps: [{loads: {roller: -2e4}}]\n")).warnings),
               ElementsAre(AllOf(HasSubstr("contact 'joint' never closes: the smallest gap is "),
                                 HasSubstr("; as drawn it is 0.001: the loads take the sides farther apart"))));
@@ -113,8 +114,9 @@ TEST(Warnings, OfAContactThatTheLoadOpens) {
       "supports: [{on: floor, fix: [x, y]}, {on: block.top, displacement: [0, 1e-3], name: lift}]\n"
       "contacts: {joint: {between: [floor.top, block.bottom], friction: 0.3}}\n"
       "steps: [{increments: 2}]\n");
-  EXPECT_THAT(texts_of(solution.warnings), ElementsAre("the loads open contact 'joint' in the first increment, and no pair "
-                                                       "closes again: the smallest gap is 0.0005"));
+  EXPECT_THAT(texts_of(solution.warnings),
+              ElementsAre("the loads open contact 'joint' in the first increment, and no pair "
+                          "closes again: the smallest gap is 0.0005"));
 }
 
 // A crack may well stay open.

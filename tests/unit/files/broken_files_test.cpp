@@ -72,7 +72,8 @@ std::vector<Broken> gmsh_files() {
       {"a.msh", replaced(a, "3 2 0 0", "2 2 0 0"), "a.msh:8:1: node 2 is defined twice (first in line 7)"},
       {"a.msh", replaced(a, "3 2 0 0", "-3 2 0 0"), "node -3 has a negative number"},
       {"a.msh", replaced(a, "10 3 2 1 1 1 2 5 4", "10 3 2 1 1 1 5 2 4"),
-       "a.msh:18:1: cell 10 (quadrilateral with 4 nodes, nodes 1 5 2 4) is folded: its Jacobian is not positive at node 5; put "
+       "a.msh:18:1: cell 10 (quadrilateral with 4 nodes, nodes 1 5 2 4) is folded: its Jacobian is not positive at "
+       "node 5; put "
        "its nodes in order around it, or mesh again"},
       {"a.msh", replaced(a, "10 3 2 1 1 1 2 5 4", "10 4 2 1 1 1 2 5 4"),
        "cell 10 has Gmsh's type 4, a three-dimensional cell"},
@@ -86,12 +87,14 @@ std::vector<Broken> gmsh_files() {
       {"a.msh", replaced(a, "11 2 2 2 2 2 3 6", "11 2 2 2 2 2 3 5"),
        "a.msh:20:1: cell 12 and cell 11 share the side from node"},
       {"a.msh", replaced(replaced(a, "5 1 1 0", "5 1 0 0"), "4 0 1 0", "4 0 0 0"),
-       "a.msh:18:1: cell 10 (quadrilateral with 4 nodes, nodes 1 2 5 4) has two nodes in one place, 1 and 4 at (0, 0); move "
+       "a.msh:18:1: cell 10 (quadrilateral with 4 nodes, nodes 1 2 5 4) has two nodes in one place, 1 and 4 at (0, 0); "
+       "move "
        "one of them, or give the cell as many nodes as it has corners"},
       {"a.msh", replaced(replaced(a, "5 1 1 0", "5 1.5 0 0"), "4 0 1 0", "4 0.5 0 0"),
        "nodes 1 2 5 4) has no area, because its corners lie on one line; move one of them, or remove the cell"},
       {"a.msh", replaced(a, "5 1 1 0", "5 0.4 0.4 0"),
-       "nodes 1 2 5 4) is folded: its Jacobian is not positive at node 5; its angle there is 180 degrees or more: move the "
+       "nodes 1 2 5 4) is folded: its Jacobian is not positive at node 5; its angle there is 180 degrees or more: move "
+       "the "
        "node, or divide the cell into triangles"},
       {"a.msh", replaced(a, "$Nodes", "Nodes"), "expected the start of a section such as $Nodes, found 'Nodes'"},
       {"a.msh", replaced(a, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "$Comments\n$MeshFormat\n$EndComments\n"),

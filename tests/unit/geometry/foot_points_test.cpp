@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "unit/mesh/models.hpp"
 #include "scabo/mesh/contact_side.hpp"
+#include "unit/mesh/models.hpp"
 
 namespace scabo::mesh {
 namespace {

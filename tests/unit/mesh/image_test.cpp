@@ -59,7 +59,8 @@ void check_sides(const PolygonMesh& mesh, const Vec2& size) {
 TEST(ImageMesh, HasNoMoreNodesThanAreAllowed) {
   model::Body body = test::elastic("core", test::rectangle({0.0, 0.0}, {3.0, 2.0}), 1.0);
   body.mesh.kind = model::MeshKind::quadtree;
-  body.image = model::ImageShape{std::make_shared<files::Image>(files::Image{3, 2, {1, 2, 1, 2, 1, 2}}), 1.0, {{1, 0}, {2, 0}}};
+  body.image =
+      model::ImageShape{std::make_shared<files::Image>(files::Image{3, 2, {1, 2, 1, 2, 1, 2}}), 1.0, {{1, 0}, {2, 0}}};
   body.mesh.order = 3;
   const int nodes = 12 + 2 * 17;  // corners and two on each side of six pixels
   const auto made = divide_into_cells(body, {}, nodes);
@@ -67,9 +68,10 @@ TEST(ImageMesh, HasNoMoreNodesThanAreAllowed) {
   EXPECT_EQ(std::get<BodyMesh>(made).nodes.size(), nodes);
   const auto refused = divide_into_cells(body, {}, nodes - 1);
   ASSERT_TRUE(std::holds_alternative<Diagnostic>(refused));
-  EXPECT_THAT(std::get<Diagnostic>(refused).message,
-              testing::HasSubstr("6 cells with about 46 nodes, more than the 45 allowed: use an image of fewer pixels or a "
-                                 "lower 'order'"));
+  EXPECT_THAT(
+      std::get<Diagnostic>(refused).message,
+      testing::HasSubstr("6 cells with about 46 nodes, more than the 45 allowed: use an image of fewer pixels or a "
+                         "lower 'order'"));
 }
 
 TEST(ImageMesh, RefusesPartsWithoutASideInCommon) {
@@ -169,7 +171,8 @@ TEST(ImageMesh, VoidPixelsHaveNoCells) {
   EXPECT_THROW(image_mesh({1, 1, {-4}}, {}), InputError);
 }
 
-// Chains of sides run along the smallest rectangle around the cells; an empty pixel on it parts them and takes its corner.
+// Chains of sides run along the smallest rectangle around the cells; an empty pixel on it parts them and takes its
+// corner.
 TEST(ImageMesh, EmptyPixelsInterruptTheBorder) {
   const files::Image image{4,
                            3,

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "scabo/mesh/mesh.hpp"
 #include "scabo/input/read_model.hpp"
+#include "scabo/mesh/mesh.hpp"
 
 namespace scabo::mesh {
 namespace {

@@ -12,11 +12,11 @@
 namespace scabo::mesh {
 namespace {
 
-
 Domain plate_with_a_hole(int facets_of_quarter) {
   Domain domain = test::domain_of({{0, 0}, {4, 0}, {4, 2}, {0, 2}}, 0.5);
   for (int quarter = 0; quarter < 4; ++quarter)
-    domain.lines.push_back(test::arc({2, 1}, 0.5, -0.5 * std::numbers::pi * quarter, -0.5 * std::numbers::pi, facets_of_quarter));
+    domain.lines.push_back(
+        test::arc({2, 1}, 0.5, -0.5 * std::numbers::pi * quarter, -0.5 * std::numbers::pi, facets_of_quarter));
   return domain;
 }
 

@@ -1,7 +1,7 @@
 // The analysis refuses an invalid model, whoever built it.
 #include <gtest/gtest.h>
 
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "unit/model/models.hpp"
 

@@ -1,5 +1,5 @@
 // From an open super-element to the summary and the log: names, keys, null where nothing is known.
-#include "scabo/analysis/cracks.hpp"
+#include "scabo/analysis/state/cracks.hpp"
 
 #include <gtest/gtest.h>
 

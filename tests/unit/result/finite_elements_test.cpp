@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scabo/analysis/modal_analysis.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
 #include "scabo/input/read_model.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/probe.hpp"

@@ -1,0 +1,146 @@
+#include "scabo/analysis/modal/modal_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "scabo/base/components.hpp"
+#include "scabo/base/stopwatch.hpp"
+#include "scabo/element/mass.hpp"
+#include "scabo/linalg/dense.hpp"
+#include "scabo/model/validate.hpp"
+#include "scabo/system/assembly.hpp"
+#include "scabo/system/natural_modes.hpp"
+#include "scabo/system/structure.hpp"
+#include "scabo/system/worthwhile_threads.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Mass of a super-element.
+Matrix mass_of(const model::Model& model, const element::SolvedSuperElement& super_element, int threads) {
+  std::vector<double> density;
+  for (const int material : super_element.sectors.materials)
+    density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
+  return element::mass_matrix(super_element.ring, super_element.solution(), super_element.modes(), density,
+                              model.analysis.thickness, threads);
+}
+
+/// M times a translation of the whole body.
+std::array<Vector, 2> mass_of_translations(const system::Stiffness& M) {
+  std::array<Vector, 2> products;
+  for (Eigen::Index component = 0; component < 2; ++component) {
+    Vector r = Vector::Zero(M.size());
+    for (Eigen::Index i = component; i < r.size(); i += 2) r[i] = 1.0;
+    products[static_cast<std::size_t>(component)] = M.times(r);
+  }
+  return products;
+}
+
+NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, const system::Dofs& dofs, std::size_t part,
+                          const std::array<Vector, 2>& mass_of_translation) {
+  NaturalMode mode;
+  mode.bodies = dofs.bodies_of(part);
+  mode.rigid = k < modes.rigid;
+  mode.frequency = std::sqrt(modes.eigenvalues[k]) / (2.0 * std::numbers::pi);
+  mode.residual = modes.residuals[k];
+  const Vector phi = modes.shapes.col(k);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const double participation = phi.dot(mass_of_translation[c]);
+    mode.effective_mass[static_cast<Eigen::Index>(c)] = participation * participation;  // phi' M phi = 1
+  }
+  // Nodes of a symmetric body move equally far but for rounding, which must not choose among them.
+  const Vector distances = phi.reshaped(2, phi.size() / 2).colwise().norm();
+  const double largest = distances.maxCoeff();
+  const auto is_largest = [&](double distance) { return distance >= (1.0 - 1e-6) * largest; };
+  const auto node =
+      static_cast<Eigen::Index>(std::find_if(distances.begin(), distances.end(), is_largest) - distances.begin());
+  const Vec2 motion = phi.segment<2>(place_of(node));
+  const double leading = std::abs(motion.x()) >= (1.0 - 1e-6) * std::abs(motion.y()) ? motion.x() : motion.y();
+  const double scale = (leading < 0.0 ? -1.0 : 1.0) / largest;
+  for (const int body : mode.bodies) mode.shape.push_back(dofs.of_body(body, scale * phi));
+  mode.modal_mass = scale * scale;
+  return mode;
+}
+
+}  // namespace
+
+ModalResult solve_modal(model::Model model, const Options& options) {
+  const auto stage = [&](const std::string& what) {
+    if (options.on_stage) options.on_stage(what);
+  };
+  model::require_valid(model);
+  ModalResult result;
+  StaticSolution& structure = result.structure;
+  structure.model = std::move(model);
+  structure.model.contacts.clear();
+  result.warnings = structure.model.warnings;
+  const int count = structure.model.analysis.modes;
+
+  stage("mesh");
+  std::vector<std::vector<system::Constraint>> constraints;
+  system::ModelSprings springs;
+  system::Dofs dofs;
+  {
+    const Stopwatch stopwatch(result.timing.mesh);
+    structure.mesh = mesh::make_mesh(structure.model);
+    dofs = system::Dofs(structure.model, structure.mesh);
+    constraints = system::constraints_of(structure.model, structure.mesh, dofs);
+    springs = system::springs_of(structure.model, structure.mesh, dofs);
+  }
+  const int threads = system::worthwhile_threads(structure.model, structure.mesh, options.threads);
+  linalg::set_blas_threads(threads);
+  stage("super-elements");
+  {
+    const Stopwatch stopwatch(result.timing.super_elements);
+    structure.cells = element::solve_cells(structure.model, structure.mesh, threads);
+  }
+  system::MassLibrary masses(
+      [&](const element::SolvedSuperElement& cell) { return mass_of(structure.model, cell, threads); });
+  for (std::size_t p = 0; p < dofs.parts(); ++p) {
+    if (dofs.is_rigid(p)) continue;
+    system::Stiffness K, M;
+    stage("mass of " + dofs.name_of(p, structure.model));
+    {
+      const Stopwatch stopwatch(result.timing.mass);
+      K = system::part_stiffness(structure.model, structure.mesh, structure.cells, dofs, p);
+      K.springs = springs.of_part[p];
+      M = system::part_mass(structure.model, structure.mesh, structure.cells, dofs, p, masses);
+    }
+    stage("modes of " + dofs.name_of(p, structure.model));
+    const Stopwatch stopwatch(result.timing.eigenvalues);
+    const auto translations = mass_of_translations(M);
+    for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
+    const system::NaturalModes modes = system::natural_modes(K, M, dofs.nodes(p), constraints[p], count);
+    for (Eigen::Index k = 0; k < modes.eigenvalues.size(); ++k)
+      result.modes.push_back(describe_mode(modes, k, dofs, p, translations));
+  }
+  std::stable_sort(result.modes.begin(), result.modes.end(),
+                   [](const NaturalMode& a, const NaturalMode& b) { return a.frequency < b.frequency; });
+  if (static_cast<int>(result.modes.size()) > count) result.modes.resize(static_cast<std::size_t>(count));
+  if (static_cast<int>(result.modes.size()) < count)
+    result.warnings.push_back({WarningKind::few_modes, "",
+                               fmt::format("the model has {} modes only, not the {} asked for: use a smaller mesh size",
+                                           result.modes.size(), count)});
+  for (const NaturalMode& mode : result.modes)
+    ensure(mode.residual < 1e-10, "a natural mode does not satisfy its equation");
+  return result;
+}
+
+FieldState state_of(const ModalResult& result, const NaturalMode& mode) {
+  const model::Model& model = result.structure.model;
+  FieldState state;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto size = model.bodies[b].rigid ? Eigen::Index{3} : places_of(result.structure.mesh.bodies[b].nodes.size());
+    state.displacements.push_back(Vector::Zero(size));
+    state.interior.emplace_back();
+  }
+  for (std::size_t k = 0; k < mode.bodies.size(); ++k)
+    state.displacements[static_cast<std::size_t>(mode.bodies[k])] = mode.shape[k];
+  return state;
+}
+
+}  // namespace scabo::analysis

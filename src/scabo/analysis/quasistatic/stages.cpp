@@ -1,0 +1,171 @@
+#include "scabo/analysis/quasistatic/stages.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "scabo/analysis/state/balance.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+using Pair = system::ContactSystem::Pair;
+
+/// Per part: not there during a step.
+std::vector<char> absent_in(const Prepared& whole, std::size_t step) {
+  if (!model::has_stages(whole.model.bodies)) return {};
+  std::vector<char> absent(whole.structure.parts.size(), 0);
+  for (std::size_t b = 0; b < whole.model.bodies.size(); ++b)
+    if (!whole.model.bodies[b].is_there(static_cast<int>(step)))
+      absent[whole.structure.dofs.part_of(static_cast<int>(b))] = 1;
+  if (std::none_of(absent.begin(), absent.end(), [](char is) { return is != 0; })) absent.clear();
+  return absent;
+}
+
+/// Number of every pair by contact and index.
+std::map<std::pair<int, int>, Eigen::Index> numbers_of(const std::vector<Pair>& pairs) {
+  std::map<std::pair<int, int>, Eigen::Index> numbers;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    numbers.emplace(std::pair(pairs[i].contact, pairs[i].index), static_cast<Eigen::Index>(i));
+  return numbers;
+}
+
+/// Motions of pairs under the displacements of all parts.
+Vector motion_under(const std::vector<Eigen::SparseMatrix<double>>& motion, const std::vector<Vector>& u,
+                    Eigen::Index rows) {
+  Vector sum = Vector::Zero(rows);
+  for (std::size_t p = 0; p < motion.size(); ++p) sum += motion[p] * u[p];
+  return sum;
+}
+
+/// Offsets of the pairs of the new stage: those of the stage before, and minus the motion so far of the new ones.
+Vector offsets(const std::vector<Pair>& before, const Vector& offset_before, const std::vector<Pair>& pairs,
+               const Vector& motion) {
+  const auto number = numbers_of(before);
+  Vector offset(static_cast<Eigen::Index>(2 * pairs.size()));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    const auto known = number.find({pairs[i].contact, pairs[i].index});
+    if (known == number.end())
+      offset.segment<2>(row) = -motion.segment<2>(row);
+    else if (offset_before.size() > 0)
+      offset.segment<2>(row) = offset_before.segment<2>(2 * known->second);
+    else
+      offset.segment<2>(row).setZero();
+  }
+  return offset;
+}
+
+/// Values of pairs or motions carried over; those that are new are zero.
+template <typename T>
+std::vector<T> carried(const std::vector<T>& from, const std::vector<Eigen::Index>& number, const T& otherwise) {
+  std::vector<T> to;
+  for (const Eigen::Index k : number) to.push_back(k < 0 ? otherwise : from[static_cast<std::size_t>(k)]);
+  return to;
+}
+
+/// Takes the bodies of parts that are no longer there out of a state: what they exerted on the others is released.
+void take_away(const Prepared& before, const std::vector<char>& absent, State& state) {
+  state.released.assign(absent.size(), Vector());
+  Vector vanishing = Vector::Zero(state.p.size());  // forces of the pairs of what is taken away
+  const auto gone = [&](std::size_t p) { return absent[p] && !before.is_absent(p); };
+  for (std::size_t i = 0; i < before.contact.pairs.size(); ++i) {
+    const model::Contact& contact = before.model.contacts[static_cast<std::size_t>(before.contact.pairs[i].contact)];
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    if (gone(before.structure.dofs.part_of(contact.a.body)) || gone(before.structure.dofs.part_of(contact.b.body)))
+      vanishing.segment<2>(row) = state.p.segment<2>(row);
+  }
+  for (std::size_t p = 0; p < absent.size(); ++p) {
+    if (!absent[p]) {
+      const Vector forces = before.contact.motion[p].transpose() * vanishing;
+      if (forces.size() > 0 && !forces.isZero(0.0)) state.released[p] = forces;
+      continue;
+    }
+    if (!gone(p)) continue;
+    state.energy.external -=
+        before.structure.parts[p]->elastic_energy(state.u[p]) + thermal_energy(before, state.factors, p, state.u[p]);
+    for (Vector* of : {&state.u[p], &state.forces[p], &state.reactions[p], &state.prescribed[p]}) of->setZero();
+  }
+  for (std::size_t p = 0; p < absent.size(); ++p)
+    if (state.released[p].size() > 0) state.forces[p] += state.released[p];
+}
+
+/// Parts that are put in place are not displaced yet: what the reference points of the others have moved so far does
+/// not count for them.
+void refer_new_parts(const Prepared& whole, const std::vector<char>& before, const std::vector<char>& absent,
+                     State& state) {
+  if (whole.references.empty() || before.empty()) return;
+  state.referred.resize(whole.structure.parts.size(), Vec2::Zero());
+  for (const Prepared::Reference& reference : whole.references)
+    for (const int number : reference.parts) {
+      const auto p = static_cast<std::size_t>(number);
+      if (before[p] && (absent.empty() || !absent[p])) state.referred[p] = displacement_of(reference, whole, state.u);
+    }
+}
+
+}  // namespace
+
+Stages::Stages(const Prepared& whole, std::size_t step) : whole_(whole) { set(absent_in(whole, step)); }
+
+void Stages::set(std::vector<char> absent) {
+  now_.reset();
+  contact_.reset();
+  if (absent.empty()) return;
+  contact_ = system::without_parts(whole_.contact, whole_.structure, whole_.model, absent);
+  now_.emplace(Prepared{whole_.model, whole_.mesh, whole_.structure, *contact_, whole_.force_scale, whole_.references,
+                        whole_.on_iteration, std::move(absent)});
+}
+
+void Stages::enter(std::size_t step, State& state) {
+  if (!model::has_stages(whole_.model.bodies)) return;
+  state.factors.presence = presence_at(whole_.model, static_cast<int>(step) - 1);
+  state.factors.release = takes_away(whole_.model, step) ? 1.0 : 0.0;
+  state.released.clear();
+  std::vector<char> absent = absent_in(whole_, step);
+  if (absent == now().absent) return;
+
+  const std::vector<Pair> pairs_before = now().contact.pairs, held_before = now().contact.held;
+  const std::vector<int> first_before = now().contact.first_rigid;
+  const std::vector<char> absent_before = now().absent;
+  const std::vector<char> none(whole_.structure.parts.size(), 0);
+  if (takes_away(whole_.model, step)) take_away(now(), absent.empty() ? none : absent, state);
+  refer_new_parts(whole_, absent_before, absent, state);
+  set(std::move(absent));
+  const system::ContactSystem& contact = now().contact;
+
+  const auto N = static_cast<Eigen::Index>(contact.pairs.size());
+  state.offset = offsets(pairs_before, state.offset, contact.pairs, motion_under(contact.motion, state.u, 2 * N));
+  state.held_offset =
+      offsets(held_before, state.held_offset, contact.held,
+              motion_under(contact.held_motion, state.u, static_cast<Eigen::Index>(2 * contact.held.size())));
+  const auto number = numbers_of(pairs_before);
+  std::vector<Eigen::Index> before;
+  for (const Pair& pair : contact.pairs) {
+    const auto known = number.find({pair.contact, pair.index});
+    before.push_back(known == number.end() ? -1 : known->second);
+  }
+  Vector p = Vector::Zero(2 * N), slip = Vector::Zero(N), gap = contact.gap;
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const Eigen::Index k = before[static_cast<std::size_t>(i)];
+    if (k < 0) continue;
+    p.segment<2>(2 * i) = state.p.segment<2>(2 * k);
+    slip[i] = state.slip[k];
+    gap[i] = state.gap[k];
+  }
+  state.p = std::move(p);
+  state.slip = std::move(slip);
+  state.gap = std::move(gap);
+  state.history = carried(state.history, before, {});
+  state.states = carried(state.states, before, contact::ContactState::open);
+  Vector a = Vector::Zero(contact.rigid_motions());
+  for (std::size_t part = 0; part < whole_.structure.parts.size(); ++part) {
+    const Eigen::Index m = whole_.structure.parts[part]->rigid_motions().cols();
+    const bool was_absent = !absent_before.empty() && absent_before[part];
+    if (m == 0 || was_absent || now().is_absent(part)) continue;
+    a.segment(contact.first_rigid[part], m) = state.a.segment(first_before[part], m);
+  }
+  state.a = std::move(a);
+}
+
+}  // namespace scabo::analysis

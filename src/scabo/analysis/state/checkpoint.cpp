@@ -1,0 +1,343 @@
+#include "scabo/analysis/state/checkpoint.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <system_error>
+
+#include "scabo/analysis/state/increment_record.hpp"
+#include "scabo/analysis/state/sealed_file.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* state_name = "checkpoint.hdf5";
+constexpr const char* records_name = "checkpoint.increments";
+constexpr std::string_view records_mark = "scabo checkpoint\n";
+constexpr const char* group = "scabo_checkpoint/";
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.is_open() || file.bad()) throw InputError(path, {{{}, "cannot be read"}});
+  return content;
+}
+
+template <typename Io>
+void exchange_origin(Io& io, RunOrigin& origin) {
+  io.text("version", origin.version);
+  io.text("origin/model", origin.model);
+  io.text("origin/folder", origin.folder);
+  io.text("origin/beside", origin.beside);
+  exchange_texts(io, "origin/settings", origin.settings);
+  exchange_integer(io, "origin/threads", origin.threads);
+  origin.files.resize(exchange_count(io, "origin/files/count", origin.files.size()));
+  for (std::size_t i = 0; i < origin.files.size(); ++i) {
+    io.text(fmt::format("origin/files/path_{}", i), origin.files[i].path);
+    io.text(fmt::format("origin/files/digest_{}", i), origin.files[i].digest);
+  }
+}
+
+template <typename Io>
+void exchange_results(Io& io, WrittenResults& results) {
+  exchange_integer(io, "results/finished", results.finished);
+  exchange_integer(io, "results/fields_written", results.fields_written);
+  exchange_integer(io, "results/log_begun", results.log_begun);
+  exchange_texts(io, "results/warnings", results.warnings);
+  results.files.resize(exchange_count(io, "results/files/count", results.files.size()));
+  for (std::size_t i = 0; i < results.files.size(); ++i) {
+    WrittenResults::File& file = results.files[i];
+    io.text(fmt::format("results/files/name_{}", i), file.name);
+    double bytes = static_cast<double>(file.bytes);  // exact to 2^53
+    exchange_scalars(io, fmt::format("results/files/bytes_{}", i), {&bytes});
+    file.bytes = static_cast<long long>(bytes);
+  }
+}
+
+template <typename Io>
+void exchange_points(Io& io, const std::string& path, std::vector<Vec2>& points) {
+  std::vector<double> numbers;
+  for (const Vec2& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
+  io.numbers(path, numbers);
+  if constexpr (Io::reads) {
+    points.clear();
+    for (std::size_t k = 0; k < numbers.size(); k += 2) points.emplace_back(numbers.at(k), numbers.at(k + 1));
+  }
+}
+
+/// The mesh is divided again as it was: it follows from the placement.
+template <typename Io>
+void exchange_replacing(Io& io, Replacing& replaced) {
+  std::vector<double> placement;
+  for (const std::array<Vec2, 2>& sides : replaced.placement)
+    for (const Vec2& by : sides) placement.insert(placement.end(), by.begin(), by.end());
+  io.numbers("state/replaced/placement", placement);
+  exchange_points(io, "state/replaced/moved", replaced.moved);
+  exchange_vector(io, "state/replaced/offset", replaced.offset);
+  exchange_vector(io, "state/replaced/slip_before", replaced.slip_before);
+  if constexpr (Io::reads) {
+    replaced.placement.clear();
+    for (std::size_t k = 0; k < placement.size(); k += 4)
+      replaced.placement.push_back(
+          {Vec2(placement.at(k), placement.at(k + 1)), Vec2(placement.at(k + 2), placement.at(k + 3))});
+  }
+}
+
+template <typename Io>
+void exchange_state(Io& io, RunState& run) {
+  exchange_integer(io, "state/step", run.step);
+  exchange_integer(io, "state/increment", run.progress.increment);
+  exchange_scalars(io, "state/progress", {&run.progress.reached, &run.progress.size, &run.progress.limit});
+  State& state = run.state;
+  io.numbers("state/load_factors", state.factors.loads);
+  io.numbers("state/support_factors", state.factors.supports);
+  io.numbers("state/coefficients_of_friction", state.factors.friction);
+  io.numbers("state/presence", state.factors.presence);
+  exchange_scalars(io, "state/release", {&state.factors.release});
+  io.numbers("state/fits", state.factors.fits);
+  exchange_vector(io, "state/offset", state.offset);
+  exchange_vector(io, "state/held_offset", state.held_offset);
+  state.released.resize(exchange_count(io, "state/released/count", state.released.size()));
+  for (std::size_t part = 0; part < state.released.size(); ++part)
+    exchange_vector(io, fmt::format("state/released/{}", part), state.released[part]);
+  exchange_points(io, "state/referred", state.referred);
+  exchange_vector(io, "state/p", state.p);
+  exchange_vector(io, "state/a", state.a);
+  exchange_vector(io, "state/gap", state.gap);
+  exchange_vector(io, "state/slip", state.slip);
+  exchange_scalars(
+      io, "state/energy",
+      {&state.energy.external, &state.energy.elastic, &state.energy.friction, &state.energy.friction_error});
+  exchange_scalars(io, "state/largest_force", {&state.largest_force});
+  exchange_replacing(io, state.replaced);
+  std::vector<int> states, broken, slipped;
+  std::vector<double> accumulated;
+  for (const contact::ContactState of_pair : state.states) states.push_back(static_cast<int>(of_pair));
+  for (const contact::PairHistory& of_pair : state.history) {
+    accumulated.push_back(of_pair.slip);
+    broken.push_back(of_pair.broken);
+    slipped.push_back(of_pair.slipped);
+  }
+  io.integers("state/states", states);
+  io.numbers("state/accumulated_slip", accumulated);
+  io.integers("state/broken", broken);
+  io.integers("state/slipped", slipped);
+  if constexpr (Io::reads) {
+    state.states.clear();
+    state.history.clear();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      state.states.push_back(static_cast<contact::ContactState>(states[i]));
+      state.history.push_back({accumulated.at(i), broken.at(i) != 0, slipped.at(i) != 0});
+    }
+  }
+}
+
+template <typename Io>
+void exchange_warnings(Io& io, std::vector<Warning>& warnings) {
+  std::vector<int> kinds;
+  std::vector<std::string> subjects, texts;
+  for (const Warning& warning : warnings) {
+    kinds.push_back(static_cast<int>(warning.kind));
+    subjects.push_back(warning.subject);
+    texts.push_back(warning.text);
+  }
+  io.integers("warnings/kinds", kinds);
+  exchange_texts(io, "warnings/subjects", subjects);
+  exchange_texts(io, "warnings/texts", texts);
+  if constexpr (Io::reads) {
+    warnings.clear();
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      warnings.push_back({static_cast<WarningKind>(kinds[i]), subjects.at(i), texts.at(i)});
+  }
+}
+
+/// All but the increments, of which `count` are in the other file.
+template <typename Io>
+void exchange_checkpoint(Io& io, Checkpoint& of, int& count) {
+  exchange_origin(io, of.origin);
+  exchange_results(io, of.results);
+  Timing& t = of.from.timing;
+  exchange_scalars(io, "timing",
+                   {&t.read, &t.mesh, &t.super_elements, &t.assemble, &t.factorise, &t.condense, &t.newton, &t.recover,
+                    &t.write, &t.total});
+  exchange_integer(io, "increments/count", count);
+  double bytes = static_cast<double>(of.increments_bytes);
+  exchange_scalars(io, "increments/bytes", {&bytes});
+  of.increments_bytes = static_cast<long long>(bytes);
+  if (count == 0) return;
+  exchange_state(io, of.from.at);
+  exchange_warnings(io, of.from.warnings);
+}
+
+[[noreturn]] void fail_to_keep(const fs::path& path, int error) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::system_category().message(error)));
+}
+
+/// Waits until the file is on the disk.
+void synchronise(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail_to_keep(path, errno);
+  const int error = ::fsync(descriptor) != 0 && errno != EINVAL ? errno : 0;  // some file systems cannot
+  ::close(descriptor);
+  if (error != 0) fail_to_keep(path, error);
+}
+
+/// Puts `bytes` at `position`, the end of the part of the file that counts.
+void append_records(const fs::path& path, long long position, std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail_to_keep(path, errno);
+  int error = 0;
+  while (!bytes.empty() && error == 0) {
+    const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(position));
+    if (written < 0) {
+      if (errno != EINTR) error = errno;
+      continue;
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    position += written;
+  }
+  if (error == 0 && ::fdatasync(descriptor) != 0 && errno != EINVAL) error = errno;
+  ::close(descriptor);
+  if (error != 0) fail_to_keep(path, error);
+}
+
+/// Length and digest of a record stand before it.
+constexpr std::size_t of_head = 2 * sizeof(std::uint64_t);
+std::string with_head(const std::string& record) {
+  const std::uint64_t head[] = {record.size(), digest(record)};
+  return std::string(reinterpret_cast<const char*>(head), of_head) + record;
+}
+
+/// Throws std::out_of_range for anything else than `count` records.
+std::vector<IncrementResult> read_records(std::string_view content, int count) {
+  if (!content.starts_with(records_mark)) throw std::out_of_range("no records");
+  content.remove_prefix(records_mark.size());
+  std::vector<IncrementResult> increments;
+  for (int i = 0; i < count; ++i) {
+    std::uint64_t head[2];
+    if (content.size() < of_head) throw std::out_of_range("a record is missing");
+    std::copy_n(content.data(), of_head, reinterpret_cast<char*>(head));
+    content.remove_prefix(of_head);
+    if (content.size() < head[0]) throw std::out_of_range("a record is cut off");
+    const std::string_view record = content.substr(0, head[0]);
+    if (digest(record) != head[1]) throw std::out_of_range("a record has changed");
+    increments.push_back(increment_of(record));
+    content.remove_prefix(head[0]);
+  }
+  return increments;
+}
+
+struct OtherVersion : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+[[noreturn]] void refuse(const fs::path& path, std::string message) {
+  throw InputError(path.string(), {{{}, std::move(message)}});
+}
+
+}  // namespace
+
+SourceFile source_of(const std::string& path, std::string_view content) { return {path, hexadecimal(digest(content))}; }
+
+SourceFile source_file(const std::string& path) { return source_of(path, content_of(path)); }
+
+bool has_checkpoint(const fs::path& directory) {
+  std::error_code error;
+  return fs::exists(directory / state_name, error);
+}
+
+Checkpoint read_checkpoint(const fs::path& directory, const std::string& version) {
+  const fs::path file = directory / state_name;
+  if (!has_checkpoint(directory))
+    refuse(directory,
+           "there is no checkpoint to resume from: analyses of one increment and modal analyses write none; run the "
+           "model again with `scabo run`");
+  constexpr const char* damaged = "the checkpoint is damaged: run the model again with `scabo run`";
+  try {
+    Unsealing io(file.string(), group);
+    if (const std::string written_by = io.text_of("version"); !written_by.empty() && written_by != version)
+      throw OtherVersion(
+          fmt::format("the checkpoint was written by Scabo {}, and this is {}: resume with that version, or "
+                      "run the model again with `scabo run`",
+                      written_by, version));
+    Checkpoint checkpoint;
+    int count = 0;
+    exchange_checkpoint(io, checkpoint, count);
+    io.finish();
+    if (count == 0) return checkpoint;
+    const std::string records = content_of((directory / records_name).string());
+    if (checkpoint.increments_bytes > static_cast<long long>(records.size()))
+      throw std::out_of_range("records are missing");
+    checkpoint.from.increments =
+        read_records(std::string_view(records).substr(0, static_cast<std::size_t>(checkpoint.increments_bytes)), count);
+    return checkpoint;
+  } catch (const OtherVersion& error) {
+    refuse(file, error.what());
+  } catch (const InputError&) {
+    refuse(file, damaged);
+  } catch (const std::out_of_range&) {
+    refuse(file, damaged);
+  } catch (const std::length_error&) {
+    refuse(file, damaged);
+  }
+}
+
+void remove_checkpoint(const fs::path& directory) noexcept {
+  std::error_code ignored;
+  const std::string name = state_name;
+  for (const std::string& of : {name, name + ".new", name + ".new.part", std::string(records_name)})
+    fs::remove(directory / of, ignored);
+}
+
+CheckpointWriter::CheckpointWriter(fs::path directory, Checkpoint begun)
+    : directory_(std::move(directory)), checkpoint_(std::move(begun)) {
+  recorded_ = checkpoint_.from.increments.size();
+  if (recorded_ > 0) return;  // the files are there
+  append_records(directory_ / records_name, 0, records_mark);
+  checkpoint_.increments_bytes = static_cast<long long>(records_mark.size());
+  replace();
+}
+
+void CheckpointWriter::write(const RunState& run, const StaticSolution& solution, WrittenResults results,
+                             const Timing& timing) {
+  std::string records;
+  for (; recorded_ < solution.increments.size(); ++recorded_)
+    records += with_head(record_of(solution.increments[recorded_]));
+  append_records(directory_ / records_name, checkpoint_.increments_bytes, records);
+  checkpoint_.increments_bytes += static_cast<long long>(records.size());
+  checkpoint_.results = std::move(results);
+  checkpoint_.from.timing = timing;
+  checkpoint_.from.warnings = solution.warnings;
+  RunState& at = checkpoint_.from.at;
+  at.step = run.step;
+  at.progress = run.progress;
+  const State& state = run.state;  // without displacements
+  at.state = state;
+  for (std::vector<Vector>* of : {&at.state.u, &at.state.forces, &at.state.reactions, &at.state.prescribed})
+    of->clear();
+  replace();
+}
+
+void CheckpointWriter::replace() {
+  const fs::path written = directory_ / (std::string(state_name) + ".new"), file = directory_ / state_name;
+  int count = static_cast<int>(recorded_);
+  Sealing io(written.string(), group);
+  exchange_checkpoint(io, checkpoint_, count);
+  io.finish();
+  synchronise(written);
+  std::error_code error;
+  fs::rename(written, file, error);
+  if (error) fail_to_keep(file, error.value());
+  synchronise(directory_);
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,219 @@
+// The results of an accepted state, and sentences about it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/analysis/state/balance.hpp"
+#include "scabo/analysis/state/state.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Displacement along [n, t] of the point of a pair on side 0 (A) or 1 (B), from where the pair was found.
+Vec2 displacement_at(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
+                     int side) {
+  Vec2 u = displacement_of(prepared, state, contact, pair, side);
+  if (const mesh::Placement& placement = prepared.mesh.placement; !placement.empty())
+    u -= placement[static_cast<std::size_t>(contact)][static_cast<std::size_t>(side)];
+  return {u.dot(pair.normal), u.dot(tangent_of(pair.normal))};
+}
+
+void add_totals(const Vec2& about, ContactResult& result) {
+  Vec2 weighted = Vec2::Zero();  // relative to `about`, so that distant coordinates keep their digits
+  double pressing = 0.0;
+  for (const PairResult& pair : result.pairs) {
+    const Vec2 force = pair.normal_force * pair.normal + pair.tangential_force * tangent_of(pair.normal);
+    const Vec2 arm = pair.position - about;
+    result.force += force;
+    result.moment += cross(arm, force);
+    weighted += pair.normal_force * arm;
+    pressing += std::abs(pair.normal_force);
+  }
+  for (const PairResult& pair : result.pairs) {
+    result.min_gap = std::min(result.min_gap, pair.gap);
+    result.normal_force += pair.normal_force;
+    result.tangential_force += pair.tangential_force;
+    result.open += pair.state == contact::ContactState::open;
+    result.stick += pair.state == contact::ContactState::stick;
+    result.slip += pair.state == contact::ContactState::slip;
+    result.max_pressure = std::max(result.max_pressure, pair.pressure);
+    if (pair.state == contact::ContactState::open) {
+      result.max_gap = std::max(result.max_gap, pair.gap);  // a closed pair's gap is rounding
+      continue;
+    }
+    if (!result.first_in_contact) result.first_in_contact = pair.pair;
+    result.last_in_contact = pair.pair;
+  }
+  constexpr double rounding_of_sum = 1e-9;  // of a contact that is pulled as much as it is pressed
+  if (result.normal_force > rounding_of_sum * pressing)
+    result.centre_of_pressure = about + Vec2(weighted / result.normal_force);
+}
+
+std::vector<ContactResult> contact_results(const Prepared& prepared, const State& state) {
+  std::vector<ContactResult> results(prepared.model.contacts.size());
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
+    const mesh::ContactPair& pair = mesh_pair(prepared, at);
+    const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(at.contact)];
+    const auto k = static_cast<Eigen::Index>(i);
+    PairResult row;
+    row.pair = at.number;
+    row.position = pair.point_a;
+    row.normal = pair.normal;
+    row.gap = state.gap[k];
+    row.slip = state.slip[k];
+    if (state.replaced.slip_before.size() > 0) row.slip += state.replaced.slip_before[k];
+    row.normal_force = state.p[2 * k];
+    row.tangential_force = state.p[2 * k + 1];
+    row.pressure = row.normal_force / prepared.contact.laws.area[k];
+    row.shear = row.tangential_force / prepared.contact.laws.area[k];
+    row.state = state.states[i];
+    row.displacement_a = displacement_at(prepared, state, at.contact, pair, 0);
+    row.displacement_b = displacement_at(prepared, state, at.contact, pair, 1);
+    ContactResult& result = results[static_cast<std::size_t>(at.contact)];
+    result.pairs.push_back(row);
+    if (contact.cohesion > 0.0 || contact.tension > 0.0)
+      result.broken = result.broken.value_or(0) + state.history[i].broken;
+  }
+  for (std::size_t c = 0; c < results.size(); ++c) {
+    results[c].name = prepared.model.contacts[c].name;
+    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
+      if (const auto& pores = prepared.structure.pores[load]; !pores.empty() && pores[c])
+        results[c].pore_force = results[c].pore_force.value_or(0.0) + state.factors.loads[load] * *pores[c];
+    add_totals(prepared.model.contacts[c].about, results[c]);
+  }
+  return results;
+}
+
+void add(element::CellLoads& to, const element::CellLoads& loads, double factor) {
+  if (to.size() < loads.size()) to.resize(loads.size());
+  for (std::size_t c = 0; c < loads.size(); ++c) element::add(to[c], loads[c], factor);
+}
+
+/// Estimated relative error of displacements and energy by the rounding of stiffness; 0 where bodies only move without
+/// stress.
+double lost_to_rounding(const Prepared& prepared, const State& state) {
+  // Of displacements: of a body that a temperature expands freely, more than what is stored.
+  const bool known = prepared.references.empty() && prepared.structure.thermal.empty();
+  double energy = known ? state.energy.elastic : 0.0, lost = 0.0, resisting = 0.0;
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    if (!known) energy += part.elastic_energy(state.u[p]);
+    lost += part.energy_lost(state.u[p]);
+    if (state.u[p].size() > 0) resisting += part.stiff_force(state.u[p]) * state.u[p].lpNorm<Eigen::Infinity>();
+  }
+  return energy > 1e-22 * resisting ? lost / energy : 0.0;
+}
+
+}  // namespace
+
+Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
+                     int side) {
+  const model::Contact& named = prepared.model.contacts[static_cast<std::size_t>(contact)];
+  const int body = side == 0 ? named.a.body : named.b.body, node = side == 0 ? pair.node_a : pair.node_b;
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const system::BodySystem& part = part_of(prepared, body);
+  const Vector& of_part = state.u[dofs.part_of(body)];
+  Vec2 u = node >= 0
+               ? Vec2(of_part.segment<2>(dofs.of(body, node, 0)))
+               : Vec2(system::rigid_point(prepared.mesh.point_of(contact, pair, side), part.reference(), part.lever()) *
+                      of_part);
+  if (!state.replaced.moved.empty()) u += state.replaced.moved[dofs.part_of(body)];
+  return u;
+}
+
+IncrementResult describe(const Prepared& prepared, const State& state) {
+  IncrementResult result;
+  for (std::size_t i = 0; i < prepared.model.loads.size(); ++i)
+    result.factors[prepared.model.loads[i].name] = state.factors.loads[i];
+  for (std::size_t i = 0; i < prepared.model.supports.size(); ++i) {
+    const model::Support& support = prepared.model.supports[i];
+    if (support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0 ||
+        support.rotation.value_or(0.0) != 0.0)
+      result.factors[support.name] = state.factors.supports[i];
+  }
+  result.contacts = contact_results(prepared, state);
+  result.energy = state.energy;
+  result.largest_force = scale_of(prepared, state, largest_force(state));
+  result.lost_to_rounding = lost_to_rounding(prepared, state);
+  result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
+  result.moments.resize(prepared.model.supports.size());
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    const std::vector<system::Constraint>& constraints = prepared.structure.parts[p]->constraints();
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+      if (constraints[c].rotation) {
+        const auto support = static_cast<std::size_t>(constraints[c].support);
+        if (prepared.model.supports[support].rotation)
+          result.moments[support] =
+              state.reactions[p][static_cast<Eigen::Index>(c)] * prepared.structure.parts[p]->lever();
+        continue;
+      }
+      result.reactions[static_cast<std::size_t>(constraints[c].support)] +=
+          state.reactions[p][static_cast<Eigen::Index>(c)] * constraints[c].direction();
+    }
+  }
+  const system::Dofs& dofs = prepared.structure.dofs;
+  result.springs =
+      system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u, state.factors.loads);
+  result.fields.interior.resize(prepared.model.bodies.size());
+  result.fields.initial.resize(prepared.model.bodies.size());
+  for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
+    const auto body = static_cast<int>(b);
+    result.fields.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
+    if (!state.replaced.moved.empty()) {
+      Vector& u = result.fields.displacements[b];
+      const Vec2& moved = state.replaced.moved[dofs.part_of(body)];
+      if (prepared.model.bodies[b].rigid)
+        u.head<2>() += moved;
+      else
+        u.reshaped(2, u.size() / 2).colwise() += moved;
+    }
+    if (prepared.model.bodies[b].rigid) result.fields.displacements[b][2] /= part_of(prepared, body).lever();
+    const double presence = presence_of(prepared, state.factors, dofs.part_of(body));
+    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load) {
+      add(result.fields.interior[b], prepared.structure.interior[load][b], presence * state.factors.loads[load]);
+      result.fields.initial[b].add(prepared.structure.initial[load][b], presence * state.factors.loads[load]);
+    }
+    if (prepared.is_absent(dofs.part_of(body))) result.absent.push_back(body);
+  }
+  return result;
+}
+
+std::string describe_motions(const Prepared& prepared, const Vector& a) {
+  constexpr std::size_t most = 4;
+  struct Moving {
+    std::size_t part;
+    Eigen::Vector3d motion;
+  };
+  std::vector<Moving> moving;
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    const Eigen::Index m = part.rigid_motions().cols();
+    if (m == 0 || prepared.is_absent(p)) continue;
+    const Eigen::Vector3d motion = part.rigid_coordinates() * a.segment(prepared.contact.first_rigid[p], m);
+    if (motion.norm() >= 1e-6 * a.norm()) moving.push_back({p, motion});
+  }
+  if (moving.size() > most)  // equal motions stay in the order of the parts: differences by rounding do not count
+    std::stable_sort(moving.begin(), moving.end(), [](const Moving& one, const Moving& other) {
+      return static_cast<float>(one.motion.norm()) > static_cast<float>(other.motion.norm());
+    });
+  const system::Dofs& dofs = prepared.structure.dofs;
+  std::string text;
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const auto& [p, motion] = moving[i];
+    if (i >= most) {
+      others += dofs.bodies_of(p).size();
+      continue;
+    }
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    text += fmt::format("{}{}: {}", i > 0 ? "; " : "", dofs.name_of(p, prepared.model),
+                        system::describe_motion(motion, part.reference(), part.lever()));
+  }
+  if (others > 0) text += fmt::format("; and {} more {}", others, others == 1 ? "body" : "bodies");
+  return text;
+}
+
+}  // namespace scabo::analysis

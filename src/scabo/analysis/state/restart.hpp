@@ -1,0 +1,70 @@
+// The end of a run, from which another run may start: `restart` of a model. Two files of a results directory
+// (model/restart_files.hpp):
+//
+//   end.hdf5   the state of every body and contact by name, and digests of what the two models must have in common
+//   end.yaml   factors of loads and supports, which the reader of the other model needs for its steps
+//
+// Displacements are not kept: they follow from the factors, the contact forces and the rigid motions, as those of a
+// checkpoint do, if bodies, supports, springs, contacts and the loads that act are the same. Digests tell whether they
+// are. Bodies that are absent at the end (stages.hpp) may be left out of the other model, and it may have others that
+// are added later. Laws of contacts may change: a joint keeps its forces, its slip and whether it is broken. Of
+// contacts with large slip (large_slip.hpp) the end tells where their sides were when their pairs were found: the other
+// run divides them there before anything is compared.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scabo/analysis/state/continuation.hpp"
+
+namespace scabo::analysis {
+
+struct EndState {
+  /// What the models must have in common: `body 'upper'`, and the digest of all that describes it.
+  struct Agreement {
+    std::string what, digest;
+  };
+  /// The pairs of a contact, in their order; 2 or 1 values for each.
+  struct OfContact {
+    std::string name;
+    Vector p, gap, slip, offset, held_offset;
+    Vector replaced_offset, slip_before;  ///< Replacing; empty if no pairs were found anew
+    std::vector<double> placement;        ///< translations of A and B in which they were found, 4 numbers; or empty
+    contact::History history;
+    std::vector<contact::ContactState> states;
+  };
+  struct OfPart {
+    std::string body;  ///< its first one
+    Vector a;
+    std::vector<double> moved;     ///< Replacing, 2 numbers; or empty
+    std::vector<double> referred;  ///< State::referred, 2 numbers; or empty
+  };
+  struct Factor {
+    std::string name;
+    double value = 0.0;
+  };
+  std::string version;  ///< of the program
+  std::vector<Agreement> agreements;
+  std::vector<OfContact> contacts;
+  std::vector<OfPart> parts;
+  std::vector<Factor> loads, supports;
+  Energy energy;
+  double largest_force = 0.0;
+};
+
+/// `now`: at the stage of the state.
+EndState end_state(const Prepared& now, const State& state);
+
+/// Files of another run are read and written with its directory; throws std::runtime_error if they cannot be written.
+void write_end_state(const std::filesystem::path& directory, EndState end);
+
+/// Where the sides of contacts with large slip are at the start of a model with `restart`; empty if all are where they
+/// are drawn. Throws InputError as state_of_restart().
+mesh::Placement placement_of_restart(const model::Model& model);
+
+/// The state from which the first step of a model with `restart` starts; its mesh is in placement_of_restart(). Throws
+/// InputError, at the place of `restart` in the file, if the other run cannot be read or does not agree with the model.
+State state_of_restart(const Prepared& now);
+
+}  // namespace scabo::analysis

@@ -1,0 +1,125 @@
+// What increments on one mesh have in common, and the state between two of them.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scabo/analysis/state/results.hpp"
+#include "scabo/mesh/mesh.hpp"
+#include "scabo/model/model.hpp"
+#include "scabo/system/contact_system.hpp"
+
+namespace scabo::analysis {
+
+/// Data needed by all increments, computed once.
+struct Prepared {
+  const model::Model& model;
+  const mesh::Mesh& mesh;
+  const system::Structure& structure;
+  const system::ContactSystem& contact;
+  /// Largest nodal force of any load at factor 1: the scale for judging forces, also while all loads are zero.
+  double force_scale = 0.0;
+  /// Of bodies that contacts and ties join, one of them unbounded with a reference point, if no support determines
+  /// where they are.
+  struct Reference {
+    int body = 0;            ///< the unbounded one
+    Matrix N;                ///< 2 x n: displacement of the point by those of the nodes of the body
+    std::vector<int> parts;  ///< of all these bodies
+  };
+  std::vector<Reference> references;
+  std::function<void(const contact::Iteration&)> on_iteration = {};  ///< Options::on_iteration
+  std::vector<char> absent;  ///< per part: not there at this stage of construction (stages.hpp); empty: all are there
+
+  bool is_absent(std::size_t part) const { return !absent.empty() && absent[part] != 0; }
+};
+
+const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::ContactSystem::Pair& at);
+/// The part that a body belongs to.
+const system::BodySystem& part_of(const Prepared& prepared, int body);
+
+/// Displacement of a reference point: the results of its bodies are relative to it, and so are the work of their loads
+/// and the elastic energy. `u`: per part.
+Vec2 displacement_of(const Prepared::Reference& reference, const Prepared& prepared, const std::vector<Vector>& u);
+
+/// Factors of loads and supports at one time, and coefficients of friction.
+struct Factors {
+  std::vector<double> loads, supports;
+  std::vector<double> friction;  ///< of every contact, forward, then backward; empty if no step changes one
+  // Staged construction (stages.hpp):
+  std::vector<double> presence = {};  ///< per body, part of its loads that acts, 0 to 1; empty: all of all
+  double release = 0.0;               ///< part of State::released that acts
+  std::vector<double> fits = {};      ///< per contact, part of its interferences that is there; empty: all of all
+};
+/// Part of its loads that acts on part `p`, 0 to 1.
+double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p);
+Factors between(const Factors& from, const Factors& to, double part);
+/// Initial gap of pair `i`, of which an interference is there in part.
+double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i);
+/// Factors::fits at the end of a step; step -1: before the first.
+std::vector<double> fits_at(const model::Model& model, int step);
+/// Coefficients of friction before the first step; empty if no step changes one.
+std::vector<double> coefficients_at_start(const model::Model& model);
+
+/// How the motions of pairs are counted since they were found anew (large_slip.hpp). All empty before that.
+struct Replacing {
+  mesh::Placement placement;  ///< in which they were found
+  std::vector<Vec2> moved;    ///< per part: translation that State::u does not contain; zero on springs and unbounded
+  Vector offset;              ///< 2N, [n, t]: part of the relative motions that is not in State::u
+  Vector slip_before;         ///< N: slip up to then, not in State::slip
+};
+
+/// An accepted state, which is the history from which the next increment starts. It is a value: an increment that fails
+/// does not change it.
+struct State {
+  Factors factors;
+  Vector p;                  // 2N, contact forces on B
+  Vector a;                  // m, rigid motions
+  Vector gap, slip;          // N; slip since the start
+  contact::History history;  // N, of the laws
+  std::vector<contact::ContactState> states;
+  std::vector<Vector> u;           // per part
+  std::vector<Vector> forces;      // per part: applied forces without contact
+  std::vector<Vector> reactions;   // per part, one for each constraint
+  std::vector<Vector> prescribed;  // per part, one for each constraint
+  // Staged construction (stages.hpp); empty without stages:
+  Vector offset;                 // 2N, [n, t]: added to the motion of a pair, which counts from its placing
+  Vector held_offset;            // the same of held pairs
+  std::vector<Vector> released;  // per part, what removed bodies exerted on it; empty where nothing did
+  std::vector<Vec2> referred;    // per part, displacement of its reference point (outside.hpp) when it was put in place
+  double largest_force = 0.0;    ///< largest force so far, against which forces are judged after failure and unloading
+  Energy energy;
+  Replacing replaced;
+};
+State initial_state(const Prepared& prepared);
+
+/// Laws of the pairs with the coefficients of friction of these factors.
+contact::JointLaws laws_at(const Prepared& prepared, const Factors& factors);
+
+/// Completes a state of which only the history is known (factors, forces and states of the pairs, rigid motions,
+/// energy): displacements, applied forces, reactions and prescribed values follow from it, bit by bit as when the state
+/// was reached. `without_motions`: displacements_without_motions() of the state, if they are known.
+void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions = nullptr);
+
+/// Displacement since the start, along x and y, of the point of a pair that belongs to side 0 (A) or 1 (B).
+Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
+                     int side);
+/// Relative motion, B less A, along x and y, that a pair gets from the translations of its parts, less that of the
+/// placement in which it was found.
+Vec2 unplaced_motion(const Prepared& prepared, const Replacing& replaced, int contact);
+/// Displacements of all parts under the loads, prescribed displacements and contact forces of a state, without rigid
+/// motions.
+std::vector<Vector> displacements_without_motions(const Prepared& prepared, const State& state);
+
+/// Pairs whose points lie on each other, or overlap, as the bodies are drawn.
+std::vector<bool> touching_pairs(const Prepared& prepared);
+
+/// The results of an accepted state.
+IncrementResult describe(const Prepared& prepared, const State& state);
+
+/// `body 'upper': translation along (1, 0)` for rigid motions `a`; of many bodies the four parts that move most, and
+/// how many others.
+std::string describe_motions(const Prepared& prepared, const Vector& a);
+
+}  // namespace scabo::analysis

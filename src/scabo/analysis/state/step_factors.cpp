@@ -1,0 +1,63 @@
+#include "scabo/analysis/state/step_factors.hpp"
+
+#include <algorithm>
+
+namespace scabo::analysis {
+
+namespace {
+
+/// Factors at the start of a step.
+Factors start_of(const model::Model& model, std::size_t step) {
+  const std::vector<double> presence = presence_at(model, static_cast<int>(step) - 1);
+  const double release = takes_away(model, step) ? 1.0 : 0.0;
+  if (step == 0 && model.restart)
+    return {
+        model.restart->load_factors, model.restart->support_factors, coefficients_at_start(model), presence, release,
+        fits_at(model, -1)};
+  if (step == 0)
+    return {std::vector<double>(model.loads.size(), 0.0),
+            std::vector<double>(model.supports.size(), 0.0),
+            coefficients_at_start(model),
+            presence,
+            release,
+            fits_at(model, -1)};
+  const model::Step& before = model.steps[step - 1];
+  return {before.load_factors,
+          before.support_factors,
+          model::coefficients_of(before),
+          presence,
+          release,
+          fits_at(model, static_cast<int>(step) - 1)};
+}
+
+}  // namespace
+
+std::vector<double> presence_at(const model::Model& model, int step) {
+  std::vector<double> presence;
+  if (!model::has_stages(model.bodies)) return presence;
+  for (const model::Body& body : model.bodies) presence.push_back(body.is_there(step) ? 1.0 : 0.0);
+  return presence;
+}
+
+bool takes_away(const model::Model& model, std::size_t step) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [&](const model::Body& body) { return body.removed == static_cast<int>(step); });
+}
+
+Factors factors_in(const model::Model& model, std::size_t index, double s) {
+  const model::Step& step = model.steps[index];
+  Factors factors = between(start_of(model, index),
+                            {step.load_factors, step.support_factors, model::coefficients_of(step),
+                             presence_at(model, static_cast<int>(index)), 0.0, fits_at(model, static_cast<int>(index))},
+                            s);
+  if (s == 1.0) return factors;  // those of the curves
+  const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      if (curves[i] >= 0) of[i] = model::value_of(model.curves[static_cast<std::size_t>(curves[i])], s);
+  };
+  follow(step.load_curves, factors.loads);
+  follow(step.support_curves, factors.supports);
+  return factors;
+}
+
+}  // namespace scabo::analysis

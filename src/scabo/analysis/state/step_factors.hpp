@@ -1,0 +1,19 @@
+// Factors of loads and supports, and coefficients of friction, over the steps of a model.
+#pragma once
+
+#include "scabo/analysis/state/state.hpp"
+
+namespace scabo::analysis {
+
+/// Part of its loads that acts on every body at the end of a step, 0 or 1; step -1: before the first. Empty if no body
+/// is ever absent.
+std::vector<double> presence_at(const model::Model& model, int step);
+
+/// Whether bodies are taken away in a step.
+bool takes_away(const model::Model& model, std::size_t step);
+
+/// At part `s` of a step, 0 to 1: between those at the end of the step before it (or of the run from which this one
+/// starts; zero before the first step) and those of the step, or along curves.
+Factors factors_in(const model::Model& model, std::size_t step, double s);
+
+}  // namespace scabo::analysis
