@@ -202,7 +202,7 @@ TEST(Wall, CarriesNearlyItsCollapsePushInTenIncrements) {
 }
 
 // Forces within the cones balance the push, so that it is no mechanism; but the equilibria that the push passes through
-// end at 0.93 of it (docs/methods/12_contact_solver.md), and no other was found.
+// end at 0.93 of it (benchmarks/blocks/path.py), and no other was found.
 TEST(Wall, WithStrongFrictionFallsBeforeItsLimitLoad) {
   const Blocks blocks{8, 8, 1.0};
   EXPECT_EQ(run(model_of(blocks, 0.92 * blocks.collapse_push(), 1)).outcome, analysis::Outcome::solved);

@@ -1,10 +1,8 @@
-// Solves a discrete contact problem by a sequence of fallback strategies; each reports why it stopped
-// (docs/methods/12_contact_solver.md).
+// Solves a discrete contact problem in three stages; each reports why it stopped (docs/methods/12_contact_solver.md).
 //
-// Newton on the B-differentiable equations is tried from several starts: the forces of the previous increment, a few
-// sweeps of Gauss-Seidel, the frictionless solution and increasing friction, a proximal point iteration whose terms
-// vanish, Lemke's pivoting, other values of r. Whatever the start, the last solve is Newton on the original problem.
-// The result is solved, as confirmed by contact/judge, or its status and reason say why not.
+// Newton's method on the B-differentiable equations, interior points with Newton's method after them, and sweeps of
+// Gauss-Seidel (stages.hpp). Motions that no pair feels are taken out before (neutral_motions.hpp). The result is
+// solved, as confirmed by contact/judge, or its status and reason say why not.
 #pragma once
 
 #include <functional>
@@ -18,7 +16,7 @@ namespace scabo::contact {
 
 struct SolverOptions {
   double tolerance = 1e-10;          ///< of the judge, dimensionless
-  Judge judge = Judge::certificate;  ///< natural_map: W may be rank deficient, so that sweeps come first
+  Judge judge = Judge::certificate;  ///< natural_map: W may be rank deficient
   int iterations = 50;               ///< of Newton in one attempt, > 0
   double r_factor = 1.0;             ///< r = r_factor / W_ii; the solution does not depend on it
   double force_scale = 0.0;          ///< largest applied force, >= 0: part of the scale of forces

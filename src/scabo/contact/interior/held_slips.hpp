@@ -1,5 +1,5 @@
 // Interior points with slips held: the law as a fixed point of convex problems, for stacks of rigid bodies where
-// neither sweeps nor interior points (interior_points.hpp) reach a solution.
+// interior points of the law itself (interior_points.hpp) reach no solution.
 //
 // With the lifts mu s of the pairs held, s their slips, the conditions of interior_steps.hpp with
 //

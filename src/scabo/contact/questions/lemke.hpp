@@ -1,6 +1,6 @@
 // Lemke's pivoting method for plane friction, written as a linear complementarity problem. It needs no start and does
-// not iterate, but every pivot costs the square of the number of pairs, and rounding accumulates. It provides the last
-// start for Newton.
+// not iterate, but every pivot costs the square of the number of pairs, and rounding accumulates. Where it ends on a
+// ray there may be no solution, which is told of problems that were not solved (uniqueness.hpp).
 //
 //     [g; l + ds; l - ds; mu p_n - b+ - b-]  perpendicular to  [p_n; b+; b-; l] >= 0,   p_t = b+ - b-
 //
