@@ -34,6 +34,11 @@ ALLOWED = {
 PLAIN_VALUES = ["linalg/parallel.hpp", "contact/delassus.hpp", "contact/rigid_map.hpp", "contact/problem.hpp",
                 "contact/solution.hpp", "contact/certificate.hpp"]
 
+# Rooms of a part, in order: each includes itself and those before it, and never a file beside the rooms, which composes
+# them. Schemes of the march never include each other.
+ROOMS = {"analysis": ["state", "diagnostics", "march", "quasistatic", "modal", "adaptive"]}
+SCHEMES = ["quasistatic", "modal"]
+
 SUFFIXES = {".hpp", ".cpp", ".h", ".cc"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 
@@ -58,10 +63,26 @@ def violation_of_part(part, header, included):
         if target == "base" or included in PLAIN_VALUES:
             return None
         return "a header of plain values includes only base/ and other plain values"
-    if target == part or target in ALLOWED[part] or (part == "result" and included in PLAIN_VALUES):
+    if target == part:
+        return violation_of_room(part, header, included)
+    if target in ALLOWED[part] or (part == "result" and included in PLAIN_VALUES):
         return None
     allowed = ", ".join(f"{name}/" for name in ALLOWED[part]) or "no other part"
     return f"{part}/ may include {allowed}, not {target}/"
+
+
+def violation_of_room(part, header, included):
+    """The same for two files of one part."""
+    rooms = ROOMS.get(part, [])
+    own, target = (name.split("/")[1] for name in (header, included))
+    if own not in rooms:
+        return None
+    if target not in rooms:
+        return f"{part}/{own}/ may not include what composes the rooms of {part}/"
+    before = rooms[: rooms.index(own) + 1]
+    if target in before and not (own in SCHEMES and target in SCHEMES and own != target):
+        return None
+    return f"{part}/{own}/ may not include {part}/{target}/"
 
 
 def violations(root):
@@ -113,7 +134,11 @@ class SelfTest(unittest.TestCase):
         "mesh/mesh.hpp": ["model/model.hpp"],
         "element/stiffness.hpp": ["mesh/mesh.hpp", "linalg/dense.hpp"],
         "system/system.hpp": ["element/stiffness.hpp", "contact/newton.hpp"],
-        "analysis/static.hpp": ["system/system.hpp"],
+        "analysis/state/state.hpp": ["system/system.hpp"],
+        "analysis/march/steps.hpp": ["analysis/state/state.hpp"],
+        "analysis/quasistatic/run.hpp": ["analysis/march/steps.hpp", "analysis/state/state.hpp"],
+        "analysis/modal/modal.hpp": ["analysis/march/steps.hpp"],
+        "analysis/static.hpp": ["analysis/quasistatic/run.hpp", "system/system.hpp"],
         "result/tables.hpp": ["contact/solution.hpp", "mesh/mesh.hpp", "analysis/static.hpp"],
     }
 
@@ -146,6 +171,10 @@ class SelfTest(unittest.TestCase):
             ("src/scabo/linalg/dense.cpp", '#include "scabo/mesh/mesh.hpp"', "not mesh/"),
             ("src/scabo/base/log.cpp", '#include "scabo/linalg/dense.hpp"', "no other part"),
             ("src/scabo/system/load.cpp", '#include "scabo/analysis/static.hpp"', "not analysis/"),
+            ("src/scabo/analysis/state/state.hpp", '#include "scabo/analysis/march/steps.hpp"', "not include analysis/march/"),
+            ("src/scabo/analysis/march/steps.hpp", '#include "scabo/analysis/static.hpp"', "composes the rooms"),
+            ("src/scabo/analysis/modal/modal.hpp", '#include "scabo/analysis/quasistatic/run.hpp"',
+             "not include analysis/quasistatic/"),
             ("src/scabo/result/vtu.cpp", '#include "scabo/contact/newton.hpp"', "not contact/"),
             ("src/scabo/result/vtu.cpp", '#include "scabo/linalg/dense.hpp"', "not linalg/"),
             ("src/scabo/result/vtu.cpp", '#include "scabo/system/system.hpp"', "not system/"),

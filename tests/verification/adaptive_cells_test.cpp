@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "scabo/analysis/adaptive/adaptive.hpp"
+#include "scabo/analysis/quasistatic/run.hpp"
 #include "scabo/mesh/division.hpp"
 #include "verification/models.hpp"
 #include "verification/run.hpp"

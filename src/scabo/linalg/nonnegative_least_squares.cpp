@@ -12,7 +12,7 @@ Vector nonnegative_least_squares(const Matrix& A, const Vector& b) {
   Vector x = Vector::Zero(n);
   if (n == 0 || A.rows() == 0) return x;
   std::vector<int> passive;  // the x that may be positive
-  const double small = 1e-13 * A.colwise().norm().maxCoeff() * b.norm();
+  const double small = 1e-15 * A.colwise().norm().maxCoeff() * b.norm();  // rounding of the gradient
   for (Eigen::Index round = 0; round < 3 * n + 10; ++round) {
     Vector gradient = A.transpose() * (b - A * x);
     for (int j : passive) gradient[j] = -1.0;

@@ -110,7 +110,7 @@ class Axes {
 };
 
 /// Whether an iteration belongs to a problem of fewer pairs, which makes the start (stage `newton, 65 pairs`).
-bool is_coarse(const contact::Iteration& at) { return at.stage.ends_with(" pairs"); }
+bool is_coarse(const contact::Iteration& at) { return at.stage.find(',') != std::string::npos; }
 
 /// With more points than this the curve would be hidden.
 constexpr std::size_t most_points = 200;

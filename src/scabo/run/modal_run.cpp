@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "scabo/analysis/static_analysis.hpp"
 #include "scabo/result/modal_results.hpp"
 #include "scabo/result/results_directory.hpp"
 #include "scabo/run/failures.hpp"

@@ -174,7 +174,7 @@ Matrix ElasticBody::flexibility_along(const std::vector<int>& dofs, bool refines
   // The factor alone gives it to about its condition times the unit of rounding. Where soft springs or soft parts hold
   // a body, contact takes most of it away again, and the error grows with the square.
   const double condition = has_springs() ? 1e4 : 1e5;
-  constexpr double most_entries = 1e9;  // some seconds; above, analysis/softly_held corrects what it can
+  constexpr double most_entries = 1e9;  // some seconds; above, analysis/diagnostics/softly_held corrects what it can
   const double here = at.empty() ? 0.0 : factored_->largest_diagonal * A.diagonal().maxCoeff();
   const double entries = stiffness().entries() * static_cast<double>(at.size());
   if (refines && here > condition && entries < most_entries) {

@@ -29,7 +29,7 @@ struct Richer {
 constexpr Richer same_elements{1.0, 1}, halved{0.5, 1}, halved_and_raised{0.5, 2}, raised_twice{1.0, 2},
     raised_thrice{1.0, 3};
 
-constexpr int highest_order = 16;
+constexpr int richest_order = 16;
 
 /// Order of the sides of a body; mesh.order is the least one of a mesh from a file.
 int order_of(const model::Body& body) {
@@ -54,7 +54,7 @@ model::Model enriched_model(model::Model model, const Richer& richer) {
     mesh.size *= richer.size;
     mesh.min_size *= richer.size;
     for (model::LocalSize& local : mesh.refine) local.size *= richer.size;
-    if (mesh.kind != model::MeshKind::fem) mesh.order = std::min(order_of(body) + richer.raised, highest_order);
+    if (mesh.kind != model::MeshKind::fem) mesh.order = std::min(order_of(body) + richer.raised, richest_order);
   }
   return model;
 }
@@ -72,7 +72,7 @@ mesh::Division enriched_division(mesh::Division division, const Richer& richer) 
           fine.breaks.push_back(part == parts
                                     ? edge.breaks[k + 1]
                                     : std::lerp(edge.breaks[k], edge.breaks[k + 1], static_cast<double>(part) / parts));
-          fine.orders.push_back(std::min(edge.orders[k] + richer.raised, highest_order));
+          fine.orders.push_back(std::min(edge.orders[k] + richer.raised, richest_order));
         }
       edge = std::move(fine);
     }

@@ -10,6 +10,7 @@
 #include <Eigen/SparseCore>
 #include <string>
 
+#include "scabo/analysis/state/solution.hpp"
 #include "scabo/analysis/state/state.hpp"
 
 namespace scabo::analysis {

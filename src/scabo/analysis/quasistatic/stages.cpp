@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scabo/analysis/state/balance.hpp"
+#include "scabo/analysis/state/step_factors.hpp"
 
 namespace scabo::analysis {
 

@@ -108,6 +108,14 @@ Vector resisting(const Problem& problem, const Vector& v) {
   return problem.G.transpose() * p;
 }
 
+/// Whether forces of up to ten times the loads along the rays work less on v than `work`, what the loads that they
+/// leave unbalanced do: least squares end where no ray reduces the residual by more than rounding, and with hardly any
+/// friction the rays that would reduce it are below that.
+bool separates(const Matrix& rays, const Vector& v, double work, double loads) {
+  constexpr double most_forces = 10.0;
+  return rays.cols() == 0 || (rays.transpose() * v).maxCoeff() * most_forces * loads < work;
+}
+
 /// With cohesion and tension the forces of a pair are no cone. Their convex hull is p_0 + Coulomb's cone over p_0 =
 /// [-c_t, at most c along the tangents]; what balances no point of the hull balances no force. Extreme points of the
 /// sum of the p_0 are made as they are needed: with weights that sum to 1 they are columns like the rays.
@@ -133,7 +141,9 @@ std::optional<Vector> mechanism_against_strengths(const Problem& problem, const 
     // Were there balance, |residual|^2 = residual'b would be at most this, the weights being 1 in all; half is for
     // rounding.
     const double most_of_hull = v.dot(resisting(problem, v)) + scale * residual[m];
-    if (most_of_hull <= 0.5 * residual.squaredNorm()) return slide_of(problem, -v.normalized());
+    if (most_of_hull <= 0.5 * residual.squaredNorm())
+      return separates(cone, v, residual.squaredNorm(), scale) ? std::optional(slide_of(problem, -v.normalized()))
+                                                               : std::nullopt;
     A.conservativeResize(Eigen::NoChange, A.cols() + 1);
     add(A.cols() - 1, v);
   }
@@ -198,7 +208,9 @@ std::optional<Vector> mechanism_of(const Problem& problem) {
   if (problem.cohesion.size() > 0 || problem.tension.size() > 0) return mechanism_against_strengths(problem, rays);
   const Vector strengths = linalg::nonnegative_least_squares(rays, -problem.f);
   const Vector unbalanced = problem.f + rays * strengths;  // f'unbalanced = |unbalanced|^2 > 0, rays'unbalanced >= 0
-  if (unbalanced.norm() <= 1e-9 * problem.f.norm()) return std::nullopt;
+  if (unbalanced.norm() <= 1e-9 * problem.f.norm() ||
+      !separates(rays, -unbalanced, unbalanced.squaredNorm(), problem.f.norm()))
+    return std::nullopt;
   return slide_of(problem, unbalanced.normalized());
 }
 
