@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scabo/analysis/state/balance.hpp"
+#include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 
 namespace scabo::analysis {
@@ -40,30 +41,23 @@ Vector motion_under(const std::vector<Eigen::SparseMatrix<double>>& motion, cons
   return sum;
 }
 
-/// Offsets of the pairs of the new stage: those of the stage before, and minus the motion so far of the new ones.
-Vector offsets(const std::vector<Pair>& before, const Vector& offset_before, const std::vector<Pair>& pairs,
-               const Vector& motion) {
+/// Of each pair its place among those of the stage before; -1 if it is new.
+std::vector<Eigen::Index> places_before(const std::vector<Pair>& before, const std::vector<Pair>& pairs) {
   const auto number = numbers_of(before);
-  Vector offset(static_cast<Eigen::Index>(2 * pairs.size()));
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(2 * i);
-    const auto known = number.find({pairs[i].contact, pairs[i].index});
-    if (known == number.end())
-      offset.segment<2>(row) = -motion.segment<2>(row);
-    else if (offset_before.size() > 0)
-      offset.segment<2>(row) = offset_before.segment<2>(2 * known->second);
-    else
-      offset.segment<2>(row).setZero();
+  std::vector<Eigen::Index> places;
+  for (const Pair& pair : pairs) {
+    const auto known = number.find({pair.contact, pair.index});
+    places.push_back(known == number.end() ? -1 : known->second);
   }
-  return offset;
+  return places;
 }
 
-/// Values of pairs or motions carried over; those that are new are zero.
-template <typename T>
-std::vector<T> carried(const std::vector<T>& from, const std::vector<Eigen::Index>& number, const T& otherwise) {
-  std::vector<T> to;
-  for (const Eigen::Index k : number) to.push_back(k < 0 ? otherwise : from[static_cast<std::size_t>(k)]);
-  return to;
+/// A pair counts its motion from its placing: minus the motion so far of the new ones.
+void set_offsets(const std::vector<Eigen::Index>& places, const Vector& motion, Vector& offset) {
+  if (offset.size() == 0) offset = Vector::Zero(motion.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (const auto row = static_cast<Eigen::Index>(2 * i); places[i] < 0)
+      offset.segment<2>(row) = -motion.segment<2>(row);
 }
 
 /// Takes the bodies of parts that are no longer there out of a state: what they exerted on the others is released.
@@ -135,38 +129,22 @@ void Stages::enter(std::size_t step, State& state) {
   set(std::move(absent));
   const system::ContactSystem& contact = now().contact;
 
-  const auto N = static_cast<Eigen::Index>(contact.pairs.size());
-  state.offset = offsets(pairs_before, state.offset, contact.pairs, motion_under(contact.motion, state.u, 2 * N));
-  state.held_offset =
-      offsets(held_before, state.held_offset, contact.held,
-              motion_under(contact.held_motion, state.u, static_cast<Eigen::Index>(2 * contact.held.size())));
-  const auto number = numbers_of(pairs_before);
-  std::vector<Eigen::Index> before;
-  for (const Pair& pair : contact.pairs) {
-    const auto known = number.find({pair.contact, pair.index});
-    before.push_back(known == number.end() ? -1 : known->second);
-  }
-  Vector p = Vector::Zero(2 * N), slip = Vector::Zero(N), gap = contact.gap;
-  for (Eigen::Index i = 0; i < N; ++i) {
-    const Eigen::Index k = before[static_cast<std::size_t>(i)];
-    if (k < 0) continue;
-    p.segment<2>(2 * i) = state.p.segment<2>(2 * k);
-    slip[i] = state.slip[k];
-    gap[i] = state.gap[k];
-  }
-  state.p = std::move(p);
-  state.slip = std::move(slip);
-  state.gap = std::move(gap);
-  state.history = carried(state.history, before, {});
-  state.states = carried(state.states, before, contact::ContactState::open);
-  Vector a = Vector::Zero(contact.rigid_motions());
+  ParentMaps maps{places_before(pairs_before, contact.pairs), places_before(held_before, contact.held), {}};
+  maps.rigid_motions.assign(static_cast<std::size_t>(contact.rigid_motions()), -1);
   for (std::size_t part = 0; part < whole_.structure.parts.size(); ++part) {
-    const Eigen::Index m = whole_.structure.parts[part]->rigid_motions().cols();
     const bool was_absent = !absent_before.empty() && absent_before[part];
-    if (m == 0 || was_absent || now().is_absent(part)) continue;
-    a.segment(contact.first_rigid[part], m) = state.a.segment(first_before[part], m);
+    if (was_absent || now().is_absent(part)) continue;
+    for (Eigen::Index k = 0; k < whole_.structure.parts[part]->rigid_motions().cols(); ++k)
+      maps.rigid_motions[static_cast<std::size_t>(contact.first_rigid[part] + k)] = first_before[part] + k;
   }
-  state.a = std::move(a);
+  state = transfer(std::move(state), maps);
+  for (std::size_t i = 0; i < maps.pairs.size(); ++i)
+    if (maps.pairs[i] < 0) state.gap[static_cast<Eigen::Index>(i)] = contact.gap[static_cast<Eigen::Index>(i)];
+  set_offsets(maps.pairs, motion_under(contact.motion, state.u, static_cast<Eigen::Index>(2 * contact.pairs.size())),
+              state.offset);
+  set_offsets(maps.held_pairs,
+              motion_under(contact.held_motion, state.u, static_cast<Eigen::Index>(2 * contact.held.size())),
+              state.held_offset);
 }
 
 }  // namespace scabo::analysis

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/increment_record.hpp"
 #include "scabo/analysis/state/sealed_file.hpp"
 
@@ -64,80 +65,14 @@ void exchange_results(Io& io, WrittenResults& results) {
 }
 
 template <typename Io>
-void exchange_points(Io& io, const std::string& path, std::vector<Vec2>& points) {
-  std::vector<double> numbers;
-  for (const Vec2& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
-  io.numbers(path, numbers);
-  if constexpr (Io::reads) {
-    points.clear();
-    for (std::size_t k = 0; k < numbers.size(); k += 2) points.emplace_back(numbers.at(k), numbers.at(k + 1));
-  }
-}
-
-/// The mesh is divided again as it was: it follows from the placement.
-template <typename Io>
-void exchange_replacing(Io& io, Replacing& replaced) {
-  std::vector<double> placement;
-  for (const std::array<Vec2, 2>& sides : replaced.placement)
-    for (const Vec2& by : sides) placement.insert(placement.end(), by.begin(), by.end());
-  io.numbers("state/replaced/placement", placement);
-  exchange_points(io, "state/replaced/moved", replaced.moved);
-  exchange_vector(io, "state/replaced/offset", replaced.offset);
-  exchange_vector(io, "state/replaced/slip_before", replaced.slip_before);
-  if constexpr (Io::reads) {
-    replaced.placement.clear();
-    for (std::size_t k = 0; k < placement.size(); k += 4)
-      replaced.placement.push_back(
-          {Vec2(placement.at(k), placement.at(k + 1)), Vec2(placement.at(k + 2), placement.at(k + 3))});
-  }
-}
-
-template <typename Io>
 void exchange_state(Io& io, RunState& run) {
   exchange_integer(io, "state/step", run.step);
   exchange_integer(io, "state/increment", run.progress.increment);
   exchange_scalars(io, "state/progress", {&run.progress.reached, &run.progress.size, &run.progress.limit});
-  State& state = run.state;
-  io.numbers("state/load_factors", state.factors.loads);
-  io.numbers("state/support_factors", state.factors.supports);
-  io.numbers("state/coefficients_of_friction", state.factors.friction);
-  io.numbers("state/presence", state.factors.presence);
-  exchange_scalars(io, "state/release", {&state.factors.release});
-  io.numbers("state/fits", state.factors.fits);
-  exchange_vector(io, "state/offset", state.offset);
-  exchange_vector(io, "state/held_offset", state.held_offset);
-  state.released.resize(exchange_count(io, "state/released/count", state.released.size()));
-  for (std::size_t part = 0; part < state.released.size(); ++part)
-    exchange_vector(io, fmt::format("state/released/{}", part), state.released[part]);
-  exchange_points(io, "state/referred", state.referred);
-  exchange_vector(io, "state/p", state.p);
-  exchange_vector(io, "state/a", state.a);
-  exchange_vector(io, "state/gap", state.gap);
-  exchange_vector(io, "state/slip", state.slip);
-  exchange_scalars(
-      io, "state/energy",
-      {&state.energy.external, &state.energy.elastic, &state.energy.friction, &state.energy.friction_error});
-  exchange_scalars(io, "state/largest_force", {&state.largest_force});
-  exchange_replacing(io, state.replaced);
-  std::vector<int> states, broken, slipped;
-  std::vector<double> accumulated;
-  for (const contact::ContactState of_pair : state.states) states.push_back(static_cast<int>(of_pair));
-  for (const contact::PairHistory& of_pair : state.history) {
-    accumulated.push_back(of_pair.slip);
-    broken.push_back(of_pair.broken);
-    slipped.push_back(of_pair.slipped);
-  }
-  io.integers("state/states", states);
-  io.numbers("state/accumulated_slip", accumulated);
-  io.integers("state/broken", broken);
-  io.integers("state/slipped", slipped);
-  if constexpr (Io::reads) {
-    state.states.clear();
-    state.history.clear();
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      state.states.push_back(static_cast<contact::ContactState>(states[i]));
-      state.history.push_back({accumulated.at(i), broken.at(i) != 0, slipped.at(i) != 0});
-    }
+  for (const Field& field : fields_of_state()) {
+    std::vector<double> numbers = field.get(run.state);
+    io.numbers("state/" + field.name, numbers);
+    if constexpr (Io::reads) field.set(run.state, numbers);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <type_traits>
 
+#include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/sealed_file.hpp"
 #include "scabo/model/restart_files.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "4";
+constexpr const char* end_version = "5";
 
 /// Digest of numbers and texts, one after the other.
 class Fingerprint {
@@ -144,33 +145,21 @@ void exchange_list(Io& io, const std::string& path, std::vector<T>& list, const 
   for (std::size_t i = 0; i < list.size(); ++i) exchange(fmt::format("{}/{}", path, i), list[i]);
 }
 
+/// Whether the entries of a field are kept with a contact, with a part or with neither.
+bool is_of_contact(const Field& field) {
+  return field.lasts &&
+         (field.owner == Owner::pair || field.owner == Owner::held_pair || field.owner == Owner::contact);
+}
+bool is_of_part(const Field& field) {
+  return field.lasts && (field.owner == Owner::part || field.owner == Owner::rigid_motion);
+}
+bool is_of_whole(const Field& field) { return field.lasts && field.owner == Owner::whole; }
+
 template <typename Io>
-void exchange_pairs(Io& io, const std::string& path, EndState::OfContact& of) {
-  io.text(path + "/name", of.name);
-  exchange_vector(io, path + "/p", of.p);
-  exchange_vector(io, path + "/gap", of.gap);
-  exchange_vector(io, path + "/slip", of.slip);
-  exchange_vector(io, path + "/offset", of.offset);
-  exchange_vector(io, path + "/held_offset", of.held_offset);
-  exchange_vector(io, path + "/replaced_offset", of.replaced_offset);
-  exchange_vector(io, path + "/slip_before", of.slip_before);
-  io.numbers(path + "/placement", of.placement);
-  std::vector<int> states, flags;
-  std::vector<double> accumulated;
-  for (const contact::ContactState state : of.states) states.push_back(static_cast<int>(state));
-  for (const contact::PairHistory& pair : of.history) {
-    accumulated.push_back(pair.slip);
-    flags.push_back(2 * pair.broken + pair.slipped);
-  }
-  io.integers(path + "/states", states);
-  io.numbers(path + "/accumulated_slip", accumulated);
-  io.integers(path + "/flags", flags);
-  if constexpr (Io::reads) {
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      of.states.push_back(static_cast<contact::ContactState>(states[i]));
-      of.history.push_back({accumulated.at(i), (flags.at(i) & 2) != 0, (flags.at(i) & 1) != 0});
-    }
-  }
+void exchange_fields(Io& io, const std::string& path, bool (*is_one)(const Field&),
+                     std::map<std::string, std::vector<double>>& of) {
+  for (const Field& field : fields_of_state())
+    if (is_one(field)) io.numbers(path + field.name, of[field.name]);
 }
 
 template <typename Io>
@@ -179,16 +168,16 @@ void exchange_end(Io& io, EndState& end) {
   exchange_list(io, "agreements", end.agreements, [&](const std::string& path, EndState::Agreement& of) {
     io.text(path + "/what", of.what), io.text(path + "/digest", of.digest);
   });
-  exchange_list(io, "contacts", end.contacts,
-                [&](const std::string& path, EndState::OfContact& of) { exchange_pairs(io, path, of); });
-  exchange_list(io, "parts", end.parts, [&](const std::string& path, EndState::OfPart& of) {
-    io.text(path + "/body", of.body), exchange_vector(io, path + "/a", of.a);
-    io.numbers(path + "/moved", of.moved);
-    io.numbers(path + "/referred", of.referred);
-  });
-  exchange_scalars(io, "energy",
-                   {&end.energy.external, &end.energy.elastic, &end.energy.friction, &end.energy.friction_error});
-  exchange_scalars(io, "largest_force", {&end.largest_force});
+  const auto exchange_named = [&](const std::string& section, std::vector<EndState::Of>& list,
+                                  bool (*is_one)(const Field&)) {
+    exchange_list(io, section, list, [&](const std::string& path, EndState::Of& of) {
+      io.text(path + "/name", of.name);
+      exchange_fields(io, path + "/", is_one, of.fields);
+    });
+  };
+  exchange_named("contacts", end.contacts, is_of_contact);
+  exchange_named("parts", end.parts, is_of_part);
+  exchange_fields(io, "state/", is_of_whole, end.whole);
 }
 
 /// Positions of the pairs of a contact in the list of all.
@@ -200,21 +189,61 @@ std::vector<Eigen::Index> places_of_contact(const std::vector<system::ContactSys
   return places;
 }
 
-/// `values` for each of some pairs; nothing if there are none at all.
-Vector selected(const Vector& from, const std::vector<Eigen::Index>& places, Eigen::Index values) {
-  if (from.size() == 0) return {};
-  Vector some(values * static_cast<Eigen::Index>(places.size()));
-  for (std::size_t i = 0; i < places.size(); ++i)
-    some.segment(values * static_cast<Eigen::Index>(i), values) = from.segment(values * places[i], values);
+/// Where the entries of a field are that belong to a contact, or to a part.
+using Places = std::vector<Eigen::Index>;
+Places places_in_contact(const Prepared& now, const Field& field, std::size_t contact) {
+  if (field.owner == Owner::contact) return {static_cast<Eigen::Index>(contact)};
+  return places_of_contact(field.owner == Owner::pair ? now.contact.pairs : now.contact.held, contact);
+}
+Places places_in_part(const Prepared& now, const Field& field, std::size_t part) {
+  if (field.owner == Owner::part) return {static_cast<Eigen::Index>(part)};
+  Places places;
+  for (Eigen::Index k = 0; k < now.structure.parts[part]->rigid_motions().cols(); ++k)
+    places.push_back(now.contact.first_rigid[part] + k);
+  return places;
+}
+
+/// How many entries a field has on this structure.
+std::size_t entries_of(const Prepared& now, const Field& field) {
+  switch (field.owner) {
+    case Owner::pair:
+      return now.contact.pairs.size();
+    case Owner::held_pair:
+      return now.contact.held.size();
+    case Owner::rigid_motion:
+      return static_cast<std::size_t>(now.contact.rigid_motions());
+    case Owner::contact:
+      return now.model.contacts.size();
+    case Owner::part:
+      return now.structure.parts.size();
+    case Owner::whole:
+      break;
+  }
+  return 1;
+}
+
+/// The entries of a field at some places; nothing if the field is empty.
+std::vector<double> selected(const std::vector<double>& from, const Places& places, int count) {
+  std::vector<double> some;
+  for (std::size_t i = 0; i < places.size() && !from.empty(); ++i)
+    for (int k = 0; k < count; ++k) some.push_back(from.at(static_cast<std::size_t>(places[i] * count + k)));
   return some;
 }
-void put(const Vector& some, const std::vector<Eigen::Index>& places, Eigen::Index values, Vector& to,
-         Eigen::Index size) {
-  if (some.size() == 0) return;
-  ensure(some.size() == values * static_cast<Eigen::Index>(places.size()), "a contact has as many pairs as before");
-  if (to.size() == 0) to = Vector::Zero(size);
+void put(const std::vector<double>& some, const Places& places, int count, std::vector<double>& to, std::size_t size) {
+  if (some.empty()) return;
+  ensure(some.size() == static_cast<std::size_t>(count) * places.size(), "a contact or part has as many as before");
+  if (to.empty()) to.resize(size, 0.0);
   for (std::size_t i = 0; i < places.size(); ++i)
-    to.segment(values * places[i], values) = some.segment(values * static_cast<Eigen::Index>(i), values);
+    for (int k = 0; k < count; ++k)
+      to.at(static_cast<std::size_t>(places[i] * count + k)) =
+          some[i * static_cast<std::size_t>(count) + static_cast<std::size_t>(k)];
+}
+
+/// Numbers that are kept under a name; nothing if there are none.
+const std::vector<double>& kept(const std::map<std::string, std::vector<double>>& of, const std::string& name) {
+  static const std::vector<double> none;
+  const auto found = of.find(name);
+  return found == of.end() ? none : found->second;
 }
 
 [[noreturn]] void refuse(const model::Model& model, std::vector<std::string> messages) {
@@ -229,14 +258,14 @@ void check_large_slip(const model::Model& model, const EndState& end) {
   std::vector<std::string> messages;
   for (const model::Contact& contact : model.contacts) {
     const auto of = std::find_if(end.contacts.begin(), end.contacts.end(),
-                                 [&](const EndState::OfContact& there) { return there.name == contact.name; });
+                                 [&](const EndState::Of& there) { return there.name == contact.name; });
     if (of == end.contacts.end()) continue;
     if (!contact.large_slip &&
-        std::any_of(of->placement.begin(), of->placement.end(), [](double x) { return x != 0.0; }))
+        std::ranges::any_of(kept(of->fields, "replaced/placement"), [](double x) { return x != 0.0; }))
       messages.push_back(
           fmt::format("the sides of contact '{}' have passed each other in {}: give it 'slip: large' here too",
                       contact.name, directory));
-    if (contact.large_slip && of->offset.size() > 0)
+    if (contact.large_slip && !kept(of->fields, "offset").empty())
       messages.push_back(
           fmt::format("contact '{}' cannot have 'slip: large' here, because bodies were added or removed "
                       "in {}: make one model of both without stages",
@@ -266,18 +295,15 @@ EndState read_end(const model::Model& model) {
   return end;
 }
 
-Vec2 vector_at(const std::vector<double>& numbers, std::size_t first) {
-  return {numbers.at(first), numbers.at(first + 1)};
-}
-
 /// In the placement of a model; empty if no pairs were found anew.
 mesh::Placement placement_at_end(const model::Model& model, const EndState& end) {
   mesh::Placement placement;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    for (const EndState::OfContact& of : end.contacts) {
-      if (of.name != model.contacts[c].name || of.placement.empty()) continue;
+    for (const EndState::Of& of : end.contacts) {
+      const std::vector<double>& by = kept(of.fields, "replaced/placement");
+      if (of.name != model.contacts[c].name || by.empty()) continue;
       if (placement.empty()) placement.assign(model.contacts.size(), {Vec2::Zero(), Vec2::Zero()});
-      placement[c] = {vector_at(of.placement, 0), vector_at(of.placement, 2)};
+      placement[c] = {Vec2(by.at(0), by.at(1)), Vec2(by.at(2), by.at(3))};
     }
   return placement;
 }
@@ -316,44 +342,60 @@ std::vector<std::string> disagreements(const std::vector<EndState::Agreement>& t
 
 }  // namespace
 
+namespace {
+
+std::vector<std::size_t> present_parts(const Prepared& now) {
+  std::vector<std::size_t> parts;
+  for (std::size_t p = 0; p < now.structure.parts.size(); ++p)
+    if (!now.is_absent(p)) parts.push_back(p);
+  return parts;
+}
+
+const std::string& name_of_part(const Prepared& now, std::size_t part) {
+  return now.model.bodies[static_cast<std::size_t>(now.structure.dofs.bodies_of(part).front())].name;
+}
+
+const EndState::Of* find(const std::vector<EndState::Of>& list, const std::string& name) {
+  const auto found = std::ranges::find(list, name, &EndState::Of::name);
+  return found == list.end() ? nullptr : &*found;
+}
+
+/// A field of the state at the start of a model, from the end of the other run.
+void continue_field(const Prepared& now, const EndState& end, const Field& field, State& state) {
+  std::vector<double> numbers = field.get(state);
+  const std::size_t size = static_cast<std::size_t>(field.count) * entries_of(now, field);
+  if (is_of_whole(field)) numbers = kept(end.whole, field.name);
+  for (std::size_t c = 0; c < now.model.contacts.size() && is_of_contact(field); ++c)
+    if (const EndState::Of* of = find(end.contacts, now.model.contacts[c].name))
+      put(kept(of->fields, field.name), places_in_contact(now, field, c), field.count, numbers, size);
+  for (const std::size_t p : present_parts(now))
+    if (const EndState::Of* of = is_of_part(field) ? find(end.parts, name_of_part(now, p)) : nullptr)
+      put(kept(of->fields, field.name), places_in_part(now, field, p), field.count, numbers, size);
+  field.set(state, numbers);
+}
+
+}  // namespace
+
 EndState end_state(const Prepared& now, const State& state) {
   EndState end;
   end.version = end_version;
   end.agreements = agreements_of(now, state);
-  for (std::size_t c = 0; c < now.model.contacts.size(); ++c) {
-    const auto places = places_of_contact(now.contact.pairs, c), held = places_of_contact(now.contact.held, c);
-    EndState::OfContact& of = end.contacts.emplace_back();
-    of.name = now.model.contacts[c].name;
-    of.p = selected(state.p, places, 2);
-    of.gap = selected(state.gap, places, 1);
-    of.slip = selected(state.slip, places, 1);
-    of.offset = selected(state.offset, places, 2);
-    of.held_offset = selected(state.held_offset, held, 2);
-    of.replaced_offset = selected(state.replaced.offset, places, 2);
-    of.slip_before = selected(state.replaced.slip_before, places, 1);
-    if (!state.replaced.placement.empty())
-      for (const Vec2& by : state.replaced.placement[c]) of.placement.insert(of.placement.end(), by.begin(), by.end());
-    for (const Eigen::Index place : places) {
-      of.history.push_back(state.history[static_cast<std::size_t>(place)]);
-      of.states.push_back(state.states[static_cast<std::size_t>(place)]);
-    }
-  }
-  for (std::size_t p = 0; p < now.structure.parts.size(); ++p) {
-    if (now.is_absent(p)) continue;
-    const Eigen::Index m = now.structure.parts[p]->rigid_motions().cols();
-    const auto body = static_cast<std::size_t>(now.structure.dofs.bodies_of(p).front());
-    EndState::OfPart& of = end.parts.emplace_back();
-    of.body = now.model.bodies[body].name;
-    of.a = state.a.segment(now.contact.first_rigid[p], m);
-    if (!state.replaced.moved.empty()) of.moved.assign(state.replaced.moved[p].begin(), state.replaced.moved[p].end());
-    if (!state.referred.empty()) of.referred.assign(state.referred[p].begin(), state.referred[p].end());
+  for (const model::Contact& contact : now.model.contacts) end.contacts.push_back({contact.name, {}});
+  for (const std::size_t p : present_parts(now)) end.parts.push_back({name_of_part(now, p), {}});
+  for (const Field& field : fields_of_state()) {
+    const std::vector<double> numbers = field.get(state);
+    if (is_of_whole(field)) end.whole[field.name] = numbers;
+    for (std::size_t c = 0; c < end.contacts.size() && is_of_contact(field); ++c)
+      end.contacts[c].fields[field.name] = selected(numbers, places_in_contact(now, field, c), field.count);
+    std::size_t number = 0;
+    for (const std::size_t p : present_parts(now))
+      if (is_of_part(field))
+        end.parts[number++].fields[field.name] = selected(numbers, places_in_part(now, field, p), field.count);
   }
   for (std::size_t i = 0; i < now.model.loads.size(); ++i)
     end.loads.push_back({now.model.loads[i].name, state.factors.loads[i]});
   for (std::size_t i = 0; i < now.model.supports.size(); ++i)
     end.supports.push_back({now.model.supports[i].name, state.factors.supports[i]});
-  end.energy = state.energy;
-  end.largest_force = state.largest_force;
   return end;
 }
 
@@ -390,41 +432,8 @@ State state_of_restart(const Prepared& now) {
   state.factors.supports = now.model.restart->support_factors;
   if (auto messages = disagreements(end.agreements, agreements_of(now, state), directory); !messages.empty())
     refuse(now.model, std::move(messages));
-  state.replaced.placement = placement_at_end(now.model, end);
-  if (!state.replaced.placement.empty()) state.replaced.moved.assign(now.structure.parts.size(), Vec2::Zero());
-  const auto N = static_cast<Eigen::Index>(now.contact.pairs.size());
-  for (std::size_t c = 0; c < now.model.contacts.size(); ++c) {
-    const auto found = std::find_if(end.contacts.begin(), end.contacts.end(), [&](const EndState::OfContact& of) {
-      return of.name == now.model.contacts[c].name;
-    });
-    const auto places = places_of_contact(now.contact.pairs, c), held = places_of_contact(now.contact.held, c);
-    if (found == end.contacts.end() || (places.empty() && held.empty())) continue;
-    put(found->p, places, 2, state.p, 2 * N);
-    put(found->gap, places, 1, state.gap, N);
-    put(found->slip, places, 1, state.slip, N);
-    put(found->offset, places, 2, state.offset, 2 * N);
-    put(found->held_offset, held, 2, state.held_offset, static_cast<Eigen::Index>(2 * now.contact.held.size()));
-    put(found->replaced_offset, places, 2, state.replaced.offset, 2 * N);
-    put(found->slip_before, places, 1, state.replaced.slip_before, N);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      state.history[static_cast<std::size_t>(places[i])] = found->history.at(i);
-      state.states[static_cast<std::size_t>(places[i])] = found->states.at(i);
-    }
-  }
-  for (const EndState::OfPart& of : end.parts)
-    for (std::size_t p = 0; p < now.structure.parts.size(); ++p) {
-      const auto body = static_cast<std::size_t>(now.structure.dofs.bodies_of(p).front());
-      if (now.is_absent(p) || now.model.bodies[body].name != of.body) continue;
-      if (!of.moved.empty() && !state.replaced.moved.empty()) state.replaced.moved[p] = vector_at(of.moved, 0);
-      if (!of.referred.empty()) {
-        state.referred.resize(now.structure.parts.size(), Vec2::Zero());
-        state.referred[p] = vector_at(of.referred, 0);
-      }
-      if (of.a.size() == 0) continue;
-      state.a.segment(now.contact.first_rigid[p], of.a.size()) = of.a;
-    }
-  state.energy = end.energy;
-  state.largest_force = end.largest_force;
+  for (const Field& field : fields_of_state())
+    if (field.lasts) continue_field(now, end, field, state);
   complete(now, state);
   return state;
 }

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,20 +26,11 @@ struct EndState {
   struct Agreement {
     std::string what, digest;
   };
-  /// The pairs of a contact, in their order; 2 or 1 values for each.
-  struct OfContact {
-    std::string name;
-    Vector p, gap, slip, offset, held_offset;
-    Vector replaced_offset, slip_before;  ///< Replacing; empty if no pairs were found anew
-    std::vector<double> placement;        ///< translations of A and B in which they were found, 4 numbers; or empty
-    contact::History history;
-    std::vector<contact::ContactState> states;
-  };
-  struct OfPart {
-    std::string body;  ///< its first one
-    Vector a;
-    std::vector<double> moved;     ///< Replacing, 2 numbers; or empty
-    std::vector<double> referred;  ///< State::referred, 2 numbers; or empty
+  /// What belongs to a contact or to a part of the lasting fields of the state (fields.hpp), by their names: entries of
+  /// its pairs, of its rigid motions or of itself, in their order.
+  struct Of {
+    std::string name;  ///< of the contact; of the first body of the part
+    std::map<std::string, std::vector<double>> fields;
   };
   struct Factor {
     std::string name;
@@ -46,11 +38,9 @@ struct EndState {
   };
   std::string version;  ///< of the program
   std::vector<Agreement> agreements;
-  std::vector<OfContact> contacts;
-  std::vector<OfPart> parts;
+  std::vector<Of> contacts, parts;
   std::vector<Factor> loads, supports;
-  Energy energy;
-  double largest_force = 0.0;
+  std::map<std::string, std::vector<double>> whole;  ///< lasting fields of the state itself
 };
 
 /// `now`: at the stage of the state.
