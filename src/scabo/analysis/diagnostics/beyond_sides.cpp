@@ -44,7 +44,7 @@ std::string slid_beyond_sides(const Prepared& prepared, const State& state) {
       return fmt::format(
           "contact '{}' would slide by {:.3g}, farther than its sides are long ({:.3g}): hardly anything holds {}; add "
           "a support, or friction",
-          contact.name, slip[c], length, describe_motions(prepared, state.a));
+          contact.name, slip[c], length, describe_motions(prepared, state.rigid_motion));
   }
   return "";
 }

@@ -122,17 +122,17 @@ Vector smallest_motions(const Prepared& prepared, const contact::Problem& proble
   Conditions conditions = conditions_of(problem, laws, solution, states, U);
   if (conditions.held.rows() > 0) {
     const Matrix free = system::null_space(conditions.held);
-    if (free.cols() == 0) return to.a;
+    if (free.cols() == 0) return to.rigid_motion;
     U = U * free;
     conditions.within = conditions.within * free;
   }
   const Squares squares = squares_of(prepared, from, to, U);
   const Eigen::LLT<Matrix> factor(squares.A);
-  if (factor.info() != Eigen::Success) return to.a;
+  if (factor.info() != Eigen::Success) return to.rigid_motion;
   // z = L'y: (2) is |z + L^-1 b|^2.
   const Matrix B = factor.matrixL().solve(conditions.within.transpose()).transpose();
   const Vector z = linalg::nearest_within(B, conditions.least, -factor.matrixL().solve(squares.b));
-  return to.a + U * factor.matrixU().solve(z);
+  return to.rigid_motion + U * factor.matrixU().solve(z);
 }
 
 /// How a part may move, `Q` (3 x k) spanning its motions; empty if it does not.
@@ -186,7 +186,7 @@ bool give_smallest_motions(const Prepared& prepared, const contact::Problem& pro
     to.history[i].slip = std::max(from.history[i].slip, to.history[i].slip - less);
   }
   solution = std::move(*other);
-  to.a = solution.a;
+  to.rigid_motion = solution.a;
   to.gap = solution.gap;
   to.slip = from.slip + solution.slip_increment;
   to.states = solution.states;

@@ -40,7 +40,7 @@ double largest_component(const State& state) {
 RunState continued_run(const Prepared& prepared, const Continuation& from, StaticSolution& solution) {
   RunState run = from.at;
   ensure(run.state.states.size() == prepared.contact.pairs.size() &&
-             run.state.a.size() == prepared.contact.rigid_motions() &&
+             run.state.rigid_motion.size() == prepared.contact.rigid_motions() &&
              run.state.factors.loads.size() == prepared.model.loads.size() &&
              run.state.factors.supports.size() == prepared.model.supports.size(),
          "the state from which the run continues belongs to this model");

@@ -96,7 +96,7 @@ Posed pose(const Prepared& prepared, const State& from, const Factors& factors, 
 void take(const State& from, const contact::Solution& solution, contact::History history, State& to) {
   to.history = std::move(history);
   to.p = solution.p;
-  to.a = solution.a;
+  to.rigid_motion = solution.a;
   to.gap = solution.gap;
   to.slip = from.slip + solution.slip_increment;
   to.states = solution.states;
@@ -123,57 +123,94 @@ void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& off
   }
 }
 
-}  // namespace
-
-Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
-  const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
-  Attempt result;
-  State& to = result.state;
-  Posed posed = pose(prepared, from, factors, to);
-  contact::Problem& problem = posed.problem;
+contact::SolverOptions options_of(const Prepared& prepared, const State& from, const State& to) {
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
   options.iterations = prepared.model.solver.iterations;
   options.on_iteration = prepared.on_iteration;
   options.force_scale = std::max({prepared.force_scale, from.largest_force, largest_force(to)});
-  check_held_pairs(prepared, std::move(posed.motion_of_held), from.held_offset, from.replaced);
+  return options;
+}
 
-  result.start = {from.p, from.a, touching_pairs(prepared)};
-  result.force_scale = options.force_scale;
-  const contact::JointLaws laws = laws_at(prepared, factors);
-  std::vector<Balance> balances;
-  std::optional<SoftlyHeld> soft;
+/// An attempt while it is made.
+struct Making {
+  const Prepared& prepared;
+  const State& from;
+  contact::JointLaws laws;
+  contact::SolverOptions options;
+  Attempt attempt;
+  std::vector<Balance> balances = {};
+  std::optional<SoftlyHeld> soft = {};
+
+  State& to() { return attempt.state; }
+};
+
+/// Contact with the laws of the pairs, and the displacements that follow from its forces.
+void solve(const contact::Problem& problem, Making& making) {
+  Attempt& made = making.attempt;
+  contact::Evolution evolution = contact::evolve(problem, making.laws, making.from.history, made.start, making.options);
+  if (making.prepared.model.solver.uniqueness && problem.pairs() > 0)
+    made.uniqueness = follow_history(problem, making.laws, making.from.history, made.start, making.options, evolution);
+  made.solution = contact::continued(std::move(made.solution), std::move(evolution.solution));
+  made.problem = std::move(evolution.problem);
+  // Forces that are not unique.
+  give_smoothest_forces(making.prepared, made.problem, made.start, making.options, made.solution);
+  take(making.from, made.solution, std::move(evolution.history), making.to());
+  making.balances = add_displacements(making.prepared, nullptr, making.to());
+}
+
+/// Corrections of a solution, which leave it one of the same laws: motions that nothing determines, and forces that
+/// are lost in the rounding of W p and q. Whether contact is to be solved again, from there and with another q.
+bool refine(const Vector& drawn, contact::Problem& problem, Making& making) {
+  Attempt& made = making.attempt;
+  if (made.solution.status != contact::Status::solved) return false;
+  if (give_smallest_motions(making.prepared, made.problem, making.laws, made.start, making.options, making.from,
+                            making.to(), made.solution))
+    making.balances = add_displacements(making.prepared, nullptr, making.to());
+  making.soft = softly_held(making.prepared, making.to(), made.problem, made.solution, drawn, made.force_scale);
+  if (!making.soft || !(making.soft->apart > SoftlyHeld::good)) return false;
+  problem.q += making.soft->difference;
+  return true;
+}
+
+/// Energy, certificate, and whether the attempt is accepted.
+void certify(Making& making) {
+  const Prepared& prepared = making.prepared;
+  Attempt& made = making.attempt;
+  State& to = made.state;
+  to.energy = energy_between(prepared, making.from, to, making.balances);
+  made.certificate = made.solution.certificate;
+  to.largest_force = std::max(making.from.largest_force, largest_force(to));
+  const double scale = scale_of(prepared, to, std::max(made.force_scale, to.largest_force));
+  certify_structure(prepared, to, std::move(making.balances), scale, made.certificate);
+  if (scale > 0.0) made.rounding = rounding_of_resistance * resistance(prepared, to) / scale;
+  made.accepted =
+      made.solution.status == contact::Status::solved && made.certificate.worst() <= prepared.model.solver.tolerance;
+  if (made.accepted) made.beyond = slid_beyond_sides(prepared, to);
+  made.lost = made.accepted && made.beyond.empty() && making.soft && making.soft->wrong > SoftlyHeld::allowed;
+  if (made.lost) made.beyond = lost_where_softly_held(prepared, *making.soft);
+  made.accepted = made.accepted && made.beyond.empty();
+}
+
+}  // namespace
+
+Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
+  Attempt made;
+  Posed posed = pose(prepared, from, factors, made.state);
+  check_held_pairs(prepared, std::move(posed.motion_of_held), from.held_offset, from.replaced);
+  made.start = {from.p, from.rigid_motion, touching_pairs(prepared)};
+  const contact::SolverOptions options = options_of(prepared, from, made.state);
+  made.force_scale = options.force_scale;
+  Making making{prepared, from, laws_at(prepared, factors), options, std::move(made)};
   constexpr int most_corrections = 3;
   for (int round = 0;; ++round) {
-    contact::Evolution evolution = contact::evolve(problem, laws, from.history, result.start, options);
-    if (prepared.model.solver.uniqueness && N > 0)
-      result.uniqueness = follow_history(problem, laws, from.history, result.start, options, evolution);
-    result.solution = contact::continued(std::move(result.solution), std::move(evolution.solution));
-    result.problem = std::move(evolution.problem);
-    give_smoothest_forces(prepared, result.problem, result.start, options, result.solution);
-    take(from, result.solution, std::move(evolution.history), to);
-    balances = add_displacements(prepared, nullptr, to);
-    if (result.solution.status != contact::Status::solved) break;
-    if (give_smallest_motions(prepared, result.problem, laws, result.start, options, from, to, result.solution))
-      balances = add_displacements(prepared, nullptr, to);
-    soft = softly_held(prepared, to, result.problem, result.solution, posed.drawn, options.force_scale);
-    if (!soft || !(soft->apart > SoftlyHeld::good) || round == most_corrections) break;
-    problem.q += soft->difference;
-    result.start = {result.solution.p, result.solution.a, result.start.touching};
+    solve(posed.problem, making);
+    if (!refine(posed.drawn, posed.problem, making) || round == most_corrections) break;
+    const contact::Solution& solution = making.attempt.solution;
+    making.attempt.start = {solution.p, solution.a, making.attempt.start.touching};
   }
-  to.energy = energy_between(prepared, from, to, balances);
-  result.certificate = result.solution.certificate;
-  to.largest_force = std::max(from.largest_force, largest_force(to));
-  const double scale = scale_of(prepared, to, std::max(options.force_scale, to.largest_force));
-  certify_structure(prepared, to, std::move(balances), scale, result.certificate);
-  if (scale > 0.0) result.rounding = rounding_of_resistance * resistance(prepared, to) / scale;
-  result.accepted = result.solution.status == contact::Status::solved &&
-                    result.certificate.worst() <= prepared.model.solver.tolerance;
-  if (result.accepted) result.beyond = slid_beyond_sides(prepared, to);
-  result.lost = result.accepted && result.beyond.empty() && soft && soft->wrong > SoftlyHeld::allowed;
-  if (result.lost) result.beyond = lost_where_softly_held(prepared, *soft);
-  result.accepted = result.accepted && result.beyond.empty();
-  return result;
+  certify(making);
+  return std::move(making.attempt);
 }
 
 bool is_same_scaled(const Prepared& prepared, const State& from, const Attempt& tried, const Factors& less) {
@@ -182,7 +219,7 @@ bool is_same_scaled(const Prepared& prepared, const State& from, const Attempt& 
   const contact::JointLaws laws = laws_at(prepared, less);
   const bool remembers =
       std::any_of(laws.of_pair.begin(), laws.of_pair.end(), [](const auto& law) { return law->remembers(); });
-  if (remembers || !from.p.isZero(0.0) || !from.a.isZero(0.0)) return false;
+  if (remembers || !from.p.isZero(0.0) || !from.rigid_motion.isZero(0.0)) return false;
   State to;
   contact::Problem fewer = pose(prepared, from, less, to).problem;
   contact::set_limits(laws, from.history, fewer);

@@ -265,8 +265,8 @@ State start_on(const Prepared& prepared, const std::vector<CarriedPair>& carried
   Vector motion = Vector::Zero(2 * N);
   const std::vector<Vector> u = displacements_without_motions(prepared, state);
   for (std::size_t p = 0; p < u.size(); ++p) motion.noalias() += prepared.contact.motion[p] * u[p];
-  state.a = fitting_motions(prepared, carried, state, motion);
-  if (state.a.size() > 0) prepared.contact.G.add_motion(state.a, motion);
+  state.rigid_motion = fitting_motions(prepared, carried, state, motion);
+  if (state.rigid_motion.size() > 0) prepared.contact.G.add_motion(state.rigid_motion, motion);
   for (Eigen::Index i = 0; i < N; ++i)
     if (large[static_cast<std::size_t>(i)]) state.replaced.offset[2 * i + 1] = -motion[2 * i + 1];
   astray = largest_mean_slip(prepared, carried, state, motion);

@@ -72,7 +72,7 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
     if (rigid.cols() > 0 && !prepared.structure.dofs.is_rigid(p)) take_out_rounding(rigid, forces.lpNorm<1>(), forces);
     system::Displaced reached =
         known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(forces, to.prescribed[p], wanted);
-    if (rigid.cols() > 0) reached.u += rigid * to.a.segment(prepared.contact.first_rigid[p], rigid.cols());
+    if (rigid.cols() > 0) reached.u += rigid * to.rigid_motion.segment(prepared.contact.first_rigid[p], rigid.cols());
     balance.unbalanced = reached.unbalanced.size() > 0 ? std::move(reached.unbalanced)  // K resists no rigid motion
                                                        : parts[p]->unbalanced(reached.u, forces);
     to.reactions.push_back(parts[p]->reactions_of(balance.unbalanced));

@@ -152,7 +152,7 @@ const std::vector<Field>& fields_of_state() {
       optional_field(
           "held_offset", held_pair, 2, lasts, [](auto& state) -> auto& { return state.held_offset; }),
       field(
-          "rigid_motion", rigid_motion, 1, lasts, [](auto& state) -> auto& { return state.a; }),
+          "rigid_motion", rigid_motion, 1, lasts, [](auto& state) -> auto& { return state.rigid_motion; }),
       optional_field(
           "referred", part, 2, lasts, [](auto& state) -> auto& { return state.referred; }),
       optional_field(

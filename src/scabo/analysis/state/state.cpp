@@ -33,7 +33,7 @@ State initial_state(const Prepared& prepared) {
   state.factors.fits = fits_at(prepared.model, -1);
   const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
   state.p = Vector::Zero(2 * N);
-  state.a = Vector::Zero(prepared.contact.rigid_motions());
+  state.rigid_motion = Vector::Zero(prepared.contact.rigid_motions());
   state.gap = prepared.contact.gap;
   for (Eigen::Index i = 0; i < N; ++i) state.gap[i] = gap_at(prepared, state.factors, i);
   state.slip = Vector::Zero(N);

@@ -75,7 +75,7 @@ struct Replacing {
 struct State {
   Factors factors;
   Vector p;                  // 2N, contact forces on B
-  Vector a;                  // m, rigid motions
+  Vector rigid_motion;       // m, amplitudes of the rigid motions of all parts
   Vector gap, slip;          // N; slip since the start
   contact::History history;  // N, of the laws
   std::vector<contact::ContactState> states;
