@@ -55,17 +55,17 @@ TEST(FieldsOfAState, HaveTheNumbersThatTheyDeclare) {
   const auto owners = [](Owner owner) -> std::size_t {
     return owner == Owner::pair || owner == Owner::rigid_motion ? 3 : owner == Owner::held_pair ? 1 : 2;
   };
-  for (const Field& field : fields_of_state())
-    if (field.owner != Owner::whole)
-      EXPECT_EQ(field.get(state).size(), static_cast<std::size_t>(field.count) * owners(field.owner)) << field.name;
+  for (const Field& field : fields_of_state()) {
+    if (field.owner == Owner::whole) continue;
+    EXPECT_EQ(field.get(state).size(), static_cast<std::size_t>(field.count) * owners(field.owner)) << field.name;
+  }
 }
 
 TEST(FieldsOfAState, OfOtherNumbersAreRefused) {
   State state;
   for (const Field& field : fields_of_state()) {
-    if (field.name == "released") EXPECT_THROW(field.set(state, {3.0, 1.0}), std::out_of_range);
-    if (field.name == "history") EXPECT_THROW(field.set(state, {3.0, 1.0}), std::out_of_range);
-    if (field.name == "energy") EXPECT_THROW(field.set(state, {3.0, 1.0}), std::out_of_range);
+    if (field.name != "released" && field.name != "history" && field.name != "energy") continue;
+    EXPECT_THROW(field.set(state, {3.0, 1.0}), std::out_of_range) << field.name;
   }
 }
 
