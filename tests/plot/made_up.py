@@ -103,7 +103,7 @@ def summary():
 
 def convergence_rows():
     """Step 1 in two iterations from a coarse problem; step 2 in a second attempt; its increment 2 never."""
-    return [(1, 1, 1, 0, "newton; 5 pairs", 1.0), (1, 1, 1, 1, "newton", 0.1), (1, 1, 1, 2, "newton", 0.0), (2, 1, 1, 0, "newton", 1.0),
+    return [(1, 1, 1, 0, "newton, 5 pairs", 1.0), (1, 1, 1, 1, "newton", 0.1), (1, 1, 1, 2, "newton", 0.0), (2, 1, 1, 0, "newton", 1.0),
             (2, 1, 1, 1, "newton", 3.0), (2, 1, 2, 0, "newton", 0.5), (2, 1, 2, 1, "newton", 1e-13), (2, 2, 1, 0, "newton", 0.7),
             (2, 2, 1, 1, "newton", 0.6)]
 

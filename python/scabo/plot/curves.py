@@ -279,7 +279,7 @@ def attempts_of(results):
     for k, rows in enumerate(groups):
         increment = tuple(keys[rows[0], :2])
         number = numbers.setdefault(increment, len(numbers) + 1)
-        coarse = np.array([";" in stage for stage in table["stage"][rows]])
+        coarse = np.array(["," in stage for stage in table["stage"][rows]])
         attempts.append(Attempt(number, int(keys[rows[0], 2]), increment in converged and last[increment] == k, table["iteration"][rows],
                                 table["residual"][rows], coarse))
     return attempts
