@@ -197,11 +197,11 @@ struct Campaign {
   }
 };
 
-/// Ten thousand samples of one sequence, in parts that each take seconds. Run without a filter, the program prints
-/// the table of all of them at the end.
+/// Ten thousand samples of one sequence, in parts that each take seconds; parts beyond the first five only with
+/// SCABO_LONG (make test-long). Run so without a filter, the program prints the table of all of them at the end.
 class RandomSuperElements : public testing::TestWithParam<int> {
  protected:
-  static constexpr int parts = 20, of_part = 500;
+  static constexpr int parts = 20, of_part = 500, always = 5;
   inline static Campaign all;
   inline static int ran = 0;
   static void TearDownTestSuite() {
@@ -210,6 +210,7 @@ class RandomSuperElements : public testing::TestWithParam<int> {
 };
 
 TEST_P(RandomSuperElements, KeepTheirPropertiesOrAreRefused) {
+  if (GetParam() >= always && !std::getenv("SCABO_LONG")) GTEST_SKIP() << "only with SCABO_LONG";
   linalg::set_blas_threads(1);
   const int first = GetParam() * of_part;
   std::mt19937 random(2024);

@@ -106,7 +106,7 @@ void expect_closed_form(const Hertz& model, const analysis::StaticSolution& solu
   double least = HUGE_VAL, most = -HUGE_VAL;
   const Vec2 along = model.drawing.direction(1.0, 0.0);
   for (const analysis::PairResult& pair : contact_of(increment).pairs)
-    if (pair.pressure > 0.0) {
+    if (pair.state != contact::ContactState::open) {
       least = std::min(least, along.dot(pair.position));
       most = std::max(most, along.dot(pair.position));
     }

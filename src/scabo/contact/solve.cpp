@@ -141,19 +141,17 @@ void mark_collapse(const Problem& problem, const SolverOptions& options, Solutio
   solution.reason = "no equilibrium was found, and the bodies begin to move when they are let go";
 }
 
-/// The stages in turn, until one finds a solution; why they did not. Of few bodies it costs next to nothing to ask
-/// first whether there is one, of many as much as a solve.
+/// The stages in turn, until one finds a solution; why they did not. Whether there is one at all is asked first: it
+/// costs a small part of a solve.
 std::string search_in_stages(Search& search, const Problem& problem, const SolverOptions& options, Solution& solution) {
-  const bool asked_first = !has_many_motions(problem);
-  if (asked_first && is_mechanism(problem, solution)) return {};
+  if (is_mechanism(problem, solution)) return {};
   std::string story;
   for (const auto stage : {newton_stage, interior_stage, sweeps_stage}) {
     const StageEnd end = stage(search);
     if (end.solved) return {};
     if (search.late()) return limit_of(options.deadline, search.iterations());
     const bool first = story.empty();
-    if (first && ((!asked_first && is_mechanism(problem, solution)) || is_infeasible(problem, options, solution)))
-      return {};
+    if (first && is_infeasible(problem, options, solution)) return {};
     story += (first ? "" : "; ") + end.why;
   }
   return story;
