@@ -298,6 +298,76 @@ void count_falling_forces(const std::vector<Vec2>& slid, const std::vector<Vec2>
   }
 }
 
+/// Another mesh with its cells in a solution, and the one before back again unless it is kept, also if the analysis is
+/// ended meanwhile.
+class OtherMesh {
+ public:
+  OtherMesh(StaticSolution& solution, mesh::Mesh mesh) : solution_(solution), mesh_(std::move(mesh)) {
+    cells_ = timed(solution.timing.super_elements, [&] { return solved_cells(solution, mesh_); });
+    swap();
+  }
+  OtherMesh(const OtherMesh&) = delete;
+  OtherMesh& operator=(const OtherMesh&) = delete;
+  ~OtherMesh() {
+    if (!kept_) swap();
+  }
+  void keep() { kept_ = true; }
+
+ private:
+  void swap() {
+    std::swap(solution_.mesh, mesh_);
+    std::swap(solution_.cells, cells_);
+  }
+
+  StaticSolution& solution_;
+  mesh::Mesh mesh_;
+  std::vector<element::SolvedCells> cells_;
+  bool kept_ = false;
+};
+
+/// Contact on new pairs under the same loads, with the direction of slip that is carried over and, where that is not
+/// accepted, without.
+Attempt solved_on(const Prepared& prepared, const State& start, const std::vector<CarriedPair>& carried, double astray,
+                  FoundAnew& found) {
+  const std::vector<bool> slides = on_large_slip(prepared);
+  double element = 0.0;
+  for (const std::array<Vec2, 2>& by : start.replaced.placement) element = std::max(element, (by[1] - by[0]).norm());
+  const double bias = beyond_elastic_motion(slides, start.replaced, element) + 2.0 * astray;
+  Attempt tried;
+  for (const bool keep_directions : {true, false}) {
+    State from = start;
+    for (std::size_t i = 0; keep_directions && i < slides.size(); ++i)
+      if (slides[i]) from.slip[static_cast<Eigen::Index>(i)] = -bias * carried[i].direction;
+    tried = attempt(prepared, from, start.factors);
+    found.iterations += tried.solution.iterations;
+    if (tried.accepted) break;
+  }
+  if (!tried.accepted)
+    found.reason = "pairs were found anew, but contact was not solved on them under the same loads: " +
+                   (tried.solution.status == contact::Status::solved
+                        ? fmt::format("the largest figure of the certificate is {:.3g}", tried.certificate.worst())
+                        : tried.solution.reason);
+  found.certificate = tried.certificate;
+  found.residual = tried.solution.residual;
+  return tried;
+}
+
+/// The state on new pairs, whose slip counts from here on; work so far is that of the state before.
+State settled(const Prepared& prepared, State now, const State& start, const Energy& before) {
+  const std::vector<bool> slides = on_large_slip(prepared);
+  for (std::size_t i = 0; i < slides.size(); ++i) {
+    if (!slides[i]) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    now.replaced.offset[2 * k + 1] -= now.slip[k];
+    now.slip[k] = 0.0;
+  }
+  now.history = start.history;
+  const double elastic = now.energy.elastic;
+  now.energy = before;
+  now.energy.elastic = elastic;
+  return now;
+}
+
 }  // namespace
 
 LargeSlip::LargeSlip(const model::Model& model) : bodies_(mesh::divided_bodies(model)) {
@@ -391,69 +461,25 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
     found.reason = "pairs were not found where the sides have moved: " + wrong->front().message;
     return found;
   }
-  mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(divided));
-  auto cells = timed(solution.timing.super_elements, [&] { return solved_cells(solution, mesh); });
-  std::swap(solution.mesh, mesh);
-  std::swap(solution.cells, cells);
-  struct Back {  // unless pairs are found, also if the analysis is ended here
-    StaticSolution& solution;
-    mesh::Mesh& mesh;
-    std::vector<element::SolvedCells>& cells;
-    bool wanted = true;
-    ~Back() {
-      if (!wanted) return;
-      std::swap(solution.mesh, mesh);
-      std::swap(solution.cells, cells);
-    }
-  } back{solution, mesh, cells};
+  OtherMesh other(solution, std::get<mesh::Mesh>(std::move(divided)));
   std::unique_ptr<const Assembly> made = assemble(solution, {}, assembly->prepared.on_iteration);
   const Prepared& prepared = made->prepared;
 
   const std::vector<CarriedPair> carried = carried_to(prepared, before);
   double astray = 0.0;
   const State start = start_on(prepared, carried, state, sums, std::move(replaced), astray);
-  const std::vector<bool> slides = on_large_slip(prepared);
-  double element = 0.0;
-  for (const std::array<Vec2, 2>& by : start.replaced.placement) element = std::max(element, (by[1] - by[0]).norm());
-  const double bias = beyond_elastic_motion(slides, start.replaced, element) + 2.0 * astray;
-  Attempt tried;
-  for (const bool keep_directions : {true, false}) {
-    State from = start;
-    for (std::size_t i = 0; keep_directions && i < slides.size(); ++i)
-      if (slides[i]) from.slip[static_cast<Eigen::Index>(i)] = -bias * carried[i].direction;
-    tried = timed(solution.timing.newton, [&] { return attempt(prepared, from, state.factors); });
-    found.iterations += tried.solution.iterations;
-    if (tried.accepted) break;
-  }
-  if (!tried.accepted) {
-    found.reason = "pairs were found anew, but contact was not solved on them under the same loads: " +
-                   (tried.solution.status == contact::Status::solved
-                        ? fmt::format("the largest figure of the certificate is {:.3g}", tried.certificate.worst())
-                        : tried.solution.reason);
-    return found;
-  }
+  Attempt tried = timed(solution.timing.newton, [&] { return solved_on(prepared, start, carried, astray, found); });
+  if (!found.reason.empty()) return found;
 
-  State now = std::move(tried.state);
-  for (std::size_t i = 0; i < slides.size(); ++i) {
-    if (!slides[i]) continue;
-    const auto k = static_cast<Eigen::Index>(i);
-    now.replaced.offset[2 * k + 1] -= now.slip[k];
-    now.slip[k] = 0.0;
-  }
-  now.history = start.history;
-  const double elastic = now.energy.elastic;
-  now.energy = state.energy;
-  now.energy.elastic = elastic;
+  State now = settled(prepared, std::move(tried.state), start, state.energy);
   const std::vector<Vec2> after = resultants(prepared, now);
   if (slides_off) count_falling_forces(slid, forces, after, now.energy);
-  found.certificate = tried.certificate;
-  found.residual = tried.solution.residual;
   for (std::size_t c = 0; c < forces.size(); ++c)
     if (forces[c].norm() > 1e-9 * state.largest_force)
       found.jump = std::max(found.jump, (after[c] - forces[c]).norm() / forces[c].norm());
   state = std::move(now);
   assembly = std::move(made);
-  back.wanted = false;
+  other.keep();
   ++solution.pairings;
   return found;
 }
