@@ -149,7 +149,7 @@ struct Making {
 void solve(const contact::Problem& problem, Making& making) {
   Attempt& made = making.attempt;
   contact::Evolution evolution = contact::evolve(problem, making.laws, making.from.history, made.start, making.options);
-  if (making.prepared.model.solver.uniqueness && problem.pairs() > 0)
+  if (making.prepared.model.solver.uniqueness && !making.prepared.contact.pairs.empty())
     made.uniqueness = follow_history(problem, making.laws, making.from.history, made.start, making.options, evolution);
   made.solution = contact::continued(std::move(made.solution), std::move(evolution.solution));
   made.problem = std::move(evolution.problem);
