@@ -1,5 +1,7 @@
 #include "scabo/analysis/state/fields.hpp"
 
+#include <stdexcept>
+
 namespace scabo::analysis {
 
 namespace {
@@ -106,16 +108,6 @@ Field optional_field(const char* name, Owner owner, int count, Kept kept, Of of)
   return made;
 }
 
-/// The entries of a field of pairs or rigid motions on another structure.
-Numbers carried(const Numbers& from, int count, const std::vector<Eigen::Index>& places) {
-  Numbers to;
-  to.reserve(places.size() * static_cast<std::size_t>(count));
-  for (const Eigen::Index place : places)
-    for (int k = 0; k < count; ++k)
-      to.push_back(place < 0 ? 0.0 : from.at(static_cast<std::size_t>(place * count + k)));
-  return to;
-}
-
 }  // namespace
 
 const std::vector<Field>& fields_of_state() {
@@ -171,6 +163,15 @@ const std::vector<Field>& fields_of_state() {
   return fields;
 }
 
+std::vector<double> entries_at(const std::vector<double>& numbers, int count, const std::vector<Eigen::Index>& places) {
+  Numbers entries;
+  entries.reserve(places.size() * static_cast<std::size_t>(count));
+  for (const Eigen::Index place : places)
+    for (int k = 0; k < count; ++k)
+      entries.push_back(place < 0 ? 0.0 : numbers.at(static_cast<std::size_t>(place * count + k)));
+  return entries;
+}
+
 State transfer(State state, const ParentMaps& maps) {
   for (const Field& field : fields_of_state()) {
     const std::vector<Eigen::Index>* places = field.owner == Owner::pair           ? &maps.pairs
@@ -179,7 +180,7 @@ State transfer(State state, const ParentMaps& maps) {
                                                                                    : nullptr;
     if (!places) continue;
     const Numbers before = field.get(state);
-    if (!before.empty() || !field.optional) field.set(state, carried(before, field.count, *places));
+    if (!before.empty() || !field.optional) field.set(state, entries_at(before, field.count, *places));
   }
   return state;
 }

@@ -27,6 +27,9 @@ struct Field {
 
 const std::vector<Field>& fields_of_state();
 
+/// The entries of a field, `count` numbers each, at some places; zero at the place -1.
+std::vector<double> entries_at(const std::vector<double>& numbers, int count, const std::vector<Eigen::Index>& places);
+
 /// Where the entries of another structure's fields come from: of each its place before, or -1 if it is new.
 struct ParentMaps {
   std::vector<Eigen::Index> pairs, held_pairs, rigid_motions;

@@ -224,10 +224,7 @@ std::size_t entries_of(const Prepared& now, const Field& field) {
 
 /// The entries of a field at some places; nothing if the field is empty.
 std::vector<double> selected(const std::vector<double>& from, const Places& places, int count) {
-  std::vector<double> some;
-  for (std::size_t i = 0; i < places.size() && !from.empty(); ++i)
-    for (int k = 0; k < count; ++k) some.push_back(from.at(static_cast<std::size_t>(places[i] * count + k)));
-  return some;
+  return from.empty() ? from : entries_at(from, count, places);
 }
 void put(const std::vector<double>& some, const Places& places, int count, std::vector<double>& to, std::size_t size) {
   if (some.empty()) return;
@@ -246,6 +243,11 @@ const std::vector<double>& kept(const std::map<std::string, std::vector<double>>
   return found == of.end() ? none : found->second;
 }
 
+const EndState::Of* find(const std::vector<EndState::Of>& list, const std::string& name) {
+  const auto found = std::ranges::find(list, name, &EndState::Of::name);
+  return found == list.end() ? nullptr : &*found;
+}
+
 [[noreturn]] void refuse(const model::Model& model, std::vector<std::string> messages) {
   std::vector<Diagnostic> diagnostics;
   for (std::string& message : messages) diagnostics.push_back({model.restart->source, std::move(message)});
@@ -257,9 +259,8 @@ void check_large_slip(const model::Model& model, const EndState& end) {
   const std::string& directory = model.restart->directory;
   std::vector<std::string> messages;
   for (const model::Contact& contact : model.contacts) {
-    const auto of = std::find_if(end.contacts.begin(), end.contacts.end(),
-                                 [&](const EndState::Of& there) { return there.name == contact.name; });
-    if (of == end.contacts.end()) continue;
+    const EndState::Of* of = find(end.contacts, contact.name);
+    if (!of) continue;
     if (!contact.large_slip &&
         std::ranges::any_of(kept(of->fields, "replaced/placement"), [](double x) { return x != 0.0; }))
       messages.push_back(
@@ -353,11 +354,6 @@ std::vector<std::size_t> present_parts(const Prepared& now) {
 
 const std::string& name_of_part(const Prepared& now, std::size_t part) {
   return now.model.bodies[static_cast<std::size_t>(now.structure.dofs.bodies_of(part).front())].name;
-}
-
-const EndState::Of* find(const std::vector<EndState::Of>& list, const std::string& name) {
-  const auto found = std::ranges::find(list, name, &EndState::Of::name);
-  return found == list.end() ? nullptr : &*found;
 }
 
 /// A field of the state at the start of a model, from the end of the other run.
