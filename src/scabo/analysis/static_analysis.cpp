@@ -4,6 +4,8 @@
 
 #include "scabo/analysis/adaptive/adaptive.hpp"
 #include "scabo/analysis/adaptive/goal.hpp"
+#include "scabo/analysis/in_time.hpp"
+#include "scabo/analysis/march/steps.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
 #include "scabo/analysis/state/outside.hpp"
 #include "scabo/base/interruption.hpp"
@@ -23,7 +25,7 @@ mesh::Mesh check(const model::Model& model) {
     return mesh;
   }
   mesh::Mesh mesh = mesh::make_mesh(model);
-  system::check_supports(model, mesh);
+  if (!model::is_all_dynamic(model)) system::check_supports(model, mesh);
   check_references(model, mesh);
   check_refinable(model, mesh);
   mesh::output_points(model);
@@ -62,8 +64,20 @@ model::Model with_its_increments(const model::Model& model, const mesh::Mesh& me
 
 bool can_use_ranks(const model::Model& model) {
   return model.analysis.type == model::AnalysisType::static_ && !wants_bars(model) && !wants_refinement(model) &&
-         !model.output.error;
+         !model.output.error && !model::is_dynamic(model);
 }
+
+namespace {
+
+StaticSolution solve_in_time(model::Model model, mesh::Mesh mesh, const Options& options) {
+  return solve_on_mesh(std::move(model), std::move(mesh), options,
+                       [](Quasistatic& statics, StaticSolution& solution, const Options& with) {
+                         StaticThenDynamic scheme(statics, solution);
+                         march(scheme, solution, with);
+                       });
+}
+
+}  // namespace
 
 StaticSolution solve_static(model::Model model, const Options& options) {
   double seconds = 0.0;
@@ -79,7 +93,9 @@ StaticSolution solve_static(model::Model model, const Options& options) {
   }
   Options here = options;  // several meshes: by this process alone
   here.ranks = nullptr;
-  StaticSolution solution = wants_bars(model)         ? solve_with_bars(std::move(model), std::move(mesh), here)
+  const bool in_time = model::is_dynamic(model);
+  StaticSolution solution = in_time                   ? solve_in_time(std::move(model), std::move(mesh), here)
+                            : wants_bars(model)       ? solve_with_bars(std::move(model), std::move(mesh), here)
                             : wants_refinement(model) ? solve_refined(std::move(model), here)
                             : model.output.error      ? solve_with_error(std::move(model), std::move(mesh), here)
                                                       : solve_on_mesh(std::move(model), std::move(mesh), options);

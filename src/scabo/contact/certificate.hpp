@@ -21,6 +21,7 @@ struct Certificate {
   double complementarity = 0.0;  ///< largest (p_n + tension) g
   double slip_direction = 0.0;   ///< largest slip in the direction of friction, or slip below the friction bound
   double rigid_balance = 0.0;    ///< force and moment balance of a body (contact part; completed by the analysis)
+  double energy_balance = 0.0;   ///< in time, of a time step, over the largest energy so far (set by the analysis)
 
   double worst() const {
     return std::max(

@@ -134,6 +134,38 @@ Vec2 Outline::centroid() const {
   return origin + sixfold / (3.0 * twice);
 }
 
+namespace {
+
+/// 1/4 of the integral of r^2 (x dy - y dx) along an arc, r from `about`: of r^2 over the area, by Green's theorem.
+double polar_along(const Arc& arc, const Vec2& about) {
+  const Vec2 c = arc.centre - about;
+  const double R = arc.radius, begin = arc.start_angle, end = begin + arc.sweep;
+  const double first = c.x() * (std::sin(end) - std::sin(begin)) - c.y() * (std::cos(end) - std::cos(begin));
+  const double phi = std::atan2(c.y(), c.x());
+  const double second =
+      c.squaredNorm() * (0.5 * arc.sweep + 0.25 * (std::sin(2.0 * (end - phi)) - std::sin(2.0 * (begin - phi))));
+  const double squares = c.squaredNorm() + R * R;
+  return 0.25 * (squares * R * R * arc.sweep + (squares + 2.0 * R * R) * R * first + 2.0 * R * R * second);
+}
+
+}  // namespace
+
+double Outline::polar_moment() const {
+  const Vec2 about = centroid();
+  double sum = 0.0;
+  for (const Edge& edge : edges) {
+    if (edge.arc) {
+      sum += polar_along(*edge.arc, about);
+      continue;
+    }
+    for (int i = 0; i < edge.segments(); ++i) {
+      const Vec2 a = edge.chain_point(i) - about, b = edge.chain_point(i + 1) - about;
+      sum += cross(a, b) / 12.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+    }
+  }
+  return sum;
+}
+
 void turn_round(Outline& outline) {
   const std::size_t n = outline.edges.size();
   // Edge i, from corner i to i + 1, becomes number n - 1 - i and then starts at corner i + 1.

@@ -68,6 +68,8 @@ struct Outline {
 
   double area() const;    ///< arcs included exactly
   Vec2 centroid() const;  ///< arcs included exactly
+  /// Integral of the squared distance from the centroid, length^4; arcs included exactly.
+  double polar_moment() const;
 };
 
 /// Reverses the direction of an outline without holes; every edge and corner keeps its names.

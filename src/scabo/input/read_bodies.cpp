@@ -262,7 +262,7 @@ void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(report, entry.value,
                       {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors",
-                       "outside", "reference", "repeat", "added", "removed", "file"},
+                       "outside", "reference", "repeat", "added", "removed", "file", "density"},
                       body_example);
   Body body;
   BodyState state;
@@ -290,6 +290,7 @@ void read_body(Reading& reading, const Entry& entry) {
   if (const auto holes = map.get("holes"); holes && state.shape)
     state.shape = read_holes(reading, *holes, body.outline);
   if (body.rigid) {
+    if (const auto density = map.get("density")) body.density = number_or_unread(reading, density);
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"})
       map.refuse(key, not_for_rigid);
   } else if (!rigid) {  // the required keys are not known
@@ -339,6 +340,7 @@ void read_body(Reading& reading, const Entry& entry) {
     read_outside(reading, map, body);
     if (body.outside && !body.outline.edges.empty() && body.outline.holes.empty()) turn_outside(body);
   }
+  if (!body.rigid) map.refuse("density", "belongs to the material of an elastic body");
   if (const auto repeat = map.get("repeat")) {
     Copies copies = copies_of(reading, *repeat, body);
     const auto states = read_stages(reading, map, state, copies.bodies.size(), copies.rows);

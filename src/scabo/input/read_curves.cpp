@@ -19,14 +19,18 @@ std::optional<CurveTable> read_curve_table(Reading& reading, const Value& value)
   for (const Value& item : *items) {
     const auto point = read_vector(reading.report, item);
     if (!point) return {};
-    if (!table.points.empty() && !(point->x() > table.points.back().at)) {
+    if (!table.points.empty() && !(point->x() >= table.points.back().at)) {
       reading.report.error(item, "positions must be ascending: a factor cannot jump");
       return {};
     }
     table.points.push_back({point->x(), point->y()});
   }
-  const double first = table.points.front().at, length = table.points.back().at - first;
-  for (CurveTable::Point& point : table.points) point.at = (point.at - first) / length;
+  table.first = table.points.front().at, table.last = table.points.back().at;
+  if (!(table.last > table.first)) {
+    reading.report.error(value, "must have points at different positions");
+    return {};
+  }
+  for (CurveTable::Point& point : table.points) point.at = (point.at - table.first) / (table.last - table.first);
   return table;
 }
 

@@ -73,9 +73,21 @@ std::optional<std::array<double, 3>> read_expansion(Reading& reading, const Valu
   return expansion;
 }
 
+/// `{ratio: 0.05, between: [1, 10]}`.
+Damping read_damping(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"ratio", "between"}, "{ratio: 0.05, between: [1, 10]}");
+  Damping damping{unread, unread, unread};
+  damping.ratio = number_or_unread(reading, map.need("ratio"));
+  if (const auto between = map.need("between"))
+    if (const auto frequencies = read_vector(reading.report, *between))
+      damping.from = frequencies->x(), damping.to = frequencies->y();
+  return damping;
+}
+
 Material read_material(Reading& reading, const Entry& entry) {
   const MapReader map(reading.report, entry.value,
-                      {"young", "poisson", "density", "orthotropic", "anisotropic", "expansion"}, material_example);
+                      {"young", "poisson", "density", "damping", "orthotropic", "anisotropic", "expansion"},
+                      material_example);
   Material material;
   material.name = entry.key;
   material.source = entry.key_source;
@@ -95,6 +107,7 @@ Material read_material(Reading& reading, const Entry& entry) {
     material.poisson = number_or_unread(reading, map.need("poisson"));
   }
   if (const auto value = map.get("density")) material.density = number_or_unread(reading, value);
+  if (const auto value = map.get("damping")) material.damping = read_damping(reading, *value);
   if (const auto value = map.get("expansion")) {
     material.expansion = read_expansion(reading, *value).value_or(std::array{unread, unread, unread});
     // For an anisotropic law the third is the shear strain.

@@ -21,13 +21,13 @@ void read_analysis(Reading& reading, const Value& value) {
   bool type_known = true;
   if (const auto type = map.get("type")) {
     const std::string remedy = "write static";
-    const auto choice = read_choice(reading.report, *type, {"static", "modal"},
-                                    {{"dynamic", remedy},
-                                     {"harmonic", remedy},
+    const auto choice = read_choice(reading.report, *type, {"static", "modal", "dynamic"},
+                                    {{"harmonic", remedy},
                                      {"buckling", remedy},
                                      {"fracture", remedy},
                                      {"axisymmetric", "write static, and see 'plane'"}});
     if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
+    reading.all_dynamic = choice && *choice == "dynamic";
     type_known = choice.has_value();
   }
   if (const auto modes = map.get("modes")) {
@@ -98,13 +98,35 @@ void collect_texts(const Node& node, std::set<std::string>& texts) {
   for (const MapEntry& entry : node.entries) collect_texts(*entry.value, texts);
 }
 
+/// `initial: [{on: block, velocity: [1, 0], rotation: 0.5}]`.
+void read_initial(Reading& reading, const Value& value) {
+  const auto items = read_list(reading.report, value, "[{on: block, velocity: [1, 0]}]");
+  for (const Value& item : items.value_or(std::vector<Value>{})) {
+    const MapReader map(reading.report, item, {"on", "velocity", "rotation"}, "{on: block, velocity: [1, 0]}");
+    InitialVelocity initial;
+    initial.source = item.source();
+    if (const auto on = map.need("on")) {
+      const ReadPlace place = read_place(reading, *on);
+      if (place.place && place.place->kind != Place::Kind::body)
+        reading.report.error(*on, "must name a body: an initial velocity is that of a whole body");
+      initial.body = place.body;
+    }
+    if (const auto velocity = map.get("velocity"))
+      initial.velocity = read_vector(reading.report, *velocity).value_or(Vec2::Zero());
+    if (const auto rotation = map.get("rotation"))
+      initial.rotation = read_number(reading.report, *rotation).value_or(0.0);
+    reading.model.initial.push_back(initial);
+  }
+}
+
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
-  const MapReader map(
-      reading.report, root,
-      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
-       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output", "tolerance", "restart"},
-      "'scabo: 1' and sections", {{"units", about_units}, {"unit", about_units}, {"unit_system", about_units}});
+  const MapReader map(reading.report, root,
+                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs",
+                       "loads", "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output",
+                       "tolerance", "restart", "initial"},
+                      "'scabo: 1' and sections",
+                      {{"units", about_units}, {"unit", about_units}, {"unit_system", about_units}});
   if (!map.is_map()) {
     reading.bodies_known = false;
     return;
@@ -138,6 +160,7 @@ void read_sections(Reading& reading, const Value& root) {
   read_steps(reading, map.get("steps"));
   reading.steps_known = reading.report.count() == before_steps;
   find_named_steps(reading);
+  if (const auto initial = map.get("initial")) read_initial(reading, *initial);
   if (const auto output = map.get("output")) read_output(reading, *output);
   if (const auto tolerance = map.get("tolerance"))
     read_tolerance(reading, *tolerance);

@@ -74,6 +74,19 @@ std::optional<int> piece_for(Reading& reading, int curve, CurveOver& over, const
   return part.piece;
 }
 
+/// Index of the curve with this name; nothing if there is none, which is reported.
+std::optional<int> read_curve_name(Reading& reading, const Value& value) {
+  const std::string& name = value.node->text;
+  const auto found = reading.index_of_curve.find(name);
+  if (found != reading.index_of_curve.end()) return found->second;
+  if (!reading.curves_known) return {};
+  std::vector<std::string> known;
+  for (const Curve& curve : reading.model.curves) known.push_back(curve.name);
+  reading.report.error(value, fmt::format("must be a number or the name of a curve, not {}{}", quoted_name(name),
+                                          known.empty() ? "; the model has no curves" : suggestion(name, known)));
+  return {};
+}
+
 std::optional<Factor> read_factor(Reading& reading, const Step& step, const Value& value) {
   const Node& node = *value.node;
   const bool word = node.kind == Node::Kind::scalar && !node.unreadable && model::is_name(node.text);
@@ -81,18 +94,21 @@ std::optional<Factor> read_factor(Reading& reading, const Step& step, const Valu
     const auto number = read_number(reading.report, value);
     return number ? std::optional(Factor{*number, no_curve}) : std::nullopt;
   }
-  const auto found = reading.index_of_curve.find(node.text);
-  if (found == reading.index_of_curve.end()) {
-    if (!reading.curves_known) return {};
-    std::vector<std::string> known;
-    for (const Curve& curve : reading.model.curves) known.push_back(curve.name);
+  const auto found = read_curve_name(reading, value);
+  if (!found) return {};
+  int curve = *found;
+  const auto over = reading.curves_over.find(curve);
+  if (step.dynamic) {
+    if (over == reading.curves_over.end())
+      return Factor{value_at(reading.model.curves[static_cast<std::size_t>(curve)], step.dynamic->duration,
+                             step.dynamic->duration),
+                    curve};
     reading.report.error(value,
-                         fmt::format("must be a number or the name of a curve, not {}{}", quoted_name(node.text),
-                                     known.empty() ? "; the model has no curves" : suggestion(node.text, known)));
+                         "runs over several steps, which a curve in a step in time cannot: its table is in "
+                         "seconds from the begin of its step");
     return {};
   }
-  int curve = found->second;
-  if (const auto over = reading.curves_over.find(curve); over != reading.curves_over.end()) {
+  if (over != reading.curves_over.end()) {
     const auto piece = piece_for(reading, curve, over->second, step, value);
     if (!piece) return {};
     curve = *piece;
@@ -186,6 +202,28 @@ void read_increments(Reading& reading, const Value& value, Step& step) {
   step.automatic = automatic;
 }
 
+/// `dynamic: {duration: 10, step: 0.005, ground: {x: quake}}`.
+void read_dynamic(Reading& reading, const Value& value, Step& step) {
+  const MapReader map(reading.report, value, {"duration", "step", "ground"}, "{duration: 10, step: 0.005}");
+  DynamicStep dynamic;
+  dynamic.duration = number_or_unread(reading, map.need("duration"));
+  if (const auto given = map.get("step")) dynamic.step = number_or_unread(reading, given);
+  if (const auto ground = map.get("ground")) {
+    const MapReader components(reading.report, *ground, {"x", "y"}, "{x: quake}");
+    constexpr const char* names[2] = {"x", "y"};
+    for (std::size_t k = 0; k < 2; ++k)
+      if (const auto curve = components.get(names[k])) {
+        if (curve->node->kind != Node::Kind::scalar)
+          reading.report.error(*curve, "must be the name of a curve: the acceleration of the ground");
+        else
+          dynamic.ground[k] = read_curve_name(reading, *curve).value_or(no_curve);
+      }
+  }
+  constexpr int times_of_results = 100;  // unless the user says how many
+  step.increments = times_of_results;
+  step.dynamic = dynamic;
+}
+
 /// Those of the contacts themselves.
 void add_coefficients(const std::vector<Contact>& contacts, Step& step) {
   for (const Contact& contact : contacts) {
@@ -223,7 +261,7 @@ void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
 /// Increments end at the corners of curves, besides their equal parts.
 void divide_at_corners(const Reading& reading, Step& step) {
   const std::vector<double> corners = corners_of(step, reading.model.curves);
-  if (step.automatic || corners.empty()) return;
+  if (step.automatic || step.dynamic || corners.empty()) return;
   std::vector<double> ends = corners;
   for (int k = 1; k <= step.increments; ++k) ends.push_back(static_cast<double>(k) / step.increments);
   std::sort(ends.begin(), ends.end());
@@ -237,12 +275,13 @@ void divide_at_corners(const Reading& reading, Step& step) {
 
 /// The step that follows one that ends with the factors of `before`.
 Step read_step(Reading& reading, const Index& supports, const Value& value, const Step& before, std::size_t number) {
-  const MapReader map(reading.report, value, {"name", "increments", "loads", "friction", "cycles"},
+  const MapReader map(reading.report, value, {"name", "dynamic", "increments", "loads", "friction", "cycles"},
                       "{name: press, increments: 10, loads: {tip: 1.0}}");
   Step step = before;
   step.name = fmt::format("step_{}", number);
   step.increments = 1;
   step.automatic.reset();
+  step.dynamic.reset();
   step.ends.clear();
   step.load_curves.clear();
   step.support_curves.clear();
@@ -251,6 +290,11 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
     const auto text = read_text(reading.report, *name);
     if (text && check_name(reading.report, name->source(), *text)) step.name = *text;
   }
+  if (const auto dynamic = map.get("dynamic"))
+    read_dynamic(reading, *dynamic, step);
+  else if (reading.all_dynamic)
+    reading.report.error(
+        value, "needs 'dynamic', as in dynamic: {duration: 10}: every step of a dynamic analysis is one in time");
   if (const auto increments = map.get("increments")) read_increments(reading, *increments, step);
   if (const auto friction = map.get("friction")) read_friction_of_step(reading, *friction, step);
   const auto loads = map.get("loads");
@@ -272,6 +316,10 @@ void tell_of_unused_curves(Reading& reading) {
   for (const Step& step : reading.model.steps)
     for (const std::vector<int>* of : {&step.load_curves, &step.support_curves})
       for (const int curve : *of)
+        if (curve >= 0) used[static_cast<std::size_t>(curve)] = true;
+  for (const Step& step : reading.model.steps)
+    if (step.dynamic)
+      for (const int curve : step.dynamic->ground)
         if (curve >= 0) used[static_cast<std::size_t>(curve)] = true;
   for (std::size_t c = 0; c < used.size(); ++c)
     if (!used[c] && !reading.curves_over.contains(static_cast<int>(c)))
@@ -323,7 +371,7 @@ long read_cycles(Reading& reading, const Value& value, const Step& step) {
   if (entry == nullptr || entry->value->kind == Node::Kind::null) return 1;
   const Value cycles{entry->value, value.path + ".cycles"};
   const long count = read_integer(reading.report, cycles, limits::cycles).value_or(1);
-  if (count > 1 && step.load_curves.empty() && step.support_curves.empty()) {
+  if (count > 1 && !step.dynamic && step.load_curves.empty() && step.support_curves.empty()) {
     reading.report.error(cycles,
                          "repeats a step in which no factor follows a curve, so that nothing would change: give "
                          "'loads' a curve that ends where it begins");
@@ -344,6 +392,11 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
   const auto items = value ? read_list(reading.report, *value, "[{name: press, increments: 10}]")
                            : std::optional(std::vector<Value>{});
   if (!items) return;
+  if (items->empty() && reading.all_dynamic) {
+    reading.report.error(Source{0, 0, "steps"},
+                         "is missing: a dynamic analysis needs steps with 'dynamic: {duration: ...}'");
+    return;
+  }
   if (items->empty()) {
     step.name = "step_1";
     step.source = value ? value->source() : Source{};

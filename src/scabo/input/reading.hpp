@@ -79,6 +79,7 @@ struct Reading {
 
   std::vector<Value> automatic_sizes;  ///< `size: auto` of meshes without a tolerance of their own
 
+  bool all_dynamic = false;  ///< analysis: {type: dynamic}
   bool steps_known = false;  ///< true: all steps have been read
   /// `fit_in` of contacts, by their entry: the names of steps, which are read after contacts.
   std::vector<std::pair<std::string, Value>> fits_of_contacts;

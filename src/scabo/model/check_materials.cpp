@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "scabo/model/checking.hpp"
@@ -84,6 +85,15 @@ void report_lack(Checking& checking, int index, std::string message) {
   checking.error_of_key(path_of("materials", material.name, static_cast<std::size_t>(index)), "", std::move(message));
 }
 
+/// Whether supports on the whole body hold it along x and y.
+bool is_held(const Model& model, int body) {
+  bool along[2] = {false, false};
+  for (const Support& support : model.supports)
+    if (support.on.body == body && support.on.kind == Place::Kind::body)
+      for (std::size_t k = 0; k < 2; ++k) along[k] = along[k] || support.displacement[k].has_value();
+  return along[0] && along[1];
+}
+
 /// A body without mass has no frequencies.
 void check_density_of_modal_analysis(Checking& checking) {
   const Model& model = checking.model;
@@ -105,7 +115,32 @@ void check_density_of_modal_analysis(Checking& checking) {
   }
 }
 
+/// In time every body needs a mass, be it none.
+void check_density_in_time(Checking& checking) {
+  const Model& model = checking.model;
+  std::set<int> told;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.outside) continue;
+    checking.enter(body.source);
+    if (body.rigid && !body.density && !is_held(model, static_cast<int>(b)))
+      checking.error_of_key(path_of("bodies", body.name, b), "",
+                            "'density' is missing: a step in time needs the mass of a rigid body that no support holds "
+                            "as a whole");
+    if (body.rigid) continue;
+    for (const int index : materials_of(model, body)) {
+      if (model.materials[static_cast<std::size_t>(index)].density || !told.insert(index).second) continue;
+      report_lack(checking, index,
+                  fmt::format("'density' is missing: a step in time needs the mass of body '{}'; 0 makes it massless",
+                              body.name));
+    }
+  }
+}
+
 }  // namespace
+
+double Damping::of_mass() const { return 4.0 * std::numbers::pi * ratio * from * to / (from + to); }
+double Damping::of_stiffness() const { return ratio / (std::numbers::pi * (from + to)); }
 
 std::set<int> materials_of(const Model& model, const Body& body) {
   std::set<int> materials(body.sector_materials.begin(), body.sector_materials.end());
@@ -134,6 +169,16 @@ void check_materials(Checking& checking) {
       check_law(checking, path + ".anisotropic", std::get<Anisotropic>(*material.law));
     }
     if (material.density) checking.not_negative(path, "density", *material.density);
+    if (material.damping) {
+      const Damping& damping = *material.damping;
+      if (checking.not_negative(path, "damping.ratio", damping.ratio) && damping.ratio >= 1.0)
+        checking.error(path, "damping.ratio",
+                       fmt::format("is the part of critical damping and must be below 1, not {}; 5 % is 0.05",
+                                   number_text(damping.ratio)));
+      if (checking.positive(path, "damping.between.0", damping.from) &&
+          checking.positive(path, "damping.between.1", damping.to) && damping.from >= damping.to)
+        checking.error(path, "damping.between", "must be two ascending frequencies");
+    }
     if (!material.expansion) continue;
     for (std::size_t k = 0; k < 3; ++k)
       if (!checking.number(path, fmt::format("expansion.{}", k), (*material.expansion)[k])) break;
@@ -146,6 +191,7 @@ void check_density(Checking& checking) {
     check_density_of_modal_analysis(checking);
     return;
   }
+  if (is_dynamic(model)) check_density_in_time(checking);
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     const Load& load = model.loads[l];
     if (!checking.load[l] || !std::holds_alternative<Gravity>(load.kind)) continue;

@@ -71,7 +71,8 @@ void check_curves(Checking& checking) {
     for (std::size_t k = 0; k < points.size(); ++k) {
       const std::string key = fmt::format("table.{}", k);
       if (!checking.number(path, key, points[k].at) || !checking.number(path, key, points[k].value)) return;
-      if (k > 0 && !(points[k].at > points[k - 1].at)) {
+      if (k > 0 && !(points[k].at > points[k - 1].at) &&
+          !(points[k].at == points[k - 1].at && is_dynamic(checking.model))) {
         checking.error(path, key, "positions must be ascending: a factor cannot jump");
         break;
       }
@@ -97,7 +98,13 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
         return;
       }
       const Curve& curve = model.curves[static_cast<std::size_t>(curves[i])];
-      if (const auto* table = std::get_if<CurveTable>(&curve.kind); table != nullptr && table->points.empty()) return;
+      const auto* table = std::get_if<CurveTable>(&curve.kind);
+      if (table != nullptr && table->points.empty()) return;
+      const auto together = [](const CurveTable::Point& a, const CurveTable::Point& b) { return a.at == b.at; };
+      if (table != nullptr &&
+          std::adjacent_find(table->points.begin(), table->points.end(), together) != table->points.end())
+        checking.error(path, "loads",
+                       fmt::format("curve '{}' jumps, which a factor can only in a step in time", curve.name));
       const double here = before ? (before->*factors)[i] : 0.0, begin = value_of(curve, 0.0),
                    end = value_of(curve, 1.0);
       const std::string& name = support ? model.supports[i].name : model.loads[i].name;
@@ -113,6 +120,33 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
   };
   check(step.load_curves, &Step::load_factors, false);
   check(step.support_curves, &Step::support_factors, true);
+}
+
+/// In time curves may begin anywhere, but supports do not jump.
+void check_dynamic_step(Checking& checking, const std::string& path, const Step& step, const Step* before) {
+  const Model& model = checking.model;
+  const DynamicStep& dynamic = *step.dynamic;
+  const bool known = checking.positive(path, "dynamic.duration", dynamic.duration);
+  if (dynamic.step && checking.positive(path, "dynamic.step", *dynamic.step) && known &&
+      *dynamic.step > dynamic.duration)
+    checking.error(path, "dynamic.step",
+                   fmt::format("must be at most the duration, {}, not {}", number_text(dynamic.duration),
+                               number_text(*dynamic.step)));
+  if (step.automatic)
+    checking.error(path, "increments",
+                   "of a step in time must be a number: that of the times at which results are written; its time steps "
+                   "are divided by themselves where that is needed");
+  for (std::size_t i = 0; i < step.support_factors.size(); ++i) {
+    const double here = before ? before->support_factors[i] : 0.0;
+    const Support& support = model.supports[i];
+    const bool moves = support.rotation.value_or(0.0) != 0.0 || support.displacement[0].value_or(0.0) != 0.0 ||
+                       support.displacement[1].value_or(0.0) != 0.0;
+    if (!moves || support_curve(step, i) >= 0 || step.support_factors[i] == here) continue;
+    checking.error(path, "loads." + support.name,
+                   fmt::format("support '{}' would jump at the begin of a step in time: let its factor follow a curve, "
+                               "or bring it there in a step before",
+                               support.name));
+  }
 }
 
 /// Where some step changes coefficients of friction.
@@ -166,6 +200,7 @@ std::vector<double> coefficients_of(const Step& step) {
 
 std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves) {
   std::vector<double> corners;
+  if (step.dynamic) return corners;  // time steps are not equal parts of a load
   for (const std::vector<int>* of : {&step.load_curves, &step.support_curves})
     for (const int curve : *of)
       if (curve >= 0)
@@ -227,8 +262,31 @@ void check_steps(Checking& checking) {
       checking.gaps.steps = true;
       return;
     }
-    check_beginnings(checking, path, step, i > 0 ? &model.steps[i - 1] : nullptr);
+    const Step* const before = i > 0 ? &model.steps[i - 1] : nullptr;
+    if (step.dynamic)
+      check_dynamic_step(checking, path, step, before);
+    else
+      check_beginnings(checking, path, step, before);
     if (has_friction && !checking.gaps.conditions) check_friction_of_step(checking, path, step);
+  }
+}
+
+void check_initial(Checking& checking) {
+  const Model& model = checking.model;
+  for (std::size_t i = 0; i < model.initial.size(); ++i) {
+    const InitialVelocity& initial = model.initial[i];
+    const std::string path = path_of("initial", initial.source, i);
+    checking.enter(initial.source);
+    if (!is_dynamic(model) && !checking.gaps.steps)
+      checking.error(path, "", "has no effect: no step is one in time (steps: [{dynamic: {duration: ...}}])");
+    checking.vector(path, "velocity", initial.velocity);
+    checking.number(path, "rotation", initial.rotation);
+    if (!checking.is_body(initial.body)) {
+      if (!checking.gaps.bodies && !checking.gaps.places)
+        checking.error(path, "on", "refers to a body that does not exist");
+    } else if (checking.body(initial.body).outside) {
+      checking.error(path, "on", "an unbounded body has no velocity as a whole");
+    }
   }
 }
 

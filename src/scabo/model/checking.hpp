@@ -85,6 +85,8 @@ void check_output(Checking& checking);
 void check_quantities(Checking& checking);
 // These need the whole model.
 void check_density(Checking& checking);
+/// Velocities before the first time step.
+void check_initial(Checking& checking);
 void check_expansion(Checking& checking);
 void check_bodies_held(Checking& checking);
 void check_something_loads(Checking& checking);

@@ -34,6 +34,37 @@ double value_of(const Curve& curve, double s) {
   return points.back().value;
 }
 
+double value_at(const Curve& curve, double time, double duration) {
+  const auto* table = std::get_if<CurveTable>(&curve.kind);
+  return table ? value_of(curve, (time - table->first) / (table->last - table->first))
+               : value_of(curve, time / duration);
+}
+
+double mean_between(const Curve& curve, double from, double to, double duration) {
+  const double length = to - from;
+  if (!(length > 0.0)) return value_at(curve, to, duration);
+  if (const auto* sine = std::get_if<CurveSine>(&curve.kind)) {
+    const double turn = 2.0 * std::numbers::pi;
+    const double begin = turn * (sine->turns + sine->periods * from / duration),
+                 part = turn * sine->periods * length / duration;
+    // (cos begin - cos(begin + part)) / part without cancellation
+    const double half = 0.5 * part;
+    return sine->mean + sine->amplitude * std::sin(begin + half) * (half == 0.0 ? 1.0 : std::sin(half) / half);
+  }
+  const auto& table = std::get<CurveTable>(curve.kind);
+  const auto position = [&](double time) { return (time - table.first) / (table.last - table.first); };
+  const double a = position(from), b = position(to);
+  double sum = 0.0;
+  double at = a, value = value_of(curve, a);
+  for (const CurveTable::Point& point : table.points) {
+    if (point.at < a || point.at > b) continue;
+    sum += 0.5 * (value + point.value) * (point.at - at);
+    at = point.at, value = point.value;
+  }
+  if (at < b) sum += 0.5 * (value + value_of(curve, b)) * (b - at);
+  return sum / (b - a);
+}
+
 Curve piece_of(const Curve& curve, double from, double to) {
   Curve piece = curve;
   if (auto* sine = std::get_if<CurveSine>(&piece.kind)) {

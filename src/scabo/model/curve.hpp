@@ -15,7 +15,9 @@ struct CurveTable {
     double at = 0.0;  ///< part of the step, 0 to 1
     double value = 0.0;
   };
-  std::vector<Point> points;  ///< one or more, their positions ascending
+  std::vector<Point> points;  ///< one or more, their positions ascending; two at one position where it jumps
+  /// Positions as given, of those at 0 and 1: seconds, where the step is one in time.
+  double first = 0.0, last = 1.0;
 };
 
 /// mean + amplitude sin(2 pi (turns + periods s)), s: part of the step.
@@ -36,6 +38,13 @@ Curve piece_of(const Curve& curve, double from, double to);
 
 /// The factor at part `s` of a step, 0 to 1.
 double value_of(const Curve& curve, double s);
+
+/// The factor in a step in time of this duration, at a time from its start: of a table, whose positions are seconds,
+/// and of a sine over the duration. At a jump the value before it.
+double value_at(const Curve& curve, double time, double duration);
+
+/// Mean of value_at() between two times.
+double mean_between(const Curve& curve, double from, double to, double duration);
 
 /// Parts of the step, between 0 and 1, where the curve has a corner or an extreme, ascending.
 std::vector<double> corners_of(const Curve& curve);

@@ -26,13 +26,23 @@ struct Anisotropic {
   double D11 = 0.0, D12 = 0.0, D22 = 0.0, D16 = 0.0, D26 = 0.0, D66 = 0.0;  ///< force / length^2, positive definite
 };
 
+/// Rayleigh damping C = a M + b K with the same part of critical damping at two frequencies, between which it is less.
+struct Damping {
+  double ratio = 0.0;           ///< of critical damping, 0 to 1
+  double from = 0.0, to = 0.0;  ///< frequencies, 1 / time, 0 < from < to
+
+  double of_mass() const;       ///< a, 1 / time
+  double of_stiffness() const;  ///< b, time
+};
+
 /// Linear elastic material: isotropic, orthotropic or anisotropic.
 struct Material {
   std::string name;
   double young = 0.0;    ///< force / length^2, > 0
   double poisson = 0.0;  ///< -1 < poisson < 0.5 (plane strain), <= 0.5 (plane stress)
   std::optional<std::variant<Orthotropic, Anisotropic>> law;  ///< instead of young and poisson
-  std::optional<double> density;  ///< mass / length^3, >= 0; needed for gravity and by a modal analysis
+  std::optional<double> density;  ///< mass / length^3, >= 0; needed for gravity, by a modal analysis and in time
+  std::optional<Damping> damping;
   /// Thermal strain along axes 1, 2 and 3 (anisotropic: exx, eyy, gxy) per unit of temperature; needed only where a
   /// temperature acts.
   std::optional<std::array<double, 3>> expansion;

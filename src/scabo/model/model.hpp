@@ -4,6 +4,7 @@
 // Units are those of the user and must be consistent; all examples use SI units (m, N, Pa, kg/m3).
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,6 +55,14 @@ struct Restart {
   Source source;
 };
 
+/// Velocity of a body before the first time step.
+struct InitialVelocity {
+  int body = -1;
+  Vec2 velocity = Vec2::Zero();  ///< of its centroid, length / time
+  double rotation = 0.0;         ///< counter-clockwise about the centroid, radians / time
+  Source source;
+};
+
 struct Model {
   std::string file;  ///< as given to the reader, for messages
   /// What was read from `file`, which is read only once: it may be a pipe. Null: the model was built by code.
@@ -70,11 +79,30 @@ struct Model {
   std::vector<Tie> ties;
   std::vector<Curve> curves;
   std::vector<Step> steps;
+  std::vector<InitialVelocity> initial;
   std::optional<Restart> restart;
   SolverOptions solver;
   std::vector<Warning> warnings;  ///< about input that has no effect in this analysis, or is named otherwise
   Output output;
   std::optional<QuantityTolerance> tolerance;  ///< meshes are refined until the bar of a number is that small
 };
+
+/// Whether some step is one in time.
+inline bool is_dynamic(const Model& model) {
+  return std::any_of(model.steps.begin(), model.steps.end(), [](const Step& step) { return step.dynamic.has_value(); });
+}
+
+/// Whether every step is one in time.
+inline bool is_all_dynamic(const Model& model) {
+  return !model.steps.empty() &&
+         std::all_of(model.steps.begin(), model.steps.end(), [](const Step& step) { return step.dynamic.has_value(); });
+}
+
+/// Whether the ground moves in some step.
+inline bool is_shaken(const Model& model) {
+  return std::any_of(model.steps.begin(), model.steps.end(), [](const Step& step) {
+    return step.dynamic && (step.dynamic->ground[0] >= 0 || step.dynamic->ground[1] >= 0);
+  });
+}
 
 }  // namespace scabo::model

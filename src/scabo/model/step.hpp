@@ -1,6 +1,7 @@
 // Steps: how loads, prescribed displacements and coefficients of friction change.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -19,6 +20,16 @@ struct AutomaticIncrements {
   double smallest = 1e-4;
 };
 
+/// A step in time: its increments end at equal times, and are divided into time steps. Factors of loads and supports
+/// hold their new value from its first instant, or follow curves whose tables are in seconds.
+struct DynamicStep {
+  double duration = 0.0;       ///< time, > 0
+  std::optional<double> step;  ///< longest time step, time, > 0; empty: from wave speeds
+  /// Index into Model::curves of the acceleration of the ground along x and y, length / time^2; -1: none. Displacements
+  /// and velocities are then those relative to the ground.
+  std::array<int, 2> ground{-1, -1};
+};
+
 /// Factors change linearly, or along curves, over `increments` increments, from those at the end of the previous step
 /// (zero before the first) to these. Coefficients of friction change linearly.
 struct Step {
@@ -34,6 +45,7 @@ struct Step {
   std::vector<int> load_curves, support_curves;
   std::vector<double> friction;  ///< coefficient of every contact at the end of the step; empty if no step changes one
   std::vector<double> backward_friction;  ///< the same against backward slip; as many as `friction`
+  std::optional<DynamicStep> dynamic;     ///< empty: the step is quasi-static
   Source source;
 };
 

@@ -241,8 +241,9 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   check_expansion(checking);
   const bool modal = model.analysis.type == AnalysisType::modal;
   if (!modal) {
-    check_bodies_held(checking);
-    check_something_loads(checking);
+    if (!is_all_dynamic(model)) check_bodies_held(checking);
+    if (model.initial.empty() && !is_shaken(model)) check_something_loads(checking);
+    check_initial(checking);
   }
   if (!checking.gaps.steps) {
     if (!modal) check_never_applied(checking);

@@ -72,6 +72,14 @@ Json json_of(const analysis::Energy& energy) {
           {"friction_error", number_or_null(energy.friction_error)}};
 }
 
+void add_in_time(const analysis::Energy& energy, Json& json) {
+  json["kinetic"] = number_or_null(energy.kinetic);
+  json["damping"] = number_or_null(energy.damping);
+  json["impact"] = number_or_null(energy.impact);
+  json["projection"] = number_or_null(energy.projection);
+  json["massless"] = number_or_null(energy.massless);
+}
+
 Json json_of(const std::vector<std::complex<double>>& exponents) {
   Json list = Json::array();
   for (const std::complex<double>& value : exponents)
@@ -139,6 +147,7 @@ Json json_of(const analysis::QuantityResult& quantity) {
 /// An increment that did not converge has no contacts, reactions, certificate or energy, because it is not a result.
 Json json_of(const analysis::IncrementResult& increment, const model::Model& model) {
   Json json = {{"step", increment.step}, {"increment", increment.increment}, {"reached", increment.reached}};
+  if (increment.time) json["time"] = number_or_null(*increment.time);
   json["factors"] = Json::object();
   for (const auto& [name, factor] : increment.factors) json["factors"][name] = number_or_null(factor);
   json["converged"] = increment.converged;
@@ -170,6 +179,10 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
+  if (increment.time) {
+    json["certificate"]["energy_balance"] = number_or_null(increment.certificate.energy_balance);
+    add_in_time(increment.energy, json["energy"]);
+  }
   json["error"] = increment.error ? json_of(*increment.error, model) : Json();
   if (!increment.quantities.empty()) {
     json["quantities"] = Json::array();

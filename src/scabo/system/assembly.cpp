@@ -7,6 +7,7 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/finite_element.hpp"
+#include "scabo/element/mass.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::system {
@@ -302,6 +303,55 @@ std::shared_ptr<const Matrix> MassLibrary::of(const element::SolvedSuperElement&
   std::shared_ptr<const Matrix>& mass = known_[&super_element];
   if (!mass) mass = std::make_shared<const Matrix>(compute_(super_element));
   return mass;
+}
+
+MassLibrary masses_of(const model::Model& model, int threads) {
+  return MassLibrary([&model, threads](const element::SolvedSuperElement& cell) {
+    std::vector<double> density;
+    for (const int material : cell.sectors.materials)
+      density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
+    if (std::all_of(density.begin(), density.end(), [](double of) { return of == 0.0; }))
+      return Matrix(Matrix::Zero(cell.K().rows(), cell.K().cols()));
+    return element::mass_matrix(cell.ring, cell.solution(), cell.modes(), density, model.analysis.thickness, threads);
+  });
+}
+
+std::optional<Stiffness> part_damping(const model::Model& model, const mesh::Mesh& mesh,
+                                      const std::vector<element::SolvedCells>& cells, const Dofs& dofs,
+                                      std::size_t part, MassLibrary& masses) {
+  const std::vector<BodyOfPart> bodies = bodies_of(mesh, cells, dofs, part);
+  const auto damps = [&](int material) {
+    return model.materials[static_cast<std::size_t>(material)].damping.has_value();
+  };
+  bool any = false;
+  for (const BodyOfPart& body : bodies)
+    for (const mesh::Cell& cell : body.mesh.cells) any = any || damps(cell.materials.front());
+  if (!any) return {};
+  const auto damping_of = [&](int material) {
+    return model.materials[static_cast<std::size_t>(material)].damping.value_or(model::Damping{0.0, 1.0, 2.0});
+  };
+  MassLibrary of_cells([&](const element::SolvedSuperElement& cell) {
+    const model::Damping damping = damping_of(cell.sectors.materials.front());
+    return Matrix(damping.of_mass() * *masses.of(cell) + damping.of_stiffness() * cell.K());
+  });
+  Stiffness C;
+  if (bodies.size() == 1 && is_whole(bodies.front().mesh)) {
+    C.dense = of_cells.of(*bodies.front().cells.front());
+    return C;
+  }
+  C.sparse = assembled(
+      dofs.nodes(part).size(), bodies, 1,
+      [&](const element::SolvedSuperElement& cell) -> const Matrix& { return *of_cells.of(cell); },
+      [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
+        const model::Material& material = material_of(model, cell);
+        const model::Damping damping = damping_of(cell.materials.front());
+        const element::Mat3 D = element::elasticity_matrix(material, model.analysis.plane);
+        const double thickness = model.analysis.thickness;
+        return element::ElementMatrix(damping.of_mass() *
+                                          element::finite_element_mass(finite, *material.density, thickness) +
+                                      damping.of_stiffness() * element::finite_element_stiffness(finite, D, thickness));
+      });
+  return C;
 }
 
 Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "scabo/element/cell_library.hpp"
 #include "scabo/system/body_system.hpp"
@@ -34,6 +35,9 @@ class MassLibrary {
   std::map<const element::SolvedSuperElement*, std::shared_ptr<const Matrix>> known_;
 };
 
+/// Masses of the super-elements of a model, which outlives the library. Every material needs a density.
+MassLibrary masses_of(const model::Model& model, int threads);
+
 /// Mass, stored like the stiffness. Every material needs a density.
 Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
                     MassLibrary& masses);
@@ -41,5 +45,10 @@ Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const
 /// Mass of an elastic part, stored like its stiffness.
 Stiffness part_mass(const model::Model& model, const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells,
                     const Dofs& dofs, std::size_t part, MassLibrary& masses);
+
+/// Rayleigh damping of an elastic part, each cell by its material, stored like its stiffness; without any, nothing.
+std::optional<Stiffness> part_damping(const model::Model& model, const mesh::Mesh& mesh,
+                                      const std::vector<element::SolvedCells>& cells, const Dofs& dofs,
+                                      std::size_t part, MassLibrary& masses);
 
 }  // namespace scabo::system

@@ -85,6 +85,9 @@ class BodySystem {
   virtual Matrix flexibility_by_factor(const std::vector<int>& dofs) const = 0;
   /// A times forces on the given degrees of freedom, on the same ones, by the factor.
   virtual Vector flexed(const std::vector<int>& dofs, const Vector& forces) const = 0;
+  /// Whether its stiffness resists rigid motions, so that its forces need not be in balance: an unbounded body, and any
+  /// body in time (inertia.hpp).
+  virtual bool resists_rigid_motions() const { return false; }
   /// Whether several processes have its stiffness.
   virtual bool is_divided() const { return false; }
   /// Not of a divided one.

@@ -1,10 +1,12 @@
 #include "scabo/system/thermal_energy.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/finite_element.hpp"
+#include "scabo/element/initial_stress.hpp"
 #include "scabo/element/modal_solution.hpp"
 #include "scabo/system/loads.hpp"
 

@@ -3,6 +3,7 @@
 // A scheme poses and solves the problem of an interval of time, of which the march knows only the parts from 0, the
 // begin of the increment, to 1, its end:
 //
+//     part_at_once(rest)      the part of the increment that an attempt goes, of the rest
 //     now()                   what its increments have in common at present
 //     attempt(from, part)     from an accepted state to that part of the increment
 //     is_same_scaled(from, tried, part)   whether the attempt to that part is the same problem as `tried`, scaled
@@ -57,11 +58,12 @@ Reached reach(const Scheme& scheme, Reached reached, std::optional<double> least
   const IncrementRule rule;
   const Prepared& prepared = scheme.now();
   const State from = reached.state;
-  double part = 1.0 - reached.part;
+  double part = scheme.part_at_once(1.0 - reached.part);
   int repeats = 0;
   reached.mesh_is_due = false;
   while (reached.part < 1.0) {
-    const double next = std::min(1.0, reached.part + part);
+    double next = std::min(1.0, reached.part + part);
+    if (1.0 - next <= rounding_of_parts * part) next = 1.0;
     Attempt tried = scheme.attempt(reached.state, next);
     reached.iterations += tried.solution.iterations;
     reached.coarse_iterations += tried.solution.coarse_iterations;

@@ -8,7 +8,6 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/element/mass.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/model/validate.hpp"
 #include "scabo/system/assembly.hpp"
@@ -19,15 +18,6 @@
 namespace scabo::analysis {
 
 namespace {
-
-/// Mass of a super-element.
-Matrix mass_of(const model::Model& model, const element::SolvedSuperElement& super_element, int threads) {
-  std::vector<double> density;
-  for (const int material : super_element.sectors.materials)
-    density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
-  return element::mass_matrix(super_element.ring, super_element.solution(), super_element.modes(), density,
-                              model.analysis.thickness, threads);
-}
 
 /// M times a translation of the whole body.
 std::array<Vector, 2> mass_of_translations(const system::Stiffness& M) {
@@ -98,8 +88,7 @@ ModalResult solve_modal(model::Model model, const Options& options) {
     const Stopwatch stopwatch(result.timing.super_elements);
     structure.cells = element::solve_cells(structure.model, structure.mesh, threads);
   }
-  system::MassLibrary masses(
-      [&](const element::SolvedSuperElement& cell) { return mass_of(structure.model, cell, threads); });
+  system::MassLibrary masses = system::masses_of(structure.model, threads);
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
     if (dofs.is_rigid(p)) continue;
     system::Stiffness K, M;

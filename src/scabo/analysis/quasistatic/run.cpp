@@ -31,7 +31,7 @@ std::optional<LargeSlip> large_slip_of(StaticSolution& solution, const Options& 
 
 }  // namespace
 
-StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options) {
+StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options, const GoThrough& go_through) {
   const auto stage = [&](const char* what) {
     if (options.on_stage) options.on_stage(what);
   };
@@ -64,7 +64,10 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   for (Warning& warning : load_warnings(solution.model, assembly->structure))
     solution.warnings.push_back(std::move(warning));
   Quasistatic scheme(std::move(assembly), std::move(large), options.from ? options.from->at.step : 0, solution);
-  march(scheme, solution, options);
+  if (go_through)
+    go_through(scheme, solution, options);
+  else
+    march(scheme, solution, options);
   for (Warning& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;
 }

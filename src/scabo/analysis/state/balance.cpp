@@ -84,6 +84,7 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
 void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions) {
   state.forces = applied_forces(prepared, state.factors, state.released);
   state.prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
+  if (!state.velocity.empty()) return;  // in time displacements are a part of the history
   add_displacements(prepared, without_motions, state);
 }
 
@@ -186,8 +187,8 @@ void certify_structure(const Prepared& prepared, const State& state, std::vector
     const system::BodySystem& part = *prepared.structure.parts[p];
     Vector& forces = balances[p].forces;
     certificate.equilibrium = std::max(certificate.equilibrium, part.imbalance_of(balances[p].unbalanced) / scale);
-    // Of a rigid body imbalance() is the balance; what acts on an unbounded part goes to infinity.
-    if (dofs.is_rigid(p) || dofs.is_unbounded(p)) continue;
+    // Of a rigid body imbalance() is the balance.
+    if (dofs.is_rigid(p) || part.resists_rigid_motions()) continue;
     system::add_reactions(part.constraints(), state.reactions[p], forces);
     if (part.has_springs()) forces += part.spring_forces(state.u[p]);
     // Against all forces on the part: those of a fine mesh are small, and many.

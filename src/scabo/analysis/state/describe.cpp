@@ -136,6 +136,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   }
   result.contacts = contact_results(prepared, state);
   result.energy = state.energy;
+  if (!state.velocity.empty()) result.time = state.time;
   result.largest_force = scale_of(prepared, state, largest_force(state));
   result.lost_to_rounding = lost_to_rounding(prepared, state);
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());

@@ -20,9 +20,12 @@ Numbers numbers_of(double value) { return {value}; }
 void assign(const Numbers& from, double& to) { to = from.at(0); }
 
 Numbers numbers_of(const Energy& energy) {
-  return {energy.external, energy.elastic, energy.friction, energy.friction_error};
+  return {energy.external, energy.elastic, energy.friction,   energy.friction_error, energy.kinetic,
+          energy.damping,  energy.impact,  energy.projection, energy.massless};
 }
-void assign(const Numbers& from, Energy& to) { to = {from.at(0), from.at(1), from.at(2), from.at(3)}; }
+void assign(const Numbers& from, Energy& to) {
+  to = {from.at(0), from.at(1), from.at(2), from.at(3), from.at(4), from.at(5), from.at(6), from.at(7), from.at(8)};
+}
 
 Numbers numbers_of(const std::vector<Vec2>& points) {
   Numbers to;
@@ -108,6 +111,20 @@ Field optional_field(const char* name, Owner owner, int count, Kept kept, Of of)
   return made;
 }
 
+/// What is a part of the history in time only, and follows from the others at rest.
+template <typename Of>
+Field in_time(const char* name, Of) {
+  return {name,
+          Owner::whole,
+          0,
+          false,
+          true,
+          [](const State& state) { return state.velocity.empty() ? Numbers() : numbers_of(Of{}(state)); },
+          [](State& state, const Numbers& numbers) {
+            if (!numbers.empty()) assign(numbers, Of{}(state));
+          }};
+}
+
 }  // namespace
 
 const std::vector<Field>& fields_of_state() {
@@ -156,9 +173,19 @@ const std::vector<Field>& fields_of_state() {
       optional_field(
           "replaced/slip_before", pair, 1, lasts, [](auto& state) -> auto& { return state.replaced.slip_before; }),
       field(
-          "energy", whole, 4, lasts, [](auto& state) -> auto& { return state.energy; }),
+          "energy", whole, 9, lasts, [](auto& state) -> auto& { return state.energy; }),
       field(
           "largest_force", whole, 1, lasts, [](auto& state) -> auto& { return state.largest_force; }),
+      field(
+          "time", whole, 1, in_this_run, [](auto& state) -> auto& { return state.time; }),
+      field(
+          "largest_energy", whole, 1, in_this_run, [](auto& state) -> auto& { return state.largest_energy; }),
+      optional_field(
+          "velocity", whole, 0, in_this_run, [](auto& state) -> auto& { return state.velocity; }),
+      in_time(
+          "displacement", [](auto& state) -> auto& { return state.u; }),
+      in_time(
+          "reactions", [](auto& state) -> auto& { return state.reactions; }),
   };
   return fields;
 }

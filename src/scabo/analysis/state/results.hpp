@@ -48,14 +48,23 @@ struct ContactResult {
   std::optional<int> first_in_contact, last_in_contact;  ///< pair numbers; empty if all pairs are open
 };
 
-/// Work since the start, force times length.
+/// Work since the start, force times length. In time
+///
+///     kinetic + elastic + friction + damping + impact + projection + massless = external
 struct Energy {
-  double external = 0.0;  ///< of loads and of reactions at prescribed displacements
+  /// Of loads and of reactions at prescribed displacements; with the kinetic energy of initial velocities.
+  double external = 0.0;
   double elastic = 0.0;   ///< stored in bodies and springs
   double friction = 0.0;  ///< dissipated
   /// `friction`, and `external` with it, are known to +- this: pairs began or ended to slip within increments in which
   /// their pressure changed.
   double friction_error = 0.0;
+  // In time:
+  double kinetic = 0.0;
+  double damping = 0.0;     ///< dissipated
+  double impact = 0.0;      ///< taken by normal impulses; negative where they gave some
+  double projection = 0.0;  ///< taken by removing overlaps; negative where that gave some
+  double massless = 0.0;    ///< lost by parts without mass, which have no oscillations
 };
 
 /// A crack, or a corner at a scaling centre, after an increment.
@@ -139,6 +148,7 @@ struct IncrementResult {
   std::string step_name;
   int increment = 0;                      ///< from 1 within the step
   double reached = 1.0;                   ///< part of the step at its end, more than 0, 1 in its last increment
+  std::optional<double> time;             ///< since the begin of the first step in time; empty: not in time
   std::map<std::string, double> factors;  ///< factors of loads and of supports with prescribed displacements
   bool converged = false;
   int newton_iterations = 0;

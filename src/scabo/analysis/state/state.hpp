@@ -91,6 +91,10 @@ struct State {
   double largest_force = 0.0;    ///< largest force so far, against which forces are judged after failure and unloading
   Energy energy;
   Replacing replaced;
+  // In time (dynamics/scheme.hpp); no velocities before the first time step:
+  double time = 0.0;             ///< since the begin of the first step in time
+  std::vector<Vector> velocity;  ///< per part, as u
+  double largest_energy = 0.0;   ///< largest kinetic and elastic energy so far, against which errors are judged
 };
 State initial_state(const Prepared& prepared);
 

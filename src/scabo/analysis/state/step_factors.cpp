@@ -44,8 +44,41 @@ bool takes_away(const model::Model& model, std::size_t step) {
                      [&](const model::Body& body) { return body.removed == static_cast<int>(step); });
 }
 
+namespace {
+
+/// Those of a step, held from its begin, where no curve has others.
+template <typename ValueOf>
+Factors held_in(const model::Model& model, std::size_t index, const ValueOf& value_of_curve) {
+  const model::Step& step = model.steps[index];
+  const auto number = static_cast<int>(index);
+  Factors factors{
+      step.load_factors,     step.support_factors, model::coefficients_of(step), presence_at(model, number), 0.0,
+      fits_at(model, number)};
+  const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      if (curves[i] >= 0) of[i] = value_of_curve(model.curves[static_cast<std::size_t>(curves[i])]);
+  };
+  follow(step.load_curves, factors.loads);
+  follow(step.support_curves, factors.supports);
+  return factors;
+}
+
+}  // namespace
+
+Factors factors_at_time(const model::Model& model, std::size_t step, double time) {
+  const double duration = model.steps[step].dynamic->duration;
+  return held_in(model, step, [&](const model::Curve& curve) { return model::value_at(curve, time, duration); });
+}
+
+Factors mean_factors(const model::Model& model, std::size_t step, double from, double to) {
+  const double duration = model.steps[step].dynamic->duration;
+  return held_in(model, step,
+                 [&](const model::Curve& curve) { return model::mean_between(curve, from, to, duration); });
+}
+
 Factors factors_in(const model::Model& model, std::size_t index, double s) {
   const model::Step& step = model.steps[index];
+  if (step.dynamic) return factors_at_time(model, index, s * step.dynamic->duration);
   Factors factors = between(start_of(model, index),
                             {step.load_factors, step.support_factors, model::coefficients_of(step),
                              presence_at(model, static_cast<int>(index)), 0.0, fits_at(model, static_cast<int>(index))},

@@ -16,4 +16,9 @@ bool takes_away(const model::Model& model, std::size_t step);
 /// starts; zero before the first step) and those of the step, or along curves.
 Factors factors_in(const model::Model& model, std::size_t step, double s);
 
+/// Of a step in time, at a time since its begin.
+Factors factors_at_time(const model::Model& model, std::size_t step, double time);
+/// Of a step in time, their means between two times.
+Factors mean_factors(const model::Model& model, std::size_t step, double from, double to);
+
 }  // namespace scabo::analysis

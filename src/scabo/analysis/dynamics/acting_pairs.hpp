@@ -1,0 +1,43 @@
+// Which pairs act in a time step, and their contact problem.
+#pragma once
+
+#include "scabo/analysis/dynamics/time_step.hpp"
+
+namespace scabo::analysis {
+
+struct ActingPairs {
+  std::vector<int> places;  ///< among all pairs, ascending
+  contact::JointLaws laws;
+};
+/// `at_end`: the coefficients of friction.
+ActingPairs acting_pairs(const InTime& in, const State& from, const Factors& at_end);
+
+/// What numbers of a length may be without being a gap.
+double rounding_of_gaps(const Prepared& prepared);
+
+template <typename T>
+std::vector<T> at_places(const std::vector<T>& all, const std::vector<int>& places) {
+  std::vector<T> some;
+  some.reserve(places.size());
+  for (const int i : places) some.push_back(all[static_cast<std::size_t>(i)]);
+  return some;
+}
+/// Both components of some pairs.
+Vector entries_of(const Vector& of_pairs, const std::vector<int>& places);
+/// Blocks of some pairs.
+contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& places);
+
+/// Motions of some pairs per unit rigid motion.
+contact::RigidMap block_of(const contact::RigidMap& G, const std::vector<int>& places);
+
+/// Their problem in a structure in time: motions are h V+, under the forces and prescribed values of `t`.
+contact::Problem pose(const ActingPairs& pairs, const Prepared& prepared, const State& t);
+
+/// Forces, histories and states of all pairs.
+void give_to_all(const ActingPairs& pairs, const contact::Solution& solution, const contact::History& history,
+                 const State& from, State& to);
+
+/// Gaps of all pairs under the displacements of a state.
+Vector gaps_at(const Prepared& prepared, const State& state);
+
+}  // namespace scabo::analysis

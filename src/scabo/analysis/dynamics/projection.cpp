@@ -1,0 +1,119 @@
+#include "scabo/analysis/dynamics/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/analysis/dynamics/acting_pairs.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// d of all parts under normal forces of some pairs, and prescribed values.
+std::vector<Vector> displacements(const Prepared& prepared, const Vector& nu, const Vector& a,
+                                  const std::vector<Vector>& prescribed) {
+  std::vector<Vector> d;
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    if (prepared.is_absent(p)) {
+      d.push_back(Vector::Zero(part.size()));
+      continue;
+    }
+    Vector of_part = part.displacement(prepared.contact.motion[p].transpose() * nu, prescribed[p]);
+    if (const Matrix& rigid = part.rigid_motions(); rigid.cols() > 0)
+      of_part += rigid * a.segment(prepared.contact.first_rigid[p], rigid.cols());
+    d.push_back(std::move(of_part));
+  }
+  return d;
+}
+
+/// Gaps that the displacements leave.
+Vector gaps_after(const Prepared& prepared, const Vector& gap, const std::vector<Vector>& d) {
+  Vector after = gap;
+  for (std::size_t p = 0; p < d.size(); ++p) {
+    if (prepared.is_absent(p)) continue;
+    const Vector motion = prepared.contact.motion[p] * d[p];
+    for (Eigen::Index i = 0; i < after.size(); ++i) after[i] += motion[2 * i];
+  }
+  return after;
+}
+
+/// How far the displacements of the constraints are from where they are prescribed.
+std::vector<Vector> drift_of(const Prepared& at_rest, const State& to, double none, bool& any) {
+  std::vector<Vector> drift;
+  for (std::size_t p = 0; p < to.u.size(); ++p) {
+    Vector of_part = Vector::Zero(to.prescribed[p].size());
+    if (!at_rest.is_absent(p)) of_part = to.prescribed[p] - support_values(*at_rest.structure.parts[p], to.u[p]);
+    for (double& value : of_part)
+      if (std::abs(value) <= 1e-3 * none) value = 0.0;
+    any = any || !of_part.isZero(0.0);
+    drift.push_back(std::move(of_part));
+  }
+  return drift;
+}
+
+}  // namespace
+
+Vector support_values(const system::BodySystem& part, const Vector& u) {
+  Vector values(static_cast<Eigen::Index>(part.constraints().size()));
+  for (std::size_t c = 0; c < part.constraints().size(); ++c) {
+    const system::Constraint& constraint = part.constraints()[c];
+    double& value = values[static_cast<Eigen::Index>(c)];
+    if (constraint.dof >= 0)
+      value = constraint.direction().dot(Vec2(u.segment<2>(constraint.dof / 2 * 2)));
+    else if (constraint.rotation)
+      value = u[2];
+    else
+      value =
+          constraint.direction().dot(Vec2(system::rigid_point(constraint.point, part.reference(), part.lever()) * u));
+  }
+  return values;
+}
+
+Projection project(const InTime& in, const State& t, State& to) {
+  const Prepared& prepared = in.system.prepared;
+  const double none = rounding_of_gaps(in.at_rest);
+  bool moves = false;
+  const std::vector<Vector> drift = drift_of(in.at_rest, to, none, moves);
+  std::vector<int> places;
+  for (Eigen::Index i = 0; i < to.gap.size(); ++i)
+    if (to.gap[i] < -none) places.push_back(static_cast<int>(i));
+  if (places.empty() && !moves) return {};
+  for (Eigen::Index i = 0; i < to.gap.size(); ++i)  // closed ones as well
+    if (to.gap[i] >= -none && t.p[2 * i] > 0.0) places.push_back(static_cast<int>(i));
+  std::sort(places.begin(), places.end());
+  Projection projection;
+  constexpr int rounds = 8;  // more pairs overlap once the first ones do no more
+  for (int round = 0; round < rounds; ++round) {
+    Vector nu = Vector::Zero(t.p.size()), a = Vector::Zero(prepared.contact.rigid_motions());
+    const std::vector<Vector> at_supports = displacements(prepared, nu, a, drift);
+    const Vector gap = gaps_after(prepared, to.gap, at_supports);
+    if (!places.empty()) {
+      contact::Problem problem;
+      problem.W = block_of(prepared.contact.W, places);
+      problem.G = block_of(prepared.contact.G, places);
+      problem.f = Vector::Zero(problem.G.cols());
+      problem.mu = Vector::Zero(static_cast<Eigen::Index>(places.size()));
+      problem.q = Vector::Zero(2 * static_cast<Eigen::Index>(places.size()));
+      for (std::size_t k = 0; k < places.size(); ++k) problem.q[static_cast<Eigen::Index>(2 * k)] = gap[places[k]];
+      const contact::Solution solution = contact::solve(problem);
+      if (solution.status != contact::Status::solved) return {};  // overlaps stay until the next step
+      a = solution.a;
+      for (std::size_t k = 0; k < places.size(); ++k) nu[2 * places[k]] = solution.p[static_cast<Eigen::Index>(2 * k)];
+    }
+    projection.displacement = displacements(prepared, nu, a, drift);
+    const Vector after = gaps_after(prepared, to.gap, projection.displacement);
+    const std::size_t before = places.size();
+    for (Eigen::Index i = 0; i < after.size(); ++i)
+      if (after[i] < -none && !std::binary_search(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(before),
+                                                  static_cast<int>(i)))
+        places.push_back(static_cast<int>(i));
+    if (places.size() == before) break;
+    std::sort(places.begin(), places.end());
+  }
+  for (std::size_t p = 0; p < to.u.size(); ++p) to.u[p] += projection.displacement[p];
+  to.gap = gaps_at(in.at_rest, to);
+  return projection;
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,183 @@
+#include "scabo/analysis/dynamics/scheme.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scabo/analysis/dynamics/projection.hpp"
+#include "scabo/analysis/state/loads.hpp"
+#include "scabo/analysis/state/step_factors.hpp"
+#include "scabo/base/components.hpp"
+#include "scabo/element/elasticity.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// A motion of the whole part along x or y.
+Vector translation(const system::BodySystem& part, bool rigid, int component) {
+  Vector r = Vector::Zero(part.size());
+  if (rigid)
+    r[component] = 1.0;
+  else
+    for (Eigen::Index i = component; i < r.size(); i += 2) r[i] = 1.0;
+  return r;
+}
+
+/// Takes the components of a velocity out that supports hold.
+void hold(const system::BodySystem& part, Vector& v) {
+  for (const system::Constraint& constraint : part.constraints()) {
+    if (constraint.dof < 0) {
+      v.setZero();  // of a rigid body; those that supports hold in part start at rest
+      return;
+    }
+    auto at = v.segment<2>(constraint.dof / 2 * 2);
+    const Vec2 along = constraint.direction();
+    at -= at.dot(along) * along;
+  }
+}
+
+double shortest_side(const mesh::BodyMesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const mesh::Cell& cell : mesh.cells)
+    for (const mesh::LineElement& element : cell.boundary) {
+      const Vec2 &a = mesh.nodes[static_cast<std::size_t>(element.nodes.front())],
+                 &b = mesh.nodes[static_cast<std::size_t>(element.nodes.back())];
+      shortest = std::min(shortest, (b - a).norm() / static_cast<double>(element.nodes.size() - 1));
+    }
+  return shortest;
+}
+
+/// Speed of the fastest waves.
+double wave_speed(const model::Material& material, model::Plane plane) {
+  const element::Mat3 D = element::elasticity_matrix(material, plane);
+  return std::sqrt(std::max(D(0, 0), D(1, 1)) / *material.density);
+}
+
+}  // namespace
+
+double step_by_wave_speed(const model::Model& model, const mesh::Mesh& mesh, double duration) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].rigid || model.bodies[b].outside) continue;
+    double fastest = 0.0;
+    for (const mesh::Cell& cell : mesh.bodies[b].cells)
+      for (const int index : cell.materials)
+        if (const model::Material& material = model.materials[static_cast<std::size_t>(index)];
+            material.density.value_or(0.0) > 0.0)
+          fastest = std::max(fastest, wave_speed(material, model.analysis.plane));
+    if (fastest > 0.0) shortest = std::min(shortest, shortest_side(mesh.bodies[b]) / fastest);
+  }
+  constexpr double parts = 1000.0;
+  return std::isfinite(shortest) ? shortest : duration / parts;
+}
+
+double Dynamics::largest_step() const {
+  const model::DynamicStep& step = *solution_.model.steps[increment_.step].dynamic;
+  return step.step ? *step.step : step_by_wave_speed(solution_.model, solution_.mesh, step.duration);
+}
+
+void Dynamics::begin(const Prepared& at_rest, std::size_t step, double begin, double end) {
+  const bool other_bodies = model::has_stages(solution_.model.bodies) && step != increment_.step;
+  if (at_rest_ != &at_rest || other_bodies) {
+    at_rest_ = &at_rest;
+    systems_.clear();
+    inertia_ =
+        system::inertia_of(at_rest.structure, solution_.model, solution_.mesh, solution_.cells, solution_.threads);
+    for (int k = 0; k < 2; ++k) {
+      mass_of_ground_[k].clear();
+      for (std::size_t p = 0; p < inertia_.size(); ++p)
+        mass_of_ground_[k].push_back(
+            inertia_[p].M.times(translation(*at_rest.structure.parts[p], at_rest.structure.dofs.is_rigid(p), k)));
+    }
+  }
+  const double duration = solution_.model.steps[step].dynamic->duration;
+  increment_ = {step, begin * duration, end * duration, 1, 0.0};
+  for (std::size_t before = 0; before < step; ++before)
+    if (const auto& dynamic = solution_.model.steps[before].dynamic) increment_.before += dynamic->duration;
+  constexpr double rounding = 1e-9;
+  increment_.steps =
+      std::max(1, static_cast<int>(std::ceil((increment_.end - increment_.begin) / largest_step() * (1.0 - rounding))));
+}
+
+double Dynamics::part_at_once(double rest) const { return std::min(rest, 1.0 / increment_.steps); }
+
+const StepSystem& Dynamics::system_of(double size) const {
+  constexpr double rounding = 1e-6;
+  constexpr std::size_t most = 3;  // factors of that many sizes are kept
+  const auto found = std::find_if(systems_.begin(), systems_.end(),
+                                  [&](const auto& system) { return std::abs(system->size - size) <= rounding * size; });
+  if (found != systems_.end()) {
+    std::rotate(systems_.begin(), found, found + 1);
+    return *systems_.front();
+  }
+  if (systems_.size() == most) systems_.pop_back();
+  systems_.insert(systems_.begin(), std::make_unique<const StepSystem>(*at_rest_, inertia_, size, solution_.threads));
+  return *systems_.front();
+}
+
+State Dynamics::in_motion(State at_rest) const {
+  const system::Dofs& dofs = at_rest_->structure.dofs;
+  for (const Vector& u : at_rest.u) at_rest.velocity.push_back(Vector::Zero(u.size()));
+  for (const model::InitialVelocity& initial : solution_.model.initial) {
+    const auto b = static_cast<std::size_t>(initial.body);
+    const std::size_t p = dofs.part_of(initial.body);
+    const system::BodySystem& part = *at_rest_->structure.parts[p];
+    Vector& v = at_rest.velocity[p];
+    const Vec2 about = solution_.model.bodies[b].outline.centroid();
+    if (dofs.is_rigid(p))
+      v << initial.velocity, part.lever() * initial.rotation;
+    else
+      for (std::size_t node = 0; node < solution_.mesh.bodies[b].nodes.size(); ++node) {
+        const Vec2 arm = solution_.mesh.bodies[b].nodes[node] - about;
+        v.segment<2>(dofs.of(initial.body, static_cast<int>(node), 0)) =
+            initial.velocity + initial.rotation * Vec2(-arm.y(), arm.x());
+      }
+    hold(part, v);
+  }
+  at_rest.energy.kinetic = kinetic_energy(*at_rest_, inertia_, at_rest.velocity);
+  at_rest.energy.external += at_rest.energy.kinetic;
+  at_rest.largest_energy = at_rest.energy.kinetic + std::abs(at_rest.energy.elastic);
+  return at_rest;
+}
+
+Acting Dynamics::acting(double from, double to, const StepSystem& system) const {
+  const model::Model& model = solution_.model;
+  const std::size_t step = increment_.step;
+  const model::DynamicStep& dynamic = *model.steps[step].dynamic;
+  Acting acting{mean_factors(model, step, from, to), factors_at_time(model, step, to), {}, {}};
+  // Velocities of supports by a central difference: their trapezoidal rule is then exact to the third order.
+  const double half = 0.5 * (to - from);
+  const std::vector<Vector> before = prescribed_values(*at_rest_, factors_at_time(model, step, to - half).supports, {}),
+                            after = prescribed_values(*at_rest_, factors_at_time(model, step, to + half).supports, {});
+  for (std::size_t p = 0; p < before.size(); ++p) acting.support.push_back((after[p] - before[p]) / system.size);
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (dynamic.ground[k] < 0) continue;
+    const double acceleration =
+        model::mean_between(model.curves[static_cast<std::size_t>(dynamic.ground[k])], from, to, dynamic.duration);
+    acting.ground.resize(inertia_.size());
+    for (std::size_t p = 0; p < inertia_.size(); ++p) {
+      if (acting.ground[p].size() == 0) acting.ground[p] = Vector::Zero(at_rest_->structure.parts[p]->size());
+      acting.ground[p] -= acceleration * mass_of_ground_[k][p];
+    }
+  }
+  return acting;
+}
+
+Attempt Dynamics::attempt(const State& from, double part) const {
+  const State& start = from;
+  const double end = increment_.begin + part * (increment_.end - increment_.begin);
+  const double begin = from.velocity.empty() ? increment_.begin : from.time - increment_.before;
+  const double longest = (increment_.end - increment_.begin) / increment_.steps;
+  const int halvings = std::max(0, static_cast<int>(std::lround(std::log2(longest / (end - begin)))));
+  const StepSystem& system = system_of(std::ldexp(longest, -halvings));
+  const bool may_halve = halvings < solution_.model.solver.halvings;
+  const InTime in{*at_rest_, inertia_, system};
+  const Acting acts = acting(begin, end, system);
+  Attempt made =
+      from.velocity.empty() ? time_step(in, in_motion(start), acts, may_halve) : time_step(in, start, acts, may_halve);
+  made.state.time = increment_.before + end;
+  return made;
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,48 @@
+// Dynamics as a scheme of the march (march/reach.hpp): an increment is the time between two results, and is reached in
+// time steps (time_step.hpp), which are halved where contact adds energy or is not solved. What bodies are there, and
+// their systems at rest, come from the scheme of the steps before (Prepared).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scabo/analysis/dynamics/time_step.hpp"
+
+namespace scabo::analysis {
+
+class Dynamics {
+ public:
+  /// The solution has model, mesh and cells, and outlives this.
+  explicit Dynamics(const StaticSolution& solution) : solution_(solution) {}
+
+  void begin(const Prepared& at_rest, std::size_t step, double begin, double end);
+  double part_at_once(double rest) const;
+  Attempt attempt(const State& from, double part) const;
+
+ private:
+  const StepSystem& system_of(double size) const;
+  State in_motion(State at_rest) const;
+  Acting acting(double from, double to, const StepSystem& system) const;
+  double largest_step() const;
+
+  /// Of the present increment; times are those since the begin of the step.
+  struct Increment {
+    std::size_t step = 0;
+    double begin = 0.0, end = 0.0;
+    int steps = 1;        ///< equal time steps, while none is halved
+    double before = 0.0;  ///< durations of the steps in time before this one
+  };
+
+  const StaticSolution& solution_;
+  const Prepared* at_rest_ = nullptr;
+  std::vector<system::PartInertia> inertia_;
+  std::vector<Vector> mass_of_ground_[2];  ///< per part: M r of a motion of the ground along x and y
+  mutable std::vector<std::unique_ptr<const StepSystem>> systems_;  ///< those of the sizes of this increment
+  Increment increment_;
+};
+
+/// The time that a wave needs to pass the smallest element of the bodies with a mass; `duration` / 1000 where there is
+/// none.
+double step_by_wave_speed(const model::Model& model, const mesh::Mesh& mesh, double duration);
+
+}  // namespace scabo::analysis

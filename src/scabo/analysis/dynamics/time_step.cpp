@@ -1,0 +1,217 @@
+#include "scabo/analysis/dynamics/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/analysis/dynamics/acting_pairs.hpp"
+#include "scabo/analysis/dynamics/projection.hpp"
+#include "scabo/analysis/state/balance.hpp"
+#include "scabo/analysis/state/loads.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+system::ContactSystem condensed(const Prepared& at_rest, const system::Structure& structure, int threads) {
+  system::ContactSystem contact = system::condense(structure, at_rest.model, at_rest.mesh, threads);
+  if (!at_rest.absent.empty()) contact = system::without_parts(contact, structure, at_rest.model, at_rest.absent);
+  ensure(contact.pairs.size() == at_rest.contact.pairs.size(), "inertia changes which pairs can move");
+  return contact;
+}
+
+/// Right-hand side of eq. (1) without contact.
+std::vector<Vector> forces_in_time(const InTime& in, const State& from, const Acting& acting,
+                                   const std::vector<Vector>& applied) {
+  const double h = in.system.size;
+  std::vector<Vector> forces = applied;
+  for (std::size_t p = 0; p < forces.size(); ++p) {
+    if (in.at_rest.is_absent(p)) continue;
+    const system::PartInertia& part = in.inertia[p];
+    const Vector& v = from.velocity[p];
+    forces[p] += part.M.times(v) / h;
+    forces[p] -= part.stiffness_times(from.u[p] + part.theta * (1.0 - part.theta) * h * v);
+    if (part.C && part.theta < 1.0) forces[p] -= (1.0 - part.theta) * part.damping_times(v);
+    if (!acting.ground.empty()) forces[p] += acting.ground[p];
+  }
+  return forces;
+}
+
+/// A time step while it is made. `as_at_rest`: the state of eq. (1), whose displacements are w.
+struct Making {
+  const InTime& in;
+  const State& from;
+  const Acting& acting;
+  Attempt attempt = {};
+  State as_at_rest = {};
+  std::vector<Balance> balances = {};
+  std::vector<Vector> applied = {};  // mean of the step
+  std::vector<Vector> mean_velocity = {};
+  Vector motion = {};  // 2N, mean velocities of the pairs
+  Projection projected = {};
+
+  State& to() { return attempt.state; }
+  double size() const { return in.system.size; }
+};
+
+void begin(Making& making) {
+  const Prepared& at_rest = making.in.at_rest;
+  State& to = making.to();
+  const State& from = making.from;
+  to.factors = making.acting.end;
+  to.offset = from.offset;
+  to.held_offset = from.held_offset;
+  to.released = from.released;
+  to.referred = from.referred;
+  to.replaced = from.replaced;
+  to.rigid_motion = from.rigid_motion;
+  to.time = from.time + making.size();
+  making.applied = applied_forces(at_rest, making.acting.mean, to.released);
+  to.forces = making.applied;
+  to.prescribed = prescribed_values(at_rest, to.factors.supports, to.replaced.moved);
+  State& t = making.as_at_rest;
+  t.forces = forces_in_time(making.in, from, making.acting, making.applied);
+  for (const Vector& velocity : making.acting.support) t.prescribed.push_back(making.size() * velocity);
+}
+
+contact::SolverOptions options_of(const Making& making) {
+  const Prepared& prepared = making.in.system.prepared;
+  contact::SolverOptions options;
+  options.tolerance = prepared.model.solver.tolerance;
+  options.iterations = prepared.model.solver.iterations;
+  options.on_iteration = prepared.on_iteration;
+  options.force_scale = std::max({prepared.force_scale, making.from.largest_force, largest_force(making.as_at_rest)});
+  return options;
+}
+
+/// Contact forces, and the velocities that follow from them.
+void solve(Making& making) {
+  const Prepared& prepared = making.in.system.prepared;
+  Attempt& made = making.attempt;
+  State& to = made.state;
+  const contact::SolverOptions options = options_of(making);
+  made.force_scale = options.force_scale;
+  const ActingPairs pairs = acting_pairs(making.in, making.from, to.factors);
+  contact::Problem posed = pose(pairs, prepared, making.as_at_rest);
+  const contact::History history = at_places(making.from.history, pairs.places);
+  made.start = {entries_of(making.from.p, pairs.places), Vector::Zero(posed.G.cols()),
+                std::vector<bool>(pairs.places.size(), true)};
+  contact::Evolution evolution = contact::evolve(std::move(posed), pairs.laws, history, made.start, options);
+  made.solution = std::move(evolution.solution);
+  made.certificate = made.solution.certificate;
+  give_to_all(pairs, made.solution, evolution.history, making.from, to);
+  State& t = making.as_at_rest;
+  t.p = to.p;
+  t.rigid_motion = made.solution.a;
+  making.balances = add_displacements(prepared, nullptr, t);
+  to.reactions = t.reactions;
+}
+
+/// Velocities, displacements, slips and gaps at the end of the step.
+void advance(Making& making) {
+  const Prepared& at_rest = making.in.at_rest;
+  const double h = making.size();
+  State& to = making.to();
+  const State& from = making.from;
+  making.motion = Vector::Zero(to.p.size());
+  for (std::size_t p = 0; p < from.u.size(); ++p) {
+    const double theta = making.in.inertia[p].theta;
+    to.velocity.push_back(making.as_at_rest.u[p] / h);
+    making.mean_velocity.push_back(theta * to.velocity[p] + (1.0 - theta) * from.velocity[p]);
+    to.u.push_back(from.u[p] + h * making.mean_velocity[p]);
+    if (!at_rest.is_absent(p)) making.motion += at_rest.contact.motion[p] * making.mean_velocity[p];
+  }
+  to.slip = from.slip;
+  for (Eigen::Index i = 0; i < to.slip.size(); ++i) to.slip[i] += h * making.motion[2 * i + 1];
+  to.gap = gaps_at(at_rest, to);
+  making.projected = project(making.in, making.as_at_rest, to);
+}
+
+/// Work of the step, which closes the balance of energy, and how much contact and projection added.
+double add_energy(Making& making) {
+  const Prepared& at_rest = making.in.at_rest;
+  const double h = making.size();
+  State& to = making.to();
+  const State& from = making.from;
+  Energy& energy = to.energy = from.energy;
+  energy.kinetic = kinetic_energy(at_rest, making.in.inertia, to.velocity);
+  energy.elastic = 0.0;
+  for (std::size_t p = 0; p < to.u.size(); ++p) {
+    if (at_rest.is_absent(p)) continue;
+    const system::PartInertia& part = making.in.inertia[p];
+    const system::BodySystem& body = *at_rest.structure.parts[p];
+    const Vector moved = to.u[p] - from.u[p], by_velocity = h * making.mean_velocity[p];
+    energy.external += making.applied[p].dot(moved);
+    if (!making.acting.ground.empty()) energy.external += making.acting.ground[p].dot(moved);
+    energy.external += to.reactions[p].dot(support_values(body, by_velocity));
+    energy.damping += h * making.mean_velocity[p].dot(part.damping_times(making.mean_velocity[p]));
+    if (part.theta == 1.0) energy.massless += 0.5 * by_velocity.dot(part.stiffness_times(by_velocity));
+    const double thermal = thermal_energy(at_rest, to.factors, p, to.u[p]);
+    energy.elastic += 0.5 * to.u[p].dot(part.stiffness_times(to.u[p])) + thermal;
+    energy.external += thermal - thermal_energy(at_rest, from.factors, p, from.u[p]);
+  }
+  double normal = 0.0, tangential = 0.0;
+  for (Eigen::Index i = 0; 2 * i < to.p.size(); ++i) {
+    normal += h * to.p[2 * i] * making.motion[2 * i];
+    tangential += h * to.p[2 * i + 1] * making.motion[2 * i + 1];
+  }
+  energy.impact -= normal;
+  energy.friction -= tangential;
+  double projected = 0.0;
+  for (std::size_t p = 0; p < making.projected.displacement.size(); ++p) {
+    const Vector& d = making.projected.displacement[p];
+    if (d.size() == 0 || d.isZero(0.0)) continue;
+    Vector acting = making.applied[p];
+    if (!making.acting.ground.empty()) acting += making.acting.ground[p];
+    projected += d.dot(making.in.inertia[p].stiffness_times(to.u[p] - 0.5 * d) - acting);
+  }
+  energy.projection -= projected;
+  return std::max(0.0, normal + tangential) + std::max(0.0, projected);
+}
+
+double total(const Energy& energy) {
+  return energy.kinetic + energy.elastic + energy.friction + energy.damping + energy.impact + energy.projection +
+         energy.massless - energy.external;
+}
+
+}  // namespace
+
+StepSystem::StepSystem(const Prepared& at_rest, const std::vector<system::PartInertia>& inertia, double h, int threads)
+    : size(h),
+      structure(
+          system::structure_in_time(at_rest.structure, at_rest.model, inertia, at_rest.contact.motion, h, threads)),
+      contact(condensed(at_rest, structure, threads)),
+      prepared{at_rest.model,        at_rest.mesh,  structure, contact, at_rest.force_scale, {},
+               at_rest.on_iteration, at_rest.absent} {}
+
+double kinetic_energy(const Prepared& prepared, const std::vector<system::PartInertia>& inertia,
+                      const std::vector<Vector>& velocity) {
+  double energy = 0.0;
+  for (std::size_t p = 0; p < velocity.size(); ++p)
+    if (!prepared.is_absent(p)) energy += 0.5 * velocity[p].dot(inertia[p].M.times(velocity[p]));
+  return energy;
+}
+
+Attempt time_step(const InTime& in, const State& from, const Acting& acting, bool may_halve) {
+  constexpr double most_added = 1e-4, most_unbalanced = 1e-9;  // of the largest energy so far
+  Making making{in, from, acting};
+  begin(making);
+  solve(making);
+  advance(making);
+  Attempt& made = making.attempt;
+  State& to = made.state;
+  const double added = add_energy(making);
+  to.largest_energy = std::max(from.largest_energy, to.energy.kinetic + std::abs(to.energy.elastic));
+  if (to.largest_energy > 0.0)
+    made.certificate.energy_balance = std::abs(total(to.energy) - total(from.energy)) / to.largest_energy;
+  to.largest_force = std::max(from.largest_force, largest_force(to));
+  const double scale = std::max(made.force_scale, largest_force(making.as_at_rest));
+  certify_structure(in.system.prepared, making.as_at_rest, std::move(making.balances), scale, made.certificate);
+  made.accepted = made.solution.status == contact::Status::solved &&
+                  made.certificate.worst() <= in.at_rest.model.solver.tolerance &&
+                  !(made.certificate.energy_balance > most_unbalanced) &&
+                  (!may_halve || added <= most_added * to.largest_energy);
+  if (made.accepted) made.solution.trace.clear();
+  return std::move(made);
+}
+
+}  // namespace scabo::analysis
