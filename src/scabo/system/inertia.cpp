@@ -96,6 +96,8 @@ std::vector<PartInertia> inertia_of(const Structure& structure, const model::Mod
     }
     part.K.springs = structure.springs.of_part[p];
     if (is_zero(part.M)) part.theta = 1.0;
+    part.moves = !structure.dofs.is_rigid(p) || structure.parts[p]->rigid_motions().cols() > 0 ||
+                 part.K.springs.matrix.size() > 0;
   }
   return inertia;
 }

@@ -24,6 +24,9 @@ struct PartInertia {
   Stiffness M;
   std::optional<Stiffness> C;  ///< empty: no damping
   double theta = 0.5;
+  bool moves = true;  ///< false: supports hold all of a rigid part, so that its mass says nothing
+
+  bool is_massless() const { return moves && theta == 1.0; }
 
   Vector stiffness_times(const Vector& u) const { return u.size() > 0 ? Vector(K.times(u) + K.springs.times(u)) : u; }
   Vector damping_times(const Vector& v) const { return C ? C->times(v) : Vector(Vector::Zero(v.size())); }

@@ -24,16 +24,17 @@ Vector translation(const system::BodySystem& part, bool rigid, int component) {
   return r;
 }
 
-/// Takes the components of a velocity out that supports hold.
-void hold(const system::BodySystem& part, Vector& v) {
-  for (const system::Constraint& constraint : part.constraints()) {
+/// Gives the components of a velocity that supports hold theirs. Of a rigid body on supports all are 0.
+void hold(const system::BodySystem& part, const Vector& of_supports, Vector& v) {
+  for (std::size_t c = 0; c < part.constraints().size(); ++c) {
+    const system::Constraint& constraint = part.constraints()[c];
     if (constraint.dof < 0) {
-      v.setZero();  // of a rigid body; those that supports hold in part start at rest
+      v.setZero();
       return;
     }
     auto at = v.segment<2>(constraint.dof / 2 * 2);
     const Vec2 along = constraint.direction();
-    at -= at.dot(along) * along;
+    at += (of_supports[static_cast<Eigen::Index>(c)] - at.dot(along)) * along;
   }
 }
 
@@ -116,25 +117,36 @@ const StepSystem& Dynamics::system_of(double size) const {
   return *systems_.front();
 }
 
-State Dynamics::in_motion(State at_rest) const {
+std::vector<Vector> Dynamics::support_velocities(double time, double within) const {
+  const auto values = [&](double at) {
+    return prescribed_values(*at_rest_, factors_at_time(solution_.model, increment_.step, at).supports, {});
+  };
+  std::vector<Vector> velocities = values(time + 0.5 * within);
+  const std::vector<Vector> before = values(time - 0.5 * within);
+  for (std::size_t p = 0; p < velocities.size(); ++p) velocities[p] = (velocities[p] - before[p]) / within;
+  return velocities;
+}
+
+State Dynamics::in_motion(State at_rest, double step) const {
+  const std::vector<Vector> of_supports = support_velocities(increment_.begin, step);
   const system::Dofs& dofs = at_rest_->structure.dofs;
   for (const Vector& u : at_rest.u) at_rest.velocity.push_back(Vector::Zero(u.size()));
   for (const model::InitialVelocity& initial : solution_.model.initial) {
     const auto b = static_cast<std::size_t>(initial.body);
     const std::size_t p = dofs.part_of(initial.body);
-    const system::BodySystem& part = *at_rest_->structure.parts[p];
     Vector& v = at_rest.velocity[p];
     const Vec2 about = solution_.model.bodies[b].outline.centroid();
     if (dofs.is_rigid(p))
-      v << initial.velocity, part.lever() * initial.rotation;
+      v << initial.velocity, at_rest_->structure.parts[p]->lever() * initial.rotation;
     else
       for (std::size_t node = 0; node < solution_.mesh.bodies[b].nodes.size(); ++node) {
         const Vec2 arm = solution_.mesh.bodies[b].nodes[node] - about;
         v.segment<2>(dofs.of(initial.body, static_cast<int>(node), 0)) =
             initial.velocity + initial.rotation * Vec2(-arm.y(), arm.x());
       }
-    hold(part, v);
   }
+  for (std::size_t p = 0; p < of_supports.size(); ++p)
+    hold(*at_rest_->structure.parts[p], of_supports[p], at_rest.velocity[p]);
   at_rest.energy.kinetic = kinetic_energy(*at_rest_, inertia_, at_rest.velocity);
   at_rest.energy.external += at_rest.energy.kinetic;
   at_rest.largest_energy = at_rest.energy.kinetic + std::abs(at_rest.energy.elastic);
@@ -146,11 +158,7 @@ Acting Dynamics::acting(double from, double to, const StepSystem& system) const 
   const std::size_t step = increment_.step;
   const model::DynamicStep& dynamic = *model.steps[step].dynamic;
   Acting acting{mean_factors(model, step, from, to), factors_at_time(model, step, to), {}, {}};
-  // Velocities of supports by a central difference: their trapezoidal rule is then exact to the third order.
-  const double half = 0.5 * (to - from);
-  const std::vector<Vector> before = prescribed_values(*at_rest_, factors_at_time(model, step, to - half).supports, {}),
-                            after = prescribed_values(*at_rest_, factors_at_time(model, step, to + half).supports, {});
-  for (std::size_t p = 0; p < before.size(); ++p) acting.support.push_back((after[p] - before[p]) / system.size);
+  acting.support = support_velocities(to, system.size);
   for (std::size_t k = 0; k < 2; ++k) {
     if (dynamic.ground[k] < 0) continue;
     const double acceleration =
@@ -165,7 +173,6 @@ Acting Dynamics::acting(double from, double to, const StepSystem& system) const 
 }
 
 Attempt Dynamics::attempt(const State& from, double part) const {
-  const State& start = from;
   const double end = increment_.begin + part * (increment_.end - increment_.begin);
   const double begin = from.velocity.empty() ? increment_.begin : from.time - increment_.before;
   const double longest = (increment_.end - increment_.begin) / increment_.steps;
@@ -174,8 +181,8 @@ Attempt Dynamics::attempt(const State& from, double part) const {
   const bool may_halve = halvings < solution_.model.solver.halvings;
   const InTime in{*at_rest_, inertia_, system};
   const Acting acts = acting(begin, end, system);
-  Attempt made =
-      from.velocity.empty() ? time_step(in, in_motion(start), acts, may_halve) : time_step(in, start, acts, may_halve);
+  Attempt made = from.velocity.empty() ? time_step(in, in_motion(from, system.size), acts, may_halve)
+                                       : time_step(in, from, acts, may_halve);
   made.state.time = increment_.before + end;
   return made;
 }

@@ -21,7 +21,11 @@ class Dynamics {
 
  private:
   const StepSystem& system_of(double size) const;
-  State in_motion(State at_rest) const;
+  /// Velocity of each constraint of every part, by a central difference: the trapezoidal rule is then exact to the
+  /// third order.
+  std::vector<Vector> support_velocities(double time, double within) const;
+  /// With the velocities before the first time step, of size `step`.
+  State in_motion(State at_rest, double step) const;
   Acting acting(double from, double to, const StepSystem& system) const;
   double largest_step() const;
 

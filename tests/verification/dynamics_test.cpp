@@ -1,0 +1,279 @@
+// Steps in time (docs/methods/23_dynamics.md): closed forms, balance of energy, twins.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "run.hpp"
+
+namespace scabo::verification {
+namespace {
+
+using analysis::ContactResult;
+using analysis::IncrementResult;
+using analysis::StaticSolution;
+
+/// What every step in time promises.
+void expect_balanced(const StaticSolution& solution) {
+  ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+  double largest = 0.0;
+  for (const IncrementResult& at : solution.increments) {
+    if (!at.time) continue;
+    const analysis::Energy& energy = at.energy;
+    largest = std::max(largest, energy.kinetic + energy.elastic);
+    EXPECT_LT(at.certificate.worst(), 1e-10);
+    EXPECT_LT(at.certificate.energy_balance, 1e-9);
+    EXPECT_NEAR(energy.kinetic + energy.elastic + energy.friction + energy.damping + energy.impact + energy.projection +
+                    energy.massless,
+                energy.external, 1e-9 * largest);
+  }
+}
+
+// A bar of length 10 (E = 900, density 1: waves of 30) flies against a wall, gap 5, at a speed of 10 (Doyen, Ern,
+// Piperno 2011): contact from .5 to 1.16667, force E v / c = 300; it leaves at the speed at which it came. `unit`: of
+// length; `angle`: of the whole model.
+std::string bar_on_a_wall(double unit, double angle, int parts) {
+  const auto at = [&](double x, double y) {
+    return fmt::format("[{}, {}]", unit * (x * std::cos(angle) - y * std::sin(angle)),
+                       unit * (x * std::sin(angle) + y * std::cos(angle)));
+  };
+  return fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: stress, thickness: {0}}}
+materials: {{bar: {{young: {1}, poisson: 0, density: {2}}}}}
+bodies:
+  wall: {{rigid: true, shape: {{polygon: {{vertices: [{3}, {4}, {5}, {6}]}}}}}}
+  bar: {{material: bar, shape: {{polygon: {{vertices: [{7}, {8}, {9}, {10}]}}}}, mesh: {{kind: fem, size: {11}, order: 1}}}}
+supports: [{{on: wall, fix: [x, y]}}]
+initial: [{{on: bar, velocity: {12}}}]
+contacts: {{hit: {{between: [wall.edge_2, bar.edge_4], friction: 0}}}}
+steps: [{{dynamic: {{duration: 1.5, step: {13}}}, increments: 90}}]
+)",
+                     unit, 900.0 / unit, 1.0 / unit / unit / unit, at(-1, -1), at(0, -1), at(0, 2), at(-1, 2), at(5, 0),
+                     at(15, 0), at(15, 1), at(5, 1), 10.0 * unit / parts,
+                     fmt::format("[{}, {}]", -10.0 * unit * std::cos(angle), -10.0 * unit * std::sin(angle)),
+                     0.5 * (10.0 / parts) / 30.0);
+}
+
+TEST(Dynamics, ABarHitsAWall) {
+  double error_before = 0.0;
+  for (const int parts : {20, 40}) {
+    const StaticSolution solution = run(bar_on_a_wall(1.0, 0.0, parts));
+    expect_balanced(solution);
+    double impulse = 0.0, in_middle = 0.0;
+    int count = 0;
+    for (const IncrementResult& at : solution.increments) {
+      const double force = at.contacts[0].normal_force;
+      impulse += force * 1.5 / 90.0;
+      if (*at.time < 0.4999 || *at.time > 1.3) {
+        EXPECT_EQ(force, 0.0) << *at.time;
+      }
+      if (*at.time > 0.6 && *at.time < 1.0) in_middle += force, ++count;
+    }
+    EXPECT_NEAR(in_middle / count, 300.0, 1.5);
+    EXPECT_NEAR(impulse, 200.0, 6.0);
+    const analysis::Energy& energy = solution.increments.back().energy;
+    const double error = std::abs(energy.kinetic + energy.elastic - 500.0);
+    EXPECT_LT(error, 0.02 * 500.0);
+    if (error_before > 0.0) EXPECT_LT(error, 0.75 * error_before);
+    error_before = error;
+  }
+}
+
+TEST(Dynamics, IsTheSameInOtherUnitsAndTurned) {
+  const StaticSolution one = run(bar_on_a_wall(1.0, 0.0, 20)), other = run(bar_on_a_wall(1000.0, 0.6, 20));
+  ASSERT_EQ(one.increments.size(), other.increments.size());
+  for (std::size_t i = 0; i < one.increments.size(); ++i) {
+    EXPECT_NEAR(other.increments[i].contacts[0].normal_force / 1000.0, one.increments[i].contacts[0].normal_force,
+                3e-6);
+    EXPECT_NEAR(other.increments[i].energy.kinetic / 1e6, one.increments[i].energy.kinetic, 5e-6);
+  }
+}
+
+// A rigid block on a bed without mass, stiff enough to be rigid too, under a ground acceleration.
+std::string block_on_ground(const std::string& curve, double shaken, double step) {
+  return fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress}}
+materials: {{rock: {{young: 1e12, poisson: 0.2, density: 0}}}}
+bodies:
+  block: {{rigid: true, density: 1000, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}}}
+  ground: {{material: rock, shape: {{rectangle: {{corner: [-0.5, -1], size: [3, 1]}}}}, mesh: {{size: 0.5, order: 1}}}}
+supports: [{{on: ground.bottom, fix: [x, y]}}]
+loads: {{weight: {{on: block, force: [0, -19620]}}}}
+contacts: {{base: {{between: [ground.top, block.bottom], friction: 0.3}}}}
+curves: {{quake: {{{0}}}}}
+steps:
+  - {{name: rest}}
+  - {{name: shake, dynamic: {{duration: {1}, step: {2}, ground: {{x: quake}}}}, increments: 50}}
+  - {{name: calm, dynamic: {{duration: 0.5, step: {2}}}, increments: 5}}
+)",
+                     curve, shaken, step);
+}
+
+/// Slip of the first pair in contact after every increment.
+std::vector<double> slips(const StaticSolution& solution) {
+  std::vector<double> slips;
+  for (const IncrementResult& at : solution.increments)
+    slips.push_back(at.contacts[0].pairs[static_cast<std::size_t>(*at.contacts[0].first_in_contact) - 1].slip);
+  return slips;
+}
+
+// One cycle of .5 g sin(2 pi t/.5 s), friction .3, g = 9.81: the block slips 24.48784 mm back and .42046 mm are left.
+TEST(Dynamics, ABlockSlipsOnAShakingGround) {
+  const StaticSolution solution = run(block_on_ground("sine: {amplitude: 4.905, periods: 1}", 0.5, 5e-4));
+  expect_balanced(solution);
+  const std::vector<double> slip = slips(solution);
+  EXPECT_NEAR(*std::min_element(slip.begin(), slip.end()), -24.48784e-3, 3e-6);
+  EXPECT_NEAR(slip.back(), 0.42046e-3, 3e-6);
+  EXPECT_LT(solution.increments.back().energy.kinetic, 1e-12);
+  EXPECT_NEAR(solution.increments.back().contacts[0].normal_force, 19620.0, 1e-3);
+}
+
+// A pulse of .5 g for .25 s, which the curve begins and ends at once: V^2/(2 g) (1/mu - 1/A), V = .5 g .25 s.
+TEST(Dynamics, ABlockSlipsUnderAPulse) {
+  const StaticSolution solution =
+      run(block_on_ground("table: [[0, 4.905], [0.25, 4.905], [0.25, 0], [0.5, 0]]", 0.5, 1e-3));
+  expect_balanced(solution);
+  const double V = 4.905 * 0.25;
+  EXPECT_NEAR(slips(solution).back(), -V * V / (2.0 * 9.81) * (1.0 / 0.3 - 1.0 / 0.5), 2e-5);
+}
+
+// GetFEM's bar: u = (1 - x)/2 at first, E = density = length = 1, fixed at x = 1, wall at x = 0: the period is 3 and
+// the pressure 1/2 for 1 < t < 2.
+TEST(Dynamics, ABarThatIsLetGoHitsAgainAndAgain) {
+  const StaticSolution solution = run(R"(
+scabo: 1
+analysis: {plane: stress}
+materials: {bar: {young: 1, poisson: 0, density: 1}}
+bodies:
+  bar: {material: bar, shape: {rectangle: {corner: [0, 0], size: [1, 0.1]}}, mesh: {kind: fem, size: 0.02, order: 1}}
+  wall: {rigid: true, shape: {rectangle: {corner: [-0.5, -0.5], size: [0.5, 1]}}}
+supports:
+  - {on: wall, fix: [x, y]}
+  - {on: bar.right, fix: [x, y]}
+loads: {pull: {on: bar.left, traction: [0.5, 0]}}
+contacts: {hit: {between: [wall.right, bar.left], friction: 0}}
+steps:
+  - {name: pull}
+  - {name: go, dynamic: {duration: 6, step: 0.01}, loads: {pull: 0}, increments: 120}
+)");
+  expect_balanced(solution);
+  double sum = 0.0;
+  int count = 0;
+  for (const IncrementResult& at : solution.increments) {
+    if (!at.time) continue;
+    const double phase = std::fmod(*at.time, 3.0), force = at.contacts[0].normal_force;
+    if (*at.time > 1.2 && *at.time < 1.8) sum += force, ++count;
+    if (phase > 0.02 && phase < 0.9) EXPECT_EQ(force, 0.0) << *at.time;
+  }
+  EXPECT_NEAR(sum / count, 0.05, 5e-4);
+  const analysis::Energy& end = solution.increments.back().energy;
+  EXPECT_NEAR(end.kinetic + end.elastic, 0.0125, 0.015 * 0.0125);
+}
+
+// An elastic block on an elastic bed without mass, 3 g for 1 s: the energy does not grow afterwards.
+TEST(Dynamics, ABedWithoutMassGivesNoEnergy) {
+  for (const double step : {5e-4, 2e-3}) {
+    const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials:
+  stone: {{young: 1e9, poisson: 0.2, density: 2400}}
+  bed: {{young: 2e9, poisson: 0.2, density: 0}}
+bodies:
+  block: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [2, 2]}}}}, mesh: {{kind: fem, size: 0.5, order: 1}}}}
+  bed: {{material: bed, shape: {{rectangle: {{corner: [-1, -1], size: [4, 1]}}}}, mesh: {{kind: fem, size: 0.5, order: 1}}}}
+supports: [{{on: bed.bottom, fix: [x, y]}}]
+loads: {{weight: {{gravity: [0, -9.81], on: block}}}}
+contacts: {{base: {{between: [bed.top, block.bottom], friction: 0.5}}}}
+curves: {{quake: {{sine: {{amplitude: 29.43, periods: 5}}}}}}
+steps:
+  - {{name: rest}}
+  - {{name: shake, dynamic: {{duration: 1, step: {0}, ground: {{x: quake}}}}, increments: 4}}
+  - {{name: after, dynamic: {{duration: 1, step: {0}}}, increments: 40}}
+)",
+                                                    step));
+    expect_balanced(solution);
+    const auto energy = [](const IncrementResult& at) {
+      return at.energy.kinetic + at.energy.elastic - at.energy.external;
+    };
+    double before = energy(solution.increments[4]);
+    for (std::size_t i = 5; i < solution.increments.size(); ++i) {
+      EXPECT_LT(energy(solution.increments[i]), before + 1e-3 * std::abs(before));
+      before = energy(solution.increments[i]);
+    }
+  }
+}
+
+// Loads that grow slowly do what they do at rest.
+TEST(Dynamics, SlowLoadingIsStatic) {
+  const auto model = [](const std::string& step) {
+    return R"(
+scabo: 1
+analysis: {plane: strain}
+materials: {stone: {young: 1e9, poisson: 0.2, density: 2000, damping: {ratio: 0.5, between: [100, 400]}}}
+bodies:
+  low: {material: stone, shape: {rectangle: {corner: [0, 0], size: [1, 0.5]}}, mesh: {size: 0.25, order: 2}}
+  high: {material: stone, shape: {rectangle: {corner: [0, 0.5], size: [1, 0.5]}}, mesh: {size: 0.25, order: 2}}
+supports: [{on: low.bottom, fix: [x, y]}]
+loads:
+  press: {on: high.top, pressure: 1e6}
+  push: {on: high.left, traction: [0.3e6, 0]}
+contacts: {joint: {between: [low.top, high.bottom], friction: 0.6}}
+curves: {slowly: {table: [[0, 0], [1, 1], [1.2, 1]]}}
+steps:
+  - {name: press, loads: {press: 1}}
+)" + step;
+  };
+  const StaticSolution in_time =
+                           run(model("  - {name: push, dynamic: {duration: 1.2, step: 2e-3}, loads: {push: slowly}, "
+                                     "increments: 6}\n")),
+                       at_rest = run(model("  - {name: push, loads: {push: 1}, increments: 10}\n"));
+  expect_balanced(in_time);
+  const ContactResult &moved = in_time.increments.back().contacts[0], &rested = at_rest.increments.back().contacts[0];
+  EXPECT_NEAR(moved.normal_force, rested.normal_force, 1e-4 * rested.normal_force);
+  EXPECT_NEAR(moved.tangential_force, rested.tangential_force, 1e-4 * rested.normal_force);
+  EXPECT_NEAR(moved.max_pressure, rested.max_pressure, 1e-3 * rested.max_pressure);
+}
+
+// A column on a support that moves by a curve, and the same in the frame that moves with it: the motions differ by that
+// of the support. At first it moves as its support does.
+TEST(Dynamics, AMovingSupportIsAMovingFrame) {
+  const auto model = [](bool frame) {
+    const double omega = 8.0 * std::numbers::pi, amplitude = 0.01;
+    const std::string support = frame ? "fix: [x, y]" : "displacement: [1, 0]",
+                      ground = frame ? ", ground: {x: push}" : "", loads = frame ? "" : ", loads: {base: shake}";
+    return fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: stress}}
+materials: {{stone: {{young: 1e8, poisson: 0.2, density: 2000}}}}
+bodies:
+  column: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [1, 4]}}}}, mesh: {{kind: fem, size: 0.5, order: 2}}}}
+supports: [{{name: base, on: column.bottom, {0}}}]
+curves:
+  shake: {{sine: {{amplitude: {1}, periods: 2}}}}
+  push: {{sine: {{amplitude: {2}, periods: 2}}}}
+steps: [{{name: shake, dynamic: {{duration: 0.5, step: 2.5e-4{3}}}, increments: 20{4}}}]
+initial: [{{on: column, velocity: [{5}, 0]}}]
+)",
+                       support, amplitude, -amplitude * omega * omega, ground, loads, frame ? 0.0 : amplitude * omega);
+  };
+  const StaticSolution absolute = run(model(false)), relative = run(model(true));
+  expect_balanced(absolute);
+  expect_balanced(relative);
+  const auto top = [](const IncrementResult& at) {
+    const Vector& u = at.fields.displacements[0];
+    return u[u.size() - 2];
+  };
+  double largest = 0.0;
+  for (const IncrementResult& at : relative.increments) largest = std::max(largest, std::abs(top(at)));
+  for (std::size_t i = 0; i < relative.increments.size(); ++i) {
+    const double ground = 0.01 * std::sin(8.0 * std::numbers::pi * *relative.increments[i].time);
+    EXPECT_NEAR(top(absolute.increments[i]) - ground, top(relative.increments[i]), 2e-3 * largest);
+    EXPECT_NEAR(absolute.increments[i].reactions[0].x(), relative.increments[i].reactions[0].x(), 2e-2 * 8000.0 * 6.3);
+  }
+}
+
+}  // namespace
+}  // namespace scabo::verification
