@@ -63,6 +63,14 @@ class QuantityReader {
     quantity_.name = *text;
     quantity_.source = value_.source();
     if (*text == "elastic_energy") return quantity_;
+    constexpr const char* in_time[] = {"kinetic_energy", "damping_energy", "impact_energy", "projection_energy",
+                                       "massless_energy"};
+    for (int k = 0; for_history_ && k < 5; ++k)
+      if (*text == in_time[k]) {
+        quantity_.kind = Quantity::Kind::energy_in_time;
+        quantity_.component = k;
+        return quantity_;
+      }
     if (for_history_ && (*text == "external_energy" || *text == "friction_energy")) {
       quantity_.kind = *text == "external_energy" ? Quantity::Kind::external_energy : Quantity::Kind::friction_energy;
       return quantity_;
@@ -119,14 +127,14 @@ class QuantityReader {
 
  private:
   std::optional<Quantity> refuse_for_history(const std::string& word) {
-    std::vector<std::string> words{"elastic_energy", "external_energy", "friction_energy"};
+    std::vector<std::string> words{"elastic_energy", "external_energy", "friction_energy", "kinetic_energy"};
     for (const QuantityWord& known : quantity_words) words.emplace_back(known.word);
     for (const QuantityWord& known : history_words) words.emplace_back(known.word);
     const std::string near = nearest_name(word, words);
     return refuse(
-        fmt::format("'{}' is not a number that can have a history: write elastic_energy, external_energy or "
-                    "friction_energy, or a name and one of {}, as in joint.normal_force{}",
-                    one_line(word), fmt::join(words.begin() + 3, words.end(), ", "),
+        fmt::format("'{}' is not a number that can have a history: write elastic_energy, external_energy, "
+                    "friction_energy or kinetic_energy, or a name and one of {}, as in joint.normal_force{}",
+                    one_line(word), fmt::join(words.begin() + 4, words.end(), ", "),
                     near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
   }
 

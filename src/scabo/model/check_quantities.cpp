@@ -154,6 +154,9 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
     case Quantity::Kind::external_energy:
     case Quantity::Kind::friction_energy:
       break;
+    case Quantity::Kind::energy_in_time:
+      if (!is_dynamic(model)) checking.error(path, "", "belongs to steps in time, and the model has none");
+      break;
   }
   if (with_bar && !quantity.has_bar())
     checking.error(path, "", "has a history, but no error bar: ask for it under output.history");

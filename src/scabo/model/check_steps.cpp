@@ -149,6 +149,51 @@ void check_dynamic_step(Checking& checking, const std::string& path, const Step&
   }
 }
 
+/// What a model with steps in time cannot have.
+void check_with_steps_in_time(Checking& checking) {
+  const Model& model = checking.model;
+  if (!is_dynamic(model) || model.analysis.type == AnalysisType::modal) return;
+  std::size_t first = 0;
+  while (!model.steps[first].dynamic) ++first;
+  const auto refuse = [&](const Source& at, const std::string& path, std::string message) {
+    checking.enter(at);
+    checking.error(path, "", std::move(message));
+  };
+  for (std::size_t i = first; i < model.steps.size(); ++i)
+    if (!model.steps[i].dynamic)
+      refuse(model.steps[i].source, path_of("steps", model.steps[i].source, i),
+             "is quasi-static and comes after a step in time: put it before, or make it a step in time of its own");
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const std::string path = path_of("bodies", body.name, b);
+    if (body.added >= static_cast<int>(first) && body.added > 0)
+      refuse(body.source, path, "is added in a step in time: bodies come in the quasi-static steps before it");
+    if (body.removed >= static_cast<int>(first))
+      refuse(body.source, path, "is removed in a step in time: bodies go in the quasi-static steps before it");
+    if (body.mesh.tolerance)
+      refuse(body.source, path + ".mesh",
+             "has a tolerance, for which steps in time are not repeated on finer meshes: "
+             "give 'size', and halve it to compare");
+  }
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    const std::string path = path_of_joint("contacts", contact.source, contact.name, c);
+    if (contact.large_slip)
+      refuse(contact.source, path, "has large slip, which steps in time do not have: leave 'slip' out");
+    if (contact.fit_in >= static_cast<int>(first))
+      refuse(contact.source, path, "has its interference in a step in time: let it grow in a quasi-static step before");
+  }
+  if (model.restart)
+    refuse(model.restart->source, "restart", "a run with steps in time does not start from another one yet");
+  if (model.tolerance || model.output.error || !model.output.error_of.empty())
+    refuse(
+        {}, model.tolerance ? "tolerance" : "output",
+        "an error bar needs finer meshes, on which steps in time are not repeated: leave it out, and halve 'size' and "
+        "'step' to compare");
+  if (model.solver.uniqueness)
+    refuse({}, "solver.uniqueness", "is a question to quasi-static increments: leave it out with steps in time");
+}
+
 /// Where some step changes coefficients of friction.
 void check_friction_of_step(Checking& checking, const std::string& path, const Step& step) {
   const Model& model = checking.model;
@@ -269,6 +314,7 @@ void check_steps(Checking& checking) {
       check_beginnings(checking, path, step, before);
     if (has_friction && !checking.gaps.conditions) check_friction_of_step(checking, path, step);
   }
+  check_with_steps_in_time(checking);
 }
 
 void check_initial(Checking& checking) {

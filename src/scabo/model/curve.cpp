@@ -1,5 +1,6 @@
 #include "scabo/model/curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,13 +26,12 @@ double value_of(const Curve& curve, double s) {
   }
   const std::vector<CurveTable::Point>& points = std::get<CurveTable>(curve.kind).points;
   if (s <= points.front().at) return points.front().value;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (s > points[i].at) continue;
-    if (s == points[i].at) return points[i].value;
-    const double part = (s - points[i - 1].at) / (points[i].at - points[i - 1].at);
-    return points[i - 1].value + part * (points[i].value - points[i - 1].value);
-  }
-  return points.back().value;
+  const auto next = std::partition_point(points.begin(), points.end(), [&](const auto& point) { return point.at < s; });
+  if (next == points.end()) return points.back().value;
+  if (s == next->at) return next->value;
+  const CurveTable::Point& before = *(next - 1);
+  const double part = (s - before.at) / (next->at - before.at);
+  return before.value + part * (next->value - before.value);
 }
 
 double value_at(const Curve& curve, double time, double duration) {
@@ -56,10 +56,11 @@ double mean_between(const Curve& curve, double from, double to, double duration)
   const double a = position(from), b = position(to);
   double sum = 0.0;
   double at = a, value = value_of(curve, a);
-  for (const CurveTable::Point& point : table.points) {
-    if (point.at < a || point.at > b) continue;
-    sum += 0.5 * (value + point.value) * (point.at - at);
-    at = point.at, value = point.value;
+  auto point = std::partition_point(table.points.begin(), table.points.end(),
+                                    [&](const CurveTable::Point& one) { return one.at < a; });
+  for (; point != table.points.end() && point->at <= b; ++point) {
+    sum += 0.5 * (value + point->value) * (point->at - at);
+    at = point->at, value = point->value;
   }
   if (at < b) sum += 0.5 * (value + value_of(curve, b)) * (b - at);
   return sum / (b - a);

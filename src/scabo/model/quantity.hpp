@@ -26,6 +26,7 @@ struct Quantity {
     max_pressure,        ///< of a contact, force / length^2
     external_energy,     ///< work of loads and reactions, force times length
     friction_energy,     ///< dissipated, force times length
+    energy_in_time,      ///< kinetic (component 0), damping (1), impact (2), projection (3), massless (4)
     spring_force,        ///< of springs on their body, force
     pairs_in_state,      ///< of a contact: how many of its pairs are open, stick or slip (component 0, 1, 2)
     broken_pairs,        ///< of a contact with cohesion: how many have lost it

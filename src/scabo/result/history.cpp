@@ -121,7 +121,7 @@ std::string History::row(const analysis::StaticSolution& solution, const analysi
       evaluation_->points().empty() ? std::vector<PointResult>() : evaluation_->at(solution, increment);
   fmt::memory_buffer line;
   fmt::format_to(std::back_inserter(line), "{},{},{}", increment.step, increment.increment,
-                 increment.step - 1 + increment.reached);
+                 time_of(increment, model::is_dynamic(solution.model)));
   std::size_t column = 0;
   const auto add = [&](const std::optional<double>& value) {
     if (value && std::isfinite(*value)) {

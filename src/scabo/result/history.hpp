@@ -15,6 +15,12 @@
 
 namespace scabo::result {
 
+/// Steps and parts of steps; `in_time`, where the model has steps in time: time since the begin of the first of these,
+/// 0 before it.
+inline double time_of(const analysis::IncrementResult& increment, bool in_time) {
+  return in_time ? increment.time.value_or(0.0) : increment.step - 1 + increment.reached;
+}
+
 /// First columns of the table.
 constexpr std::string_view history_mark = "step,increment,time,";
 

@@ -84,7 +84,11 @@ void remove_later_fields(const fs::path& path, int last) {
 }  // namespace
 
 ResultsDirectory::ResultsDirectory(fs::path path, const model::Model& model, mesh::Mesh mesh)
-    : path_(std::move(path)), steps_(static_cast<int>(model.steps.size())), history_(model), output_(model.output) {
+    : path_(std::move(path)),
+      steps_(static_cast<int>(model.steps.size())),
+      in_time_(model::is_dynamic(model)),
+      history_(model),
+      output_(model.output) {
   const Stopwatch writing(write_seconds_);
   std::error_code error;
   if (model.restart && fs::equivalent(model.restart->directory, path_, error))
@@ -105,6 +109,7 @@ ResultsDirectory::ResultsDirectory(fs::path path, DirectoryLock lock, const mode
                                    const analysis::WrittenResults& written)
     : path_(std::move(path)),
       steps_(static_cast<int>(model.steps.size())),
+      in_time_(model::is_dynamic(model)),
       lock_(std::move(lock)),
       written_before_(written.finished),
       finished_(written.finished),
@@ -376,7 +381,7 @@ analysis::Timing ResultsDirectory::complete(analysis::Timing timing) const {
 }
 
 double ResultsDirectory::pseudo_time(const analysis::IncrementResult& increment) const {
-  return increment.step - 1 + increment.reached;
+  return time_of(increment, in_time_);
 }
 
 bool ResultsDirectory::is_last(const analysis::IncrementResult& increment) const {

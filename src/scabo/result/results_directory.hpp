@@ -105,6 +105,7 @@ class ResultsDirectory {
   std::filesystem::path path_;
   FieldParts* parts_ = nullptr;
   int steps_ = 0;
+  bool in_time_ = false;  // whether the model has steps in time
   std::optional<DirectoryLock> lock_;
   double pseudo_time(const analysis::IncrementResult& increment) const;
   bool is_last(const analysis::IncrementResult& increment) const;

@@ -1,10 +1,12 @@
 #include "scabo/analysis/dynamics/scheme.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "scabo/analysis/dynamics/projection.hpp"
+#include "scabo/analysis/dynamics/acting_pairs.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 #include "scabo/base/components.hpp"
@@ -53,6 +55,20 @@ double shortest_side(const mesh::BodyMesh& mesh) {
 double wave_speed(const model::Material& material, model::Plane plane) {
   const element::Mat3 D = element::elasticity_matrix(material, plane);
   return std::sqrt(std::max(D(0, 0), D(1, 1)) / *material.density);
+}
+
+/// An interference has to be resolved at rest.
+void refuse_overlap(const Prepared& prepared, const State& at_rest) {
+  const double none = rounding_of_gaps(prepared);
+  for (Eigen::Index i = 0; i < at_rest.gap.size(); ++i) {
+    if (at_rest.gap[i] >= -none) continue;
+    const model::Contact& contact =
+        prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[static_cast<std::size_t>(i)].contact)];
+    throw InputError(prepared.model.file,
+                     {{contact.source, fmt::format("contact '{}' overlaps by {:.3g} at the begin of the first step in "
+                                                   "time: let a quasi-static step before it resolve the interference",
+                                                   contact.name, -at_rest.gap[i])}});
+  }
 }
 
 }  // namespace
@@ -128,6 +144,8 @@ std::vector<Vector> Dynamics::support_velocities(double time, double within) con
 }
 
 State Dynamics::in_motion(State at_rest, double step) const {
+  at_rest.gap = gaps_at(*at_rest_, at_rest);
+  refuse_overlap(*at_rest_, at_rest);
   const std::vector<Vector> of_supports = support_velocities(increment_.begin, step);
   const system::Dofs& dofs = at_rest_->structure.dofs;
   for (const Vector& u : at_rest.u) at_rest.velocity.push_back(Vector::Zero(u.size()));

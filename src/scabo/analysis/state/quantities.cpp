@@ -168,6 +168,11 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
       return increment.energy.external;
     case Kind::friction_energy:
       return increment.energy.friction;
+    case Kind::energy_in_time: {
+      const Energy& energy = increment.energy;
+      const double in_time[] = {energy.kinetic, energy.damping, energy.impact, energy.projection, energy.massless};
+      return in_time[quantity.component];
+    }
   }
   return std::nullopt;
 }

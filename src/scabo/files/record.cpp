@@ -1,0 +1,162 @@
+#include "scabo/files/record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+namespace scabo::files {
+
+namespace {
+
+struct Line {
+  int number = 0;
+  std::string text;
+};
+
+[[noreturn]] void refuse(const std::string& file, int line, std::string message) {
+  throw InputError(file, {{{line, 0, ""}, std::move(message)}});
+}
+
+std::vector<Line> lines_of(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) refuse(file, 0, "the file of the record cannot be read");
+  std::vector<Line> lines;
+  constexpr int most = 10'000'000;
+  for (std::string text; std::getline(stream, text);) {
+    if (static_cast<int>(lines.size()) == most) refuse(file, most, "the record has more than ten million lines");
+    lines.push_back({static_cast<int>(lines.size()) + 1, std::move(text)});
+  }
+  return lines;
+}
+
+/// Numbers of a line; nothing if something else is in it.
+std::optional<std::vector<double>> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto separates = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r'; };
+  while (true) {
+    while (at < end && separates(*at)) ++at;
+    if (at == end) return numbers;
+    if (*at == '+') ++at;
+    double value = 0.0;
+    const auto [next, code] = std::from_chars(at, end, value);
+    if (code != std::errc() || (next < end && !separates(*next)) || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+    at = next;
+  }
+}
+
+/// The number after `key` and what of `between` follows it.
+std::optional<double> number_after(const std::string& text, const std::string& key) {
+  const auto found = text.find(key);
+  if (found == std::string::npos) return {};
+  const auto begin = text.find_first_not_of(" =\t:", found + key.size());
+  if (begin == std::string::npos) return {};
+  double value = 0.0;
+  const char* const first = text.data() + begin;
+  const auto [next, code] = std::from_chars(first, text.data() + text.size(), value);
+  return code == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+/// All numbers from line `first` on.
+void add_values(const std::string& file, const std::vector<Line>& lines, std::size_t first, Record& record) {
+  for (std::size_t i = first; i < lines.size(); ++i) {
+    const auto numbers = numbers_of(lines[i].text);
+    if (!numbers) refuse(file, lines[i].number, "must be numbers: values of the record");
+    record.values.insert(record.values.end(), numbers->begin(), numbers->end());
+  }
+}
+
+/// The fourth line has `NPTS= 4000, DT= .005 SEC`, or `4000 .005 NPTS, DT`.
+Record read_peer(const std::string& file, const std::vector<Line>& lines) {
+  const Line& header = lines[3];
+  std::optional<double> count = number_after(header.text, "NPTS"), step = number_after(header.text, "DT");
+  if (!count || !step) {
+    const auto numbers = numbers_of(header.text.substr(0, header.text.find("NPTS")));
+    if (!numbers || numbers->size() < 2)
+      refuse(file, header.number, "must have the number of values and their time step, as in NPTS= 4000, DT= .005 SEC");
+    count = (*numbers)[0], step = (*numbers)[1];
+  }
+  Record record{0.0, *step, {}, "g"};
+  add_values(file, lines, 4, record);
+  if (static_cast<double>(record.values.size()) != *count)
+    refuse(file, header.number, fmt::format("says that {} values follow, but {} do", *count, record.values.size()));
+  return record;
+}
+
+Record read_k_net(const std::string& file, const std::vector<Line>& lines) {
+  std::optional<double> frequency, scale;
+  std::size_t first = 0;
+  for (; first < lines.size(); ++first) {
+    const std::string& text = lines[first].text;
+    if (text.starts_with("Sampling Freq")) frequency = number_after(text, ")");
+    if (text.starts_with("Scale Factor"))
+      if (const auto above = number_after(text, "Factor"), below = number_after(text, "/"); above && below)
+        scale = *above / *below;
+    if (text.starts_with("Memo")) break;
+  }
+  if (!frequency || !(*frequency > 0.0) || !scale)
+    refuse(file, 0, "looks like a record of K-NET, but has no 'Sampling Freq(Hz)' or no 'Scale Factor'");
+  Record record{0.0, 1.0 / *frequency, {}, "cm/s2"};
+  add_values(file, lines, first + 1, record);
+  for (double& value : record.values) value *= *scale;
+  return record;
+}
+
+Record read_table(const std::string& file, const std::vector<Line>& lines, int column) {
+  Record record;
+  std::vector<double> times;
+  constexpr double unequal = 0.01;  // of a time step; times are often rounded
+  for (const Line& line : lines) {
+    const auto begin = line.text.find_first_not_of(" \t\r");
+    if (begin == std::string::npos || line.text[begin] == '#' || line.text[begin] == '%') continue;
+    const auto numbers = numbers_of(line.text);
+    if (!numbers && times.empty()) continue;  // titles of the columns
+    if (!numbers || static_cast<int>(numbers->size()) < column)
+      refuse(file, line.number,
+             fmt::format("must have {} numbers or more: the time and, in column {}, the value", std::max(2, column),
+                         column));
+    times.push_back((*numbers)[0]);
+    record.values.push_back((*numbers)[static_cast<std::size_t>(column) - 1]);
+    const std::size_t n = times.size();
+    if (n == 2) record.step = times[1] - times[0];
+    if (n < 2) continue;
+    const double step = times[n - 1] - times[n - 2];
+    if (!(step > 0.0)) refuse(file, line.number, "times must be ascending");
+    if (std::abs(step - record.step) > unequal * record.step)
+      refuse(file, line.number,
+             fmt::format("the time step is {:.6g} here and {:.6g} before: a record has equal steps and no gaps", step,
+                         record.step));
+  }
+  if (times.size() > 1) {
+    record.begin = times.front();
+    record.step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  }
+  return record;
+}
+
+}  // namespace
+
+double Record::largest() const {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+Record read_record(const std::string& file, int column) {
+  const std::vector<Line> lines = lines_of(file);
+  const bool is_peer = lines.size() > 4 && lines[3].text.find("NPTS") != std::string::npos;
+  const bool is_k_net = !lines.empty() && lines.front().text.starts_with("Origin Time");
+  Record record = is_peer    ? read_peer(file, lines)
+                  : is_k_net ? read_k_net(file, lines)
+                             : read_table(file, lines, column);
+  if (record.values.size() < 2) refuse(file, 0, "has no record: two values or more are needed");
+  if (!(record.step > 0.0)) refuse(file, 0, "has a time step that is not positive");
+  return record;
+}
+
+}  // namespace scabo::files
