@@ -242,7 +242,8 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   const bool modal = model.analysis.type == AnalysisType::modal;
   if (!modal) {
     if (!is_all_dynamic(model)) check_bodies_held(checking);
-    if (model.initial.empty() && !is_shaken(model)) check_something_loads(checking);
+    const bool may_be_shaken = is_shaken(model) || (is_dynamic(model) && checking.gaps.steps);
+    if (model.initial.empty() && !may_be_shaken) check_something_loads(checking);
     check_initial(checking);
   }
   if (!checking.gaps.steps) {
