@@ -51,7 +51,7 @@ Effort effort_of(const model::Model& model, const model::Body& body, const mesh:
   const element::Elasticity D = element::sectors_of(model, cell).D;
   Effort effort;
   effort.blocks = static_cast<int>(element::symmetry_blocks(ring, D).size());
-  const auto rows = 2 * static_cast<Eigen::Index>(ring.nodes.size()) / effort.blocks;
+  const auto rows = places_of(ring.nodes.size()) / effort.blocks;
   effort.last_digits = !body.outside && rows <= element::rows_with_last_digits(ring, D.contrast());
   return effort;
 }

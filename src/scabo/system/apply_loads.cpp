@@ -346,7 +346,7 @@ class Applied {
 
   static element::ElementVector no_force(const element::FiniteElement& cell, const model::Material&,
                                          element::InteriorLoads&) {
-    return element::ElementVector::Zero(2 * cell.size());
+    return element::ElementVector::Zero(places_of(cell.size()));
   }
 
   static element::LinearField linear(const model::Linear& field) { return {field.constant, field.per_x, field.per_y}; }
