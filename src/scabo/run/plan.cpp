@@ -11,9 +11,9 @@
 #include <tuple>
 
 #include "scabo/element/cell_library.hpp"
-#include "scabo/element/exact_riccati.hpp"
-#include "scabo/element/mirror_symmetry.hpp"
-#include "scabo/element/sectors.hpp"
+#include "scabo/element/plane/exact_riccati.hpp"
+#include "scabo/element/plane/mirror_symmetry.hpp"
+#include "scabo/element/plane/sectors.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"

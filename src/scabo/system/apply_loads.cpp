@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::system {

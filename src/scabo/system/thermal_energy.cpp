@@ -4,8 +4,8 @@
 #include <array>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::system {

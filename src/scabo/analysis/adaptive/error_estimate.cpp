@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/two_orders.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/plane/two_orders.hpp"
 
 namespace scabo::analysis {
 

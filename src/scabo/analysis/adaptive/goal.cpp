@@ -14,7 +14,7 @@
 #include "scabo/analysis/adaptive/refinement.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
 #include "scabo/analysis/state/quantities.hpp"
-#include "scabo/element/two_orders.hpp"
+#include "scabo/element/plane/two_orders.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/validate.hpp"
 

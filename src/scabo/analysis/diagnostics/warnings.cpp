@@ -8,7 +8,7 @@
 #include <set>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/conditioning.hpp"
+#include "scabo/element/plane/conditioning.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/materials_of.hpp"
 

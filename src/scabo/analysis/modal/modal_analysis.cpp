@@ -8,7 +8,7 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/element/mass.hpp"
+#include "scabo/element/facet/mass.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/model/validate.hpp"
 #include "scabo/system/assembly.hpp"

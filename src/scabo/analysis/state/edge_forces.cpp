@@ -6,8 +6,8 @@
 #include <set>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/elasticity.hpp"
-#include "scabo/element/finite_element.hpp"
+#include "scabo/element/plane/elasticity.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "scabo/system/pore_pressure.hpp"
 
 namespace scabo::analysis {

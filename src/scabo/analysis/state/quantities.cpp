@@ -8,7 +8,7 @@
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/cracks.hpp"
 #include "scabo/element/cell_locator.hpp"
-#include "scabo/element/elasticity.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/mesh/output_points.hpp"
 
