@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "scabo/element/cell_library.hpp"
-#include "scabo/element/elasticity.hpp"
-#include "scabo/element/finite_element.hpp"
+#include "scabo/element/plane/elasticity.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/mesh/many_cells.hpp"

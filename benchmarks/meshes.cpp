@@ -5,7 +5,7 @@
 //
 // Where sizes are equal, polygons inside are equal, and are solved once like those of a quadtree. `distinct`: polygons
 // whose nodes are moved by up to a hundredth of their size, so that every one is another one; their stiffness also in a
-// batch (element/batch.hpp), which gives K alone.
+// batch (element/plane/batch.hpp), which gives K alone.
 #include <sys/resource.h>
 
 #include <chrono>
@@ -18,8 +18,8 @@
 #include <set>
 #include <string>
 
-#include "scabo/element/batch.hpp"
 #include "scabo/element/cell_library.hpp"
+#include "scabo/element/plane/batch.hpp"
 #include "scabo/files/read_mesh_file.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/mesh/many_cells.hpp"

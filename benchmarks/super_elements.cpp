@@ -20,9 +20,9 @@
 #include <random>
 #include <theory/rings.hpp>
 
-#include "scabo/element/batch.hpp"
-#include "scabo/element/batch_kernel.hpp"
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/batch.hpp"
+#include "scabo/element/plane/batch_kernel.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/linalg/cholesky_factor.hpp"
 #include "scabo/linalg/dense.hpp"
 

@@ -36,8 +36,11 @@ PLAIN_VALUES = ["linalg/parallel.hpp", "contact/delassus.hpp", "contact/rigid_ma
 
 # Rooms of a part, in order: each includes itself and those before it, and never a file beside the rooms, which composes
 # them. Schemes of the march never include each other.
-ROOMS = {"analysis": ["state", "diagnostics", "march", "quasistatic", "modal", "adaptive"]}
+ROOMS = {"element": ["sbfem", "facet", "plane"],
+         "analysis": ["state", "diagnostics", "march", "quasistatic", "modal", "adaptive"]}
 SCHEMES = ["quasistatic", "modal"]
+# A room that may include fewer parts than the part it belongs to: the algebra of super-elements knows no coordinates.
+ALLOWED_IN_ROOM = {"element/sbfem": ["base", "linalg"]}
 
 SUFFIXES = {".hpp", ".cpp", ".h", ".cc"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
@@ -65,6 +68,9 @@ def violation_of_part(part, header, included):
         return "a header of plain values includes only base/ and other plain values"
     if target == part:
         return violation_of_room(part, header, included)
+    room = "/".join(header.split("/")[:2])
+    if target not in ALLOWED_IN_ROOM.get(room, ALLOWED[part]) and target in ALLOWED[part]:
+        return f"{room}/ may include {', '.join(f'{name}/' for name in ALLOWED_IN_ROOM[room])}, not {target}/"
     if target in ALLOWED[part] or (part == "result" and included in PLAIN_VALUES):
         return None
     allowed = ", ".join(f"{name}/" for name in ALLOWED[part]) or "no other part"
@@ -132,7 +138,10 @@ class SelfTest(unittest.TestCase):
         "model/model.hpp": ["base/types.hpp"],
         "input/read.hpp": ["model/model.hpp"],
         "mesh/mesh.hpp": ["model/model.hpp"],
-        "element/stiffness.hpp": ["mesh/mesh.hpp", "linalg/dense.hpp"],
+        "element/sbfem/doubling.hpp": ["linalg/dense.hpp"],
+        "element/facet/ring.hpp": ["element/sbfem/doubling.hpp", "mesh/mesh.hpp"],
+        "element/plane/law.hpp": ["element/facet/ring.hpp"],
+        "element/stiffness.hpp": ["element/plane/law.hpp", "mesh/mesh.hpp", "linalg/dense.hpp"],
         "system/system.hpp": ["element/stiffness.hpp", "contact/newton.hpp"],
         "analysis/state/state.hpp": ["system/system.hpp"],
         "analysis/march/steps.hpp": ["analysis/state/state.hpp"],
@@ -171,6 +180,11 @@ class SelfTest(unittest.TestCase):
             ("src/scabo/linalg/dense.cpp", '#include "scabo/mesh/mesh.hpp"', "not mesh/"),
             ("src/scabo/base/log.cpp", '#include "scabo/linalg/dense.hpp"', "no other part"),
             ("src/scabo/system/load.cpp", '#include "scabo/analysis/static.hpp"', "not analysis/"),
+            ("src/scabo/element/sbfem/doubling.hpp", '#include "scabo/element/facet/ring.hpp"', "not include element/facet/"),
+            ("src/scabo/element/sbfem/doubling.hpp", '#include "scabo/element/plane/law.hpp"', "not include element/plane/"),
+            ("src/scabo/element/sbfem/doubling.hpp", '#include "scabo/mesh/mesh.hpp"', "not mesh/"),
+            ("src/scabo/element/facet/ring.hpp", '#include "scabo/element/plane/law.hpp"', "not include element/plane/"),
+            ("src/scabo/element/plane/law.hpp", '#include "scabo/element/stiffness.hpp"', "composes the rooms"),
             ("src/scabo/analysis/state/state.hpp", '#include "scabo/analysis/march/steps.hpp"', "not include analysis/march/"),
             ("src/scabo/analysis/march/steps.hpp", '#include "scabo/analysis/static.hpp"', "composes the rooms"),
             ("src/scabo/analysis/modal/modal.hpp", '#include "scabo/analysis/quasistatic/run.hpp"',

@@ -46,7 +46,7 @@ CellsOfPart cells_of(const mesh::Mesh& mesh, const system::Dofs& dofs, std::size
   all.first.push_back(0);
   for (const int body : dofs.bodies_of(part)) {
     for (const mesh::Cell& cell : mesh.bodies[static_cast<std::size_t>(body)].cells) {
-      for (const int node : cell.nodes()) all.nodes.values.push_back(dofs.of(body, node, 0) / 2);
+      for (const int node : cell.nodes()) all.nodes.values.push_back(dofs.node_in_part(body, node));
       all.nodes.starts.push_back(all.nodes.values.size());
     }
     all.first.push_back(all.nodes.count());
@@ -189,7 +189,7 @@ Bytes SharePacker::of(int rank) {
       const auto node = static_cast<std::size_t>(nodes[i]);
       place_[node] = static_cast<int>(i);
       positions.insert(positions.end(), {body.nodes[node].x(), body.nodes[node].y()});
-      numbers.push_back(division_.number[static_cast<std::size_t>(dofs_.of(bodies[k], nodes[i], 0) / 2)]);
+      numbers.push_back(division_.number[static_cast<std::size_t>(dofs_.node_in_part(bodies[k], nodes[i]))]);
     }
     packer.add_list(cells);
     packer.add_list(nodes);

@@ -68,10 +68,11 @@ Mat whole_matrix(const Share& share, const FactorRequest& request, OwnedMat& mad
   std::vector<FactorRequest::Entry> entries;
   std::vector<char> is_turned(static_cast<std::size_t>(end - first), 0);
   for (const FactorRequest::Turned& at : request.inclined) {
-    if (2 * at.node < first || 2 * at.node >= end) continue;
+    const auto row = static_cast<PetscInt>(place_of(at.node));
+    if (row < first || row >= end) continue;
     for (int i = 0; i < 2; ++i) {
-      is_turned[static_cast<std::size_t>(2 * at.node + i - first)] = 1;
-      for (int j = 0; j < 2; ++j) entries.push_back({2 * at.node + i, 2 * at.node + j, at.M[2 * i + j]});
+      is_turned[static_cast<std::size_t>(row + i - first)] = 1;
+      for (int j = 0; j < 2; ++j) entries.push_back({row + i, row + j, at.M[2 * i + j]});
     }
   }
   for (PetscInt row = first; row < end; ++row)

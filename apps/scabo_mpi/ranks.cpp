@@ -15,7 +15,8 @@ class Order {
   explicit Order(const std::vector<int>& number) : number_(number) {}
   Eigen::Index size() const { return places_of(number_.size()); }
   Eigen::Index operator[](Eigen::Index dof) const {
-    return place_of(number_[static_cast<std::size_t>(dof / 2)], static_cast<int>(dof % 2));
+    return place_of(number_[static_cast<std::size_t>(plane_components.node_of(dof))],
+                    plane_components.component_of(dof));
   }
   template <typename Values>
   Values there(const Values& here) const {
@@ -123,10 +124,10 @@ class DividedPart final : public system::DividedStiffness {
     request.solved.assign(static_cast<std::size_t>(size()), 0);
     for (const int dof : dofs) request.solved[static_cast<std::size_t>(order_[dof])] = 1;
     if (!inclined.none())
-      for (Eigen::Index node = 0; node < size() / 2; ++node)
-        if (const Mat2* M = inclined.of(static_cast<int>(node)))
+      for (int node = 0; node < plane_components.node_of(size()); ++node)
+        if (const Mat2* M = inclined.of(node))
           request.inclined.push_back(
-              {static_cast<int>(order_[2 * node] / 2), {(*M)(0, 0), (*M)(0, 1), (*M)(1, 0), (*M)(1, 1)}});
+              {plane_components.node_of(order_[place_of(node)]), {(*M)(0, 0), (*M)(0, 1), (*M)(1, 0), (*M)(1, 1)}});
     for (Eigen::Index j = 0; j < springs.cols(); ++j)
       for (linalg::SparseMatrix::InnerIterator it(springs, j); it; ++it)
         request.springs.push_back({static_cast<int>(order_[it.row()]), static_cast<int>(order_[j]), it.value()});
@@ -173,7 +174,7 @@ class DividedPart final : public system::DividedStiffness {
     for (const int node : node_at_) {
       int unknown = before[static_cast<std::size_t>(node)];
       for (std::size_t i = 0; i < 2; ++i) {
-        if (!solved[2 * static_cast<std::size_t>(node) + i]) continue;
+        if (!solved[static_cast<std::size_t>(place_of(node)) + i]) continue;
         int& at = step[static_cast<std::size_t>(unknown++)];
         if (at < 0) at = next++;
       }

@@ -47,14 +47,15 @@ OwnStiffness own_stiffness(const model::Model& model, const Share& share) {
       place.push_back(
           static_cast<int>(std::lower_bound(own.numbers.begin(), own.numbers.end(), number) - own.numbers.begin()));
     const auto at = [&](Eigen::Index dof) {
-      return 2 * place[static_cast<std::size_t>(dof / 2)] + static_cast<int>(dof % 2);
+      return static_cast<int>(
+          place_of(place[static_cast<std::size_t>(plane_components.node_of(dof))], plane_components.component_of(dof)));
     };
     const linalg::SparseMatrix K = of_body(b);
     for (Eigen::Index j = 0; j < K.cols(); ++j)
       for (linalg::SparseMatrix::InnerIterator it(K, j); it; ++it)
         entries.emplace_back(at(it.row()), at(j), it.value());
   }
-  const auto n = static_cast<Eigen::Index>(2 * own.numbers.size());
+  const auto n = places_of(own.numbers.size());
   own.K.resize(n, n);
   own.K.setFromTriplets(entries.begin(), entries.end());
   return own;
@@ -62,8 +63,9 @@ OwnStiffness own_stiffness(const model::Model& model, const Share& share) {
 
 /// K of all ranks from what each has.
 void assemble(MPI_Comm comm, int rank, OwnStiffness own, Share& share) {
-  const auto local = static_cast<PetscInt>(2 * own.numbers.size());
-  const auto rows = static_cast<PetscInt>(2 * share.nodes(rank)), all = static_cast<PetscInt>(2 * share.first.back());
+  const auto local = static_cast<PetscInt>(places_of(own.numbers.size()));
+  const auto rows = static_cast<PetscInt>(places_of(share.nodes(rank))),
+             all = static_cast<PetscInt>(places_of(share.first.back()));
   if (own.K.rows() == 0) own.K.resize(local, local);
   own.K.makeCompressed();
   OwnedMapping mapping;
@@ -174,7 +176,7 @@ void Process::multiply(int id, const Vector* u, Vector* y) {
     Share& at = share(id);
     spread(at.at_root, at.x, at.to_root, u ? u->data() : nullptr);
     check(MatMult(at.K, at.x, at.y));
-    if (y) y->resize(2 * at.first.back());
+    if (y) y->resize(places_of(at.first.back()));
     collect(at.y, at.at_root, at.to_root, y ? y->data() : nullptr);
   });
 }
@@ -193,7 +195,7 @@ void Process::multiply_squares(int id, const Vector* u, Vector* y) {
       other_rows.row(i, [&](double value, std::size_t j) { sums[i] += value * value * others[j]; });
     }
     set_values(at.y, sums.data());
-    if (y) y->resize(2 * at.first.back());
+    if (y) y->resize(places_of(at.first.back()));
     collect(at.y, at.at_root, at.to_root, y ? y->data() : nullptr);
   });
 }
@@ -201,7 +203,7 @@ void Process::multiply_squares(int id, const Vector* u, Vector* y) {
 void Process::multiply_twofold(int id, const linalg::TwofoldVector* u, linalg::TwofoldVector* y) {
   together([&] {
     Share& at = share(id);
-    const auto n = static_cast<Eigen::Index>(2 * at.first.back());
+    const auto n = places_of(at.first.back());
     linalg::TwofoldVector own, others;
     for (const bool low : {false, true}) {
       Vector half;

@@ -19,8 +19,9 @@ FOLDERS = {
     "input": ("Model files", ["read_model.hpp"]),
     "model": ("The model", ["model.hpp", "*.hpp"]),
     "mesh": ("Meshes", ["mesh.hpp", "domain.hpp"]),
-    "element": ("Super-elements", ["coefficient_matrices.hpp", "elasticity.hpp", "stiffness.hpp", "modal_solution.hpp", "interior_field.hpp",
-                                   "mass.hpp", "stress_intensity.hpp", "singular_field.hpp", "cell_library.hpp"]),
+    "element": ("Super-elements", ["sbfem/super_element.hpp", "sbfem/modal_solution.hpp", "facet/coefficient_matrices.hpp", "facet/mass.hpp",
+                                   "plane/elasticity.hpp", "plane/stiffness.hpp", "plane/interior_field.hpp", "plane/stress_intensity.hpp",
+                                   "plane/singular_field.hpp", "cell_library.hpp"]),
     "contact": ("The contact problem", ["problem.hpp", "solution.hpp", "solve.hpp", "certificate.hpp", "judge.hpp", "delassus.hpp",
                                         "rigid_map.hpp", "questions/uniqueness.hpp", "questions/infeasibility.hpp"]),
     "analysis": ("Analyses", ["static_analysis.hpp", "state/solution.hpp", "state/results.hpp", "march/options.hpp", "modal/modal_analysis.hpp",
@@ -97,7 +98,7 @@ INPUT_FILTER = "/usr/bin/python3 {pathlib.Path(__file__).resolve()}"
         index.append(f"| [{folder}](cpp/{folder}.md) | {title} | {', '.join(f'`{file.name}`' for file in files)} |")
         lines = [f"# {title}: scabo/{folder}", ""]
         for file in files:
-            lines += [f"## {file.name}", "", f"`#include <scabo/{folder}/{file.name}>`", "", *introduction_of(file), "", *xml.contents_of(file), ""]
+            lines += [f"## {file.name}", "", f"`#include <scabo/{file.relative_to(SOURCE).as_posix()}>`", "", *introduction_of(file), "", *xml.contents_of(file), ""]
         (pages / "cpp" / f"{folder}.md").write_text("\n".join(lines), encoding="utf-8")
     index += ["", "```{toctree}", ":hidden:", "", *(f"cpp/{folder}" for folder in chosen), "```", ""]
     (pages / "cpp.md").write_text("\n".join(index), encoding="utf-8")

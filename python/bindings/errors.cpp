@@ -2,7 +2,7 @@
 #include <new>
 
 #include "bindings.hpp"
-#include "scabo/element/ill_posed.hpp"
+#include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/run/failures.hpp"
 

@@ -8,7 +8,8 @@
 #include <memory>
 
 #include "arrays.hpp"
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/elasticity.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "until_ctrl_c.hpp"
@@ -139,7 +140,7 @@ void bind_super_elements(py::module_& module) {
       .def(py::init(&make), py::arg("nodes"), py::arg("centre"), py::arg("open"), py::arg("order"), py::arg("young"),
            py::arg("poisson"), py::arg("plane_strain"), py::arg("thickness"), py::arg("unbounded"), py::arg("threads"),
            doc::super_elements::make)
-      .def_property_readonly("stiffness", &stiffness, doc::stiffness::SuperElementSolution_K)
+      .def_property_readonly("stiffness", &stiffness, doc::super_element::SuperElementSolution_K)
       .def_property_readonly("exponents", &exponents, doc::super_elements::exponents)
       .def("coefficients", &coefficients, doc::super_elements::coefficients)
       .def("values", &values, py::arg("displacement"), py::arg("points"), doc::super_elements::values);

@@ -1,12 +1,12 @@
 // Many small super-elements at once give what each gives alone.
-#include "scabo/element/batch.hpp"
+#include "scabo/element/plane/batch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "scabo/element/batch_kernel.hpp"
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/plane/batch_kernel.hpp"
+#include "scabo/element/plane/stiffness.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "scabo/element/stress_intensity.hpp"
+#include "scabo/element/plane/stress_intensity.hpp"
 #include "theory/open_rings.hpp"
 
 namespace scabo::element {

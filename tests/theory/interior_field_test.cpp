@@ -1,5 +1,5 @@
 // The inside of a super-element: u(xi) = xi^S u(1), body forces, and scaled boundary coordinates.
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // and slow.
 #pragma once
 
-#include "scabo/element/coefficient_matrices.hpp"
+#include "scabo/element/facet/coefficient_matrices.hpp"
 
 namespace scabo::test::oracle {
 

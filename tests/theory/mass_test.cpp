@@ -1,5 +1,6 @@
 // The mass matrix of a super-element: int over the body of rho u.u, u(xi) = xi^S u(1).
-#include "scabo/element/mass.hpp"
+#include "scabo/element/facet/mass.hpp"
+#include "scabo/element/plane/stiffness.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "scabo/element/interior_field.hpp"
-#include "scabo/element/mirror_symmetry.hpp"
+#include "scabo/element/plane/interior_field.hpp"
+#include "scabo/element/plane/mirror_symmetry.hpp"
 #include "scabo/system/loads.hpp"
 #include "support/decompositions.hpp"
 #include "theory/open_rings.hpp"

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <complex>
 
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/system/loads.hpp"
 #include "theory/rings.hpp"
 

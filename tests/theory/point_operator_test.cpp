@@ -1,9 +1,9 @@
 // Points condensed to the boundary: the rows N and B against the field itself, and where they are known in closed form.
-#include "scabo/element/point_operator.hpp"
+#include "scabo/element/plane/point_operator.hpp"
 
 #include <gtest/gtest.h>
 
-#include "scabo/element/radial_table.hpp"
+#include "scabo/element/sbfem/radial_table.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {

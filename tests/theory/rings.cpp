@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scabo/element/plane/elasticity.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::test {

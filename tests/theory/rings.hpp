@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scabo/element/radial_load.hpp"
+#include "scabo/element/facet/radial_load.hpp"
 #include "support/random.hpp"
 
 namespace scabo::test {

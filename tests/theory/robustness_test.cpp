@@ -7,11 +7,11 @@
 #include <array>
 #include <limits>
 
-#include "scabo/element/batch.hpp"
-#include "scabo/element/exact_riccati.hpp"
-#include "scabo/element/ill_posed.hpp"
-#include "scabo/element/riccati.hpp"
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/plane/batch.hpp"
+#include "scabo/element/plane/exact_riccati.hpp"
+#include "scabo/element/plane/stiffness.hpp"
+#include "scabo/element/sbfem/ill_posed.hpp"
+#include "scabo/element/sbfem/riccati.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "support/decompositions.hpp"
 #include "theory/long_double_route.hpp"

@@ -1,7 +1,8 @@
 // Stiffness of slender super-elements against the same theory in 64-bit significands, solved by another method.
 #include <gtest/gtest.h>
 
-#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/plane/stiffness.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 #include "support/decompositions.hpp"
 #include "theory/long_double_route.hpp"
 #include "theory/rings.hpp"

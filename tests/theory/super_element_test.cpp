@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/plane/stiffness.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "support/decompositions.hpp"

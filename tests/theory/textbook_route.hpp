@@ -10,7 +10,7 @@
 #include <complex>
 #include <vector>
 
-#include "scabo/element/coefficient_matrices.hpp"
+#include "scabo/element/facet/coefficient_matrices.hpp"
 
 namespace scabo::test {
 

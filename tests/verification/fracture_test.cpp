@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "scabo/element/stress_intensity.hpp"
+#include "scabo/element/plane/stress_intensity.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "support/decompositions.hpp"
 #include "theory/open_rings.hpp"

@@ -1,7 +1,8 @@
 // Song, The Scaled Boundary Finite Element Method, 2018: exponents, stiffness and mass of two super-elements.
 #include <gtest/gtest.h>
 
-#include "scabo/element/mass.hpp"
+#include "scabo/element/facet/mass.hpp"
+#include "scabo/element/plane/stiffness.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
 namespace scabo::test {

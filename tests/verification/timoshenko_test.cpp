@@ -3,8 +3,8 @@
 
 #include <complex>
 
-#include "scabo/element/modal_solution.hpp"
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/plane/stiffness.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/loads.hpp"
 #include "theory/rings.hpp"

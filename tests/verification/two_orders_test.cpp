@@ -1,6 +1,6 @@
 // Effectivity of the error estimate by two orders: estimated over true error in the energy norm. The true error is that
 // against an energy in closed form or against the same boundary with elements of much higher order.
-#include "scabo/element/two_orders.hpp"
+#include "scabo/element/plane/two_orders.hpp"
 
 #include <gtest/gtest.h>
 

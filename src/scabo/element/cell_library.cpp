@@ -11,10 +11,10 @@
 #include <unordered_set>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/batch.hpp"
-#include "scabo/element/conditioning.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/ill_posed.hpp"
+#include "scabo/element/plane/batch.hpp"
+#include "scabo/element/plane/conditioning.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {

@@ -5,10 +5,10 @@
 #include <mutex>
 #include <vector>
 
-#include "scabo/element/held_faces.hpp"
-#include "scabo/element/modal_solution.hpp"
-#include "scabo/element/sectors.hpp"
-#include "scabo/element/stress_intensity.hpp"
+#include "scabo/element/plane/held_faces.hpp"
+#include "scabo/element/plane/sectors.hpp"
+#include "scabo/element/plane/stress_intensity.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 
 namespace scabo::element {
 

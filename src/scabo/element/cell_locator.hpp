@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scabo/element/cell_library.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 
 namespace scabo::element {
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "scabo/base/components.hpp"
 #include "scabo/base/types.hpp"
 #include "scabo/model/model.hpp"
 
@@ -102,7 +103,12 @@ struct Mesh {
   std::vector<Interface> interfaces;  ///< one for each contact of the model
   std::vector<Interface> ties;        ///< one for each tie: nodes that are one; gaps are rounding, `contact` is -1
   Placement placement;
+  int dimension = 2;  ///< of the nodes: 2 in the plane, 3 in space
   int nodes() const;  ///< number of nodes of all bodies
+  /// How degrees of freedom are numbered on it.
+  Components components() const { return {dimension}; }
+  /// Number of degrees of freedom of all bodies, supported ones included.
+  int dofs() const { return static_cast<int>(components().count(nodes())); }
   /// Where the point of a pair on side 0 (A) or 1 (B) is in its body at the start.
   Vec2 point_of(int contact, const ContactPair& pair, int side) const;
 };

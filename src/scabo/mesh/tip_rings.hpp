@@ -11,7 +11,7 @@
 // innermost copy remains an open super-element with faces free of traction: from it come the stress intensity factors.
 // The traction that is missing on its faces, of length d = xi_count times the size of the cell, is accounted for in the
 // factors (analysis/state/cracks.cpp) and in the pressures beside them (system/tributary_lengths.hpp). Where supports
-// hold its faces, its stiffness is that of held faces (HeldFaces, element/held_faces.hpp).
+// hold its faces, its stiffness is that of held faces (HeldFaces, element/plane/held_faces.hpp).
 //
 // A body that is one open super-element is divided in the same way as soon as supports or springs act on a side face:
 // its faces get nodes, and all else is that of a body of many cells. Its boundary may be divided far more finely than

@@ -169,7 +169,8 @@ bool check_temperatures(Checking& checking, const std::string& path, const Tempe
   return false;
 }
 
-/// One super-element takes a table inside if it has one material and no side faces (element/temperature_table.hpp); of
+/// One super-element takes a table inside if it has one material and no side faces
+/// (element/facet/temperature_table.hpp); of
 /// a cell among others, the nearest linear field is good enough.
 void check_linear_in_bodies(Checking& checking, const std::string& path, const Load& load,
                             const TemperatureTable& table) {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "scabo/base/interruption.hpp"
-#include "scabo/element/finite_element.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "scabo/geometry/polygon.hpp"
 
 namespace scabo::result {

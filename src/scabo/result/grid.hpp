@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scabo/element/elasticity.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 
 namespace scabo::result {
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "scabo/element/cell_locator.hpp"
-#include "scabo/element/point_operator.hpp"
+#include "scabo/element/plane/point_operator.hpp"
 #include "scabo/result/probe.hpp"
 #include "scabo/result/stress.hpp"
 

@@ -1,7 +1,7 @@
 // points.csv, lines.csv and grid.csv: values at points inside bodies after every increment (docs/results.md).
 //
 // Values are those of the semi-analytical solution (finite elements: of their shape functions). If there are many
-// increments, the points of a super-element are first condensed to its boundary (element/point_operator.hpp).
+// increments, the points of a super-element are first condensed to its boundary (element/plane/point_operator.hpp).
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scabo/analysis/state/solution.hpp"
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/mesh/output_points.hpp"
 
 namespace scabo::result {

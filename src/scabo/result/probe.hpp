@@ -7,9 +7,9 @@
 
 #include "scabo/analysis/state/solution.hpp"
 #include "scabo/element/cell_locator.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/interior_field.hpp"
-#include "scabo/element/radial_table.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/plane/interior_field.hpp"
+#include "scabo/element/sbfem/radial_table.hpp"
 
 namespace scabo::result {
 

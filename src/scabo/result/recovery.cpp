@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/result/probe.hpp"
 #include "scabo/result/ring_values.hpp"

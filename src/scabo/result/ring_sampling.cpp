@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/result/ring_values.hpp"
 

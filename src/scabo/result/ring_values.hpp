@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 #include "scabo/result/ring_sampling.hpp"
 
 namespace scabo::result {

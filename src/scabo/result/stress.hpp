@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "scabo/element/elasticity.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 
 namespace scabo::result {
 

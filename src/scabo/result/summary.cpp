@@ -277,7 +277,7 @@ std::string_view name_of(element::CornerKind kind) {
 ModelSizes sizes_of(const analysis::StaticSolution& solution) {
   ModelSizes sizes;
   sizes.nodes = solution.mesh.nodes();
-  sizes.dofs = 2 * sizes.nodes;
+  sizes.dofs = solution.mesh.dofs();
   for (const mesh::BodyMesh& body : solution.mesh.bodies) {
     sizes.super_elements += body.count(mesh::CellKind::superelement);
     sizes.finite_elements += body.count(mesh::CellKind::finite_element);

@@ -11,9 +11,9 @@
 #include <tuple>
 
 #include "scabo/element/cell_library.hpp"
-#include "scabo/element/exact_riccati.hpp"
-#include "scabo/element/mirror_symmetry.hpp"
-#include "scabo/element/sectors.hpp"
+#include "scabo/element/plane/exact_riccati.hpp"
+#include "scabo/element/plane/mirror_symmetry.hpp"
+#include "scabo/element/plane/sectors.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
@@ -51,7 +51,7 @@ Effort effort_of(const model::Model& model, const model::Body& body, const mesh:
   const element::Elasticity D = element::sectors_of(model, cell).D;
   Effort effort;
   effort.blocks = static_cast<int>(element::symmetry_blocks(ring, D).size());
-  const auto rows = 2 * static_cast<Eigen::Index>(ring.nodes.size()) / effort.blocks;
+  const auto rows = places_of(ring.nodes.size()) / effort.blocks;
   effort.last_digits = !body.outside && rows <= element::rows_with_last_digits(ring, D.contrast());
   return effort;
 }

@@ -5,7 +5,8 @@
 //     one super-element   (8 + block_bytes / b) n^2 bytes; dense_seconds n^3 / b^2 for stiffness,
 //                         dense_field_seconds n^3 / b^2 for fields, dense_factor_seconds n^3 for its factor;
 //                         last_digits_seconds n^3 / b^2 and last_digits_bytes n^2 / b besides where its scaling centre
-//                         is near the boundary or its sectors differ much in stiffness (element/exact_riccati.hpp)
+//                         is near the boundary or its sectors differ much in stiffness
+//                         (element/plane/exact_riccati.hpp)
 //     many cells          sparse_bytes n; mesh, cells and fields in times proportional to n, of finite elements
 //                         shorter ones; more bytes and seconds where no two cells are equal
 //     their factor        fill_bytes n log2(n); order_seconds n log2(n) + factor_seconds n^1.5

@@ -57,7 +57,7 @@ Sizes sizes_of(const model::Model& model, const mesh::Mesh& mesh) {
   Sizes sizes;
   sizes.bodies = static_cast<int>(model.bodies.size());
   sizes.nodes = mesh.nodes();
-  sizes.dofs = 2 * sizes.nodes;
+  sizes.dofs = mesh.dofs();
   for (const mesh::BodyMesh& body : mesh.bodies) {
     sizes.super_elements += body.count(mesh::CellKind::superelement);
     sizes.finite_elements += body.count(mesh::CellKind::finite_element);

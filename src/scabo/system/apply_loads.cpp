@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
@@ -346,7 +346,7 @@ class Applied {
 
   static element::ElementVector no_force(const element::FiniteElement& cell, const model::Material&,
                                          element::InteriorLoads&) {
-    return element::ElementVector::Zero(2 * cell.size());
+    return element::ElementVector::Zero(places_of(cell.size()));
   }
 
   static element::LinearField linear(const model::Linear& field) { return {field.constant, field.per_x, field.per_y}; }

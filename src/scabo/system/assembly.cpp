@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/mass.hpp"
+#include "scabo/element/facet/mass.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::system {
@@ -108,22 +108,22 @@ class Assembler {
       std::sort(numbers.begin() + before, numbers.end());
       numbers.erase(std::unique(numbers.begin() + before, numbers.end()), numbers.end());
     });
-    const std::size_t entries = 4 * rows_.numbers.size();
+    const std::size_t entries = d * d * rows_.numbers.size();
     ensure(entries <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
            "a sparse matrix has at most 2^31 - 1 entries");
     matrix_.resizeNonZeros(static_cast<Eigen::Index>(entries));
     matrix_.outerIndexPtr()[0] = 0;
     for_ranges(nodes, 4096, threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t node = begin; node < end; ++node)
-        for (std::size_t k = 0; k < 2; ++k) {
+        for (std::size_t k = 0; k < d; ++k) {
           const std::span<const int> rows = rows_.of(node);
-          const std::size_t first = first_entry(node) + k * 2 * rows.size();
-          matrix_.outerIndexPtr()[place_of(node, static_cast<int>(k)) + 1] = static_cast<int>(first + 2 * rows.size());
+          const std::size_t first = first_entry(node) + k * d * rows.size();
+          matrix_.outerIndexPtr()[place_of(node, static_cast<int>(k)) + 1] = static_cast<int>(first + d * rows.size());
           for (std::size_t i = 0; i < rows.size(); ++i) {
-            matrix_.innerIndexPtr()[first + 2 * i] = 2 * rows[i];
-            matrix_.innerIndexPtr()[first + 2 * i + 1] = 2 * rows[i] + 1;
+            for (std::size_t c = 0; c < d; ++c)
+              matrix_.innerIndexPtr()[first + d * i + c] = static_cast<int>(place_of(rows[i], static_cast<int>(c)));
           }
-          std::fill_n(matrix_.valuePtr() + first, 2 * rows.size(), 0.0);
+          std::fill_n(matrix_.valuePtr() + first, d * rows.size(), 0.0);
         }
     });
   }
@@ -156,19 +156,20 @@ class Assembler {
   linalg::SparseMatrix finish() && { return std::move(matrix_); }
 
  private:
+  static constexpr std::size_t d = static_cast<std::size_t>(plane_components.dimension);  // cells are plane
   static constexpr std::size_t few = 4096;  // nodes, of which one thread takes less than a millisecond
   static Eigen::Index columns(std::size_t nodes) { return places_of(nodes); }
-  std::size_t first_entry(std::size_t node) const { return 4 * rows_.start[node]; }
+  std::size_t first_entry(std::size_t node) const { return d * d * rows_.start[node]; }
 
   /// The two columns of node j of a cell.
   void add_columns(std::span<const int> nodes, std::size_t j, const CellMatrix& K) {
     const auto node = static_cast<std::size_t>(nodes[j]);
     const std::span<const int> rows = rows_.of(node);
     double* x = matrix_.valuePtr() + first_entry(node);
-    double* y = x + 2 * rows.size();
+    double* y = x + d * rows.size();
     const auto column = place_of(j);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto at = 2 * (std::lower_bound(rows.begin(), rows.end(), nodes[i]) - rows.begin());
+      const auto at = place_of(std::lower_bound(rows.begin(), rows.end(), nodes[i]) - rows.begin());
       const auto row = place_of(i);
       x[at] += K(row, column);
       x[at + 1] += K(row + 1, column);
@@ -197,7 +198,7 @@ std::vector<BodyOfPart> bodies_of(const mesh::Mesh& mesh, const std::vector<elem
     const auto b = static_cast<std::size_t>(body);
     std::vector<int> numbers(mesh.bodies[b].nodes.size());
     for (std::size_t node = 0; node < numbers.size(); ++node)
-      numbers[node] = dofs.of(body, static_cast<int>(node), 0) / 2;
+      numbers[node] = dofs.node_in_part(body, static_cast<int>(node));
     bodies.push_back({mesh.bodies[b], cells[b], std::move(numbers)});
   }
   return bodies;

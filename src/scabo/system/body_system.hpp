@@ -30,7 +30,7 @@ namespace scabo::system {
 
 /// The displacement of a point along a direction, which a support holds at a prescribed value.
 struct Constraint {
-  int dof = -1;  ///< elastic body: 2 x node + place of this constraint at the node, 0 or 1; along x 0, along y 1
+  int dof = -1;  ///< elastic body: place of component 0 of the node + that of this constraint there; along x 0, y 1
   Vec2 point = Vec2::Zero();     ///< rigid body: the point (absolute)
   int component = 0;             ///< 0: along x, 1: along y, -1: along `inclined`
   bool rotation = false;         ///< rigid body: its rotation, held by a support on the whole body
@@ -38,7 +38,9 @@ struct Constraint {
   double value = 0.0;            ///< length, at factor 1
   Vec2 inclined = Vec2::Zero();  ///< unit vector, of component -1
 
-  Vec2 direction() const { return component < 0 ? inclined : Vec2(Vec2::Unit(dof >= 0 ? dof % 2 : component)); }
+  Vec2 direction() const {
+    return component < 0 ? inclined : Vec2(Vec2::Unit(dof >= 0 ? plane_components.component_of(dof) : component));
+  }
 };
 
 /// Stiffness of a body along its free motions v, supports apart: u = map v where supports stay.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/base/components.hpp"
+
 namespace scabo::system {
 
 namespace {
@@ -18,7 +20,7 @@ ForcesByDifferences forces_by_differences(const linalg::SparseMatrix& K, const l
   const double* const values = K.valuePtr();
   double largest = 0.0;
   for (Eigen::Index column = 0; column < K.cols(); ++column) {  // K is symmetric: rows are columns
-    const auto node = static_cast<std::size_t>(column / 2 * 2);
+    const auto node = static_cast<std::size_t>(plane_components.first_of_node(column));
     const linalg::Twofold own_x = u[node], own_y = u[node + 1];
     double by_x = 0.0, by_y = 0.0, size_x = 0.0, size_y = 0.0;  // separate sums do not wait for each other
     const int end = first[column + 1];
@@ -31,7 +33,7 @@ ForcesByDifferences forces_by_differences(const linalg::SparseMatrix& K, const l
         if (k + 1 == end || rows[k + 1] != rows[k] + 1) continue;
         ++k;
       }
-      const std::size_t y = row / 2 * 2 + 1;
+      const std::size_t y = static_cast<std::size_t>(plane_components.first_of_node(rows[k])) + 1;
       const double force = values[k] * difference(u[y], own_y);
       by_y += force;
       size_y += std::abs(force);

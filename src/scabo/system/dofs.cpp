@@ -10,7 +10,7 @@
 namespace scabo::system {
 
 Dofs::Dofs(const model::Model& model, const mesh::Mesh& mesh)
-    : part_of_(model.bodies.size()), numbers_(model.bodies.size()) {
+    : components_(mesh.components()), part_of_(model.bodies.size()), numbers_(model.bodies.size()) {
   DisjointSets bodies(model.bodies.size());
   for (const model::Tie& tie : model.ties)
     bodies.join(static_cast<std::size_t>(tie.a.body), static_cast<std::size_t>(tie.b.body));
@@ -62,18 +62,20 @@ std::string Dofs::name_of(std::size_t part, const model::Model& model) const {
 
 std::vector<int> Dofs::of(int body, std::span<const int> nodes) const {
   std::vector<int> numbers;
-  numbers.reserve(2 * nodes.size());
+  numbers.reserve(static_cast<std::size_t>(components_.count(nodes.size())));
   for (const int node : nodes)
-    for (int component = 0; component < 2; ++component) numbers.push_back(of(body, node, component));
+    for (int component = 0; component < components_.dimension; ++component)
+      numbers.push_back(of(body, node, component));
   return numbers;
 }
 
 Vector Dofs::of_body(int body, const Vector& of_part) const {
   const std::vector<int>& number = numbers_[static_cast<std::size_t>(body)];
   if (number.empty()) return of_part;
-  Vector values(places_of(number.size()));
+  const int d = components_.dimension;
+  Vector values(components_.count(number.size()));
   for (std::size_t i = 0; i < number.size(); ++i)
-    values.segment<2>(place_of(i)) = of_part.segment<2>(place_of(number[i]));
+    values.segment(components_.of(i), d) = of_part.segment(components_.of(number[i]), d);
   return values;
 }
 
@@ -85,8 +87,9 @@ void Dofs::add(int body, const Vector& values, Vector& to_part) const {
     to_part += values;
     return;
   }
+  const int d = components_.dimension;
   for (std::size_t i = 0; i < number.size(); ++i)
-    to_part.segment<2>(place_of(number[i])) += values.segment<2>(place_of(i));
+    to_part.segment(components_.of(number[i]), d) += values.segment(components_.of(i), d);
 }
 
 }  // namespace scabo::system

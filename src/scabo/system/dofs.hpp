@@ -1,7 +1,8 @@
 // Degrees of freedom: which number a component of a node has.
 //
 // Bodies that ties join have their tied nodes in common and form one part; every other body is a part of its own. All
-// vectors of a part have two components for each of its nodes, those of a rigid body three (body_system.hpp).
+// vectors of a part have as many components for each of its nodes as the mesh has dimensions, those of a rigid body one
+// for each of its motions (body_system.hpp).
 #pragma once
 
 #include <span>
@@ -18,6 +19,7 @@ class Dofs {
   Dofs() = default;
   Dofs(const model::Model& model, const mesh::Mesh& mesh);
 
+  Components components() const { return components_; }
   std::size_t parts() const { return parts_.size(); }
   std::size_t part_of(int body) const { return part_of_[static_cast<std::size_t>(body)]; }
   /// Bodies of a part, ascending.
@@ -27,15 +29,22 @@ class Dofs {
   bool is_unbounded(std::size_t part) const { return parts_[part].unbounded; }
   /// Positions of the nodes of an elastic part; none for a rigid one.
   const std::vector<Vec2>& nodes(std::size_t part) const { return parts_[part].nodes; }
-  Eigen::Index size(std::size_t part) const { return parts_[part].rigid ? 3 : places_of(parts_[part].nodes.size()); }
+  Eigen::Index size(std::size_t part) const {
+    return parts_[part].rigid ? components_.rigid_motions() : components_.count(parts_[part].nodes.size());
+  }
   /// `body 'upper'`, or `the tied bodies 'wall', 'base'`; of many the first four, and how many others.
   std::string name_of(std::size_t part, const model::Model& model) const;
 
-  /// Number, in its part, of component 0 (x) or 1 (y) of a node of an elastic body.
-  int of(int body, int node, int component) const {
-    return static_cast<int>(place_of(node_in_part(body, node), component));
+  /// Number of a node of an elastic body in its part.
+  int node_in_part(int body, int node) const {
+    const std::vector<int>& number = numbers_[static_cast<std::size_t>(body)];
+    return number.empty() ? node : number[static_cast<std::size_t>(node)];
   }
-  /// Numbers of the two components of each of some nodes, in their order.
+  /// Number, in its part, of component 0 (x), 1 (y) or 2 (z) of a node of an elastic body.
+  int of(int body, int node, int component) const {
+    return static_cast<int>(components_.of(node_in_part(body, node), component));
+  }
+  /// Numbers of all components of each of some nodes, in their order.
   std::vector<int> of(int body, std::span<const int> nodes) const;
 
   /// The part's values at the degrees of freedom of one of its bodies.
@@ -49,11 +58,8 @@ class Dofs {
     std::vector<Vec2> nodes;
     bool rigid = false, unbounded = false;
   };
-  int node_in_part(int body, int node) const {
-    const std::vector<int>& number = numbers_[static_cast<std::size_t>(body)];
-    return number.empty() ? node : number[static_cast<std::size_t>(node)];
-  }
 
+  Components components_;
   std::vector<Part> parts_;
   std::vector<std::size_t> part_of_;       // of every body
   std::vector<std::vector<int>> numbers_;  // [body][node]: number in its part; empty: the same

@@ -16,7 +16,7 @@ namespace scabo::system {
 
 ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes,
                          std::vector<Constraint> constraints)
-    : factored_(std::move(factored)), motions_(nodes), free_(static_cast<std::size_t>(2 * nodes.size()), true) {
+    : factored_(std::move(factored)), motions_(nodes), free_(static_cast<std::size_t>(places_of(nodes.size())), true) {
   constraints_ = std::move(constraints);
   inclined_ = InclinedNodes(constraints_);
   find_rigid_motions(nodes);
@@ -70,7 +70,8 @@ void ElasticBody::factorise(linalg::SparseOptions options, const std::vector<Vec
   constexpr std::size_t many = 1000;
   if (contact_dofs.size() >= many && options.ordering == linalg::Ordering::automatic)
     options.ordering = linalg::Ordering::dissection_by_position;
-  for (const int dof : dofs_) options.positions.push_back(nodes[static_cast<std::size_t>(dof / 2)]);
+  for (const int dof : dofs_)
+    options.positions.push_back(nodes[static_cast<std::size_t>(plane_components.node_of(dof))]);
   const bool alone = inclined_.none() && stiffness().springs.none();
   if (stiffness().divided) {
     linalg::FactorisationCosts costs;
@@ -133,8 +134,9 @@ Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, c
 }
 
 Matrix ElasticBody::flexibility(const std::vector<int>& dofs, bool refines) const {
-  const bool any = !inclined_.none() &&
-                   std::any_of(dofs.begin(), dofs.end(), [&](int dof) { return inclined_.of(dof / 2) != nullptr; });
+  const bool any = !inclined_.none() && std::any_of(dofs.begin(), dofs.end(), [&](int dof) {
+    return inclined_.of(plane_components.node_of(dof)) != nullptr;
+  });
   if (!any) return flexibility_along(dofs, refines);
   // u = T v on these degrees of freedom, with both of every inclined node.
   std::vector<int> both;
@@ -142,7 +144,7 @@ Matrix ElasticBody::flexibility(const std::vector<int>& dofs, bool refines) cons
   std::map<int, int> column_of;
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto row = static_cast<int>(i);
-    const int node = dofs[i] / 2;
+    const int node = plane_components.node_of(dofs[i]);
     const Mat2* M = inclined_.of(node);
     if (!M) {
       entries.emplace_back(row, static_cast<int>(both.size()), 1.0);
@@ -151,7 +153,8 @@ Matrix ElasticBody::flexibility(const std::vector<int>& dofs, bool refines) cons
     }
     const auto [at, added] = column_of.emplace(node, static_cast<int>(both.size()));
     if (added) both.insert(both.end(), {static_cast<int>(place_of(node)), static_cast<int>(place_of(node, 1))});
-    for (int k = 0; k < 2; ++k) entries.emplace_back(row, at->second + k, (*M)(dofs[i] % 2, k));
+    for (int k = 0; k < 2; ++k)
+      entries.emplace_back(row, at->second + k, (*M)(plane_components.component_of(dofs[i]), k));
   }
   Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(both.size()));
   T.setFromTriplets(entries.begin(), entries.end());
@@ -218,11 +221,13 @@ FreeStiffness ElasticBody::free_stiffness() const {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < free.dofs.size(); ++k) {
     const int dof = free.dofs[k], column = static_cast<int>(k);
-    const Mat2* const M = inclined_.of(dof / 2);
+    const Mat2* const M = inclined_.of(plane_components.node_of(dof));
     if (!M)
       entries.emplace_back(dof, column, 1.0);
     else
-      for (int row = 0; row < 2; ++row) entries.emplace_back(dof / 2 * 2 + row, column, (*M)(row, dof % 2));
+      for (int row = 0; row < 2; ++row)
+        entries.emplace_back(plane_components.first_of_node(dof) + row, column,
+                             (*M)(row, plane_components.component_of(dof)));
   }
   free.map.resize(size(), static_cast<Eigen::Index>(free.dofs.size()));
   free.map.setFromTriplets(entries.begin(), entries.end());
@@ -315,8 +320,9 @@ linalg::SparseMatrix ElasticBody::whole_sparse() const {
 }
 
 std::vector<int> ElasticBody::both_if_inclined(int dof) const {
-  if (!inclined_.of(dof / 2)) return {dof};
-  return {dof / 2 * 2, dof / 2 * 2 + 1};
+  if (!inclined_.of(plane_components.node_of(dof))) return {dof};
+  const auto first = static_cast<int>(plane_components.first_of_node(dof));
+  return {first, first + 1};
 }
 
 Vector ElasticBody::held_displacement(const Vector& prescribed) const {

@@ -24,7 +24,8 @@ Vector multiplied(const Nodes& nodes, Vector values, const MatrixOf& matrix_of) 
 InclinedNodes::InclinedNodes(const std::vector<Constraint>& constraints) {
   std::map<int, std::array<const Constraint*, 2>> held;
   for (const Constraint& constraint : constraints)
-    held[constraint.dof / 2][static_cast<std::size_t>(constraint.dof % 2)] = &constraint;
+    held[plane_components.node_of(constraint.dof)]
+        [static_cast<std::size_t>(plane_components.component_of(constraint.dof))] = &constraint;
   for (const auto& [node, at] : held) {
     if (!((at[0] && at[0]->component < 0) || (at[1] && at[1]->component < 0))) continue;
     Mat2 rows;
@@ -73,7 +74,7 @@ Matrix InclinedNodes::stiffness(Matrix K) const {
 
 Eigen::SparseMatrix<double> InclinedNodes::stiffness(const Eigen::SparseMatrix<double>& K) const {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int node = 0; node < static_cast<int>(K.rows() / 2); ++node) {
+  for (int node = 0; node < plane_components.node_of(K.rows()); ++node) {
     const Mat2* M = of(node);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)

@@ -168,8 +168,9 @@ void JoinedBodies::make() const {
       made.rigid_motions += m;
     }
     for (const int dof : of_part.dofs)
-      made.positions.push_back(parts_[p].nodes.empty() ? parts_[p].body->reference()
-                                                       : parts_[p].nodes[static_cast<std::size_t>(dof / 2)]);
+      made.positions.push_back(parts_[p].nodes.empty()
+                                   ? parts_[p].body->reference()
+                                   : parts_[p].nodes[static_cast<std::size_t>(plane_components.node_of(dof))]);
     first += of_part.K.cols();
     free[p] = {};
   }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "scabo/element/conditioning.hpp"
-#include "scabo/element/elasticity.hpp"
+#include "scabo/element/plane/conditioning.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 #include "scabo/model/materials_of.hpp"
 
 namespace scabo::system {

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "scabo/base/components.hpp"
+
 namespace scabo::system {
 
 Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever) {
@@ -65,13 +67,13 @@ Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint
   for (std::size_t c = 0; c < constraints.size(); ++c)
     held.row(static_cast<Eigen::Index>(c)) =
         constraints[c].direction().transpose() *
-        rigid_point(nodes[static_cast<std::size_t>(constraints[c].dof / 2)], reference, lever);
+        rigid_point(nodes[static_cast<std::size_t>(plane_components.node_of(constraints[c].dof))], reference, lever);
   return at_rest(null_space(held), springs, reference, lever);
 }
 
 void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces) {
   for (std::size_t c = 0; c < constraints.size(); ++c)
-    forces.segment<2>(constraints[c].dof / 2 * 2) +=
+    forces.segment<2>(plane_components.first_of_node(constraints[c].dof)) +=
         reactions[static_cast<Eigen::Index>(c)] * constraints[c].direction();
 }
 

@@ -139,7 +139,7 @@ class ConstraintCollector {
       if (!same) report(body, node, made, other(0));
       return;
     }
-    const int place = others.empty() ? std::max(made.component, 0) : 1 - other(0).dof % 2;
+    const int place = others.empty() ? std::max(made.component, 0) : 1 - plane_components.component_of(other(0).dof);
     if (made.component != place) made.inclined = made.direction(), made.component = -1;
     made.dof = first + place;
     made.point = Vec2::Zero();
@@ -275,7 +275,7 @@ std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const 
   const auto add = [&](int body, int node) {
     if (node < 0) return;  // of a rigid body
     std::vector<int>& list = of_part[dofs.part_of(body)];
-    for (int k = 0; k < 2; ++k) list.push_back(dofs.of(body, node, k));
+    for (int k = 0; k < dofs.components().dimension; ++k) list.push_back(dofs.of(body, node, k));
   };
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c)
     for (const mesh::ContactPair& pair : mesh.interfaces[c].pairs) {

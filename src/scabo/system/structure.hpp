@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "scabo/element/cell_library.hpp"
-#include "scabo/element/initial_stress.hpp"
-#include "scabo/element/radial_load.hpp"
+#include "scabo/element/facet/radial_load.hpp"
+#include "scabo/element/plane/initial_stress.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/dofs.hpp"
 #include "scabo/system/ranks.hpp"

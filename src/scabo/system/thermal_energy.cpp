@@ -5,9 +5,9 @@
 #include <array>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/initial_stress.hpp"
-#include "scabo/element/modal_solution.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/plane/initial_stress.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::system {

@@ -1,6 +1,6 @@
 // Barnett-Lothe tensors and interface cracks: closed forms of isotropic material, and the integral formalism as a slow
 // oracle.
-#include "scabo/element/anisotropic_plane.hpp"
+#include "scabo/element/plane/anisotropic_plane.hpp"
 
 #include <gtest/gtest.h>
 

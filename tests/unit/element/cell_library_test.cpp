@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "scabo/element/ill_posed.hpp"
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/plane/stiffness.hpp"
+#include "scabo/element/sbfem/ill_posed.hpp"
 #include "theory/rings.hpp"
 #include "unit/mesh/models.hpp"
 

@@ -3,8 +3,9 @@
 
 #include <Eigen/LU>
 
-#include "scabo/element/ill_posed.hpp"
-#include "scabo/element/mirror_symmetry.hpp"
+#include "scabo/element/plane/elasticity.hpp"
+#include "scabo/element/plane/mirror_symmetry.hpp"
+#include "scabo/element/sbfem/ill_posed.hpp"
 #include "theory/rings.hpp"
 
 namespace scabo::element {

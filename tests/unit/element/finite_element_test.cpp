@@ -1,5 +1,5 @@
 // Triangles and quadrilaterals with linear and quadratic sides, one element at a time.
-#include "scabo/element/finite_element.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 
 #include <gtest/gtest.h>
 

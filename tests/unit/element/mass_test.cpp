@@ -1,5 +1,6 @@
 // Mass matrix of a body with curved edges that elements of order 2 follow exactly.
-#include "scabo/element/mass.hpp"
+#include "scabo/element/facet/mass.hpp"
+#include "scabo/element/plane/stiffness.hpp"
 
 #include <gtest/gtest.h>
 

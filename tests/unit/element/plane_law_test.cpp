@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scabo/element/elasticity.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 
 namespace scabo::element {
 namespace {

@@ -1,5 +1,5 @@
 // The Riccati equation made for a K that is known: its residual, and Newton's step towards it.
-#include "scabo/element/riccati.hpp"
+#include "scabo/element/sbfem/riccati.hpp"
 
 #include <gtest/gtest.h>
 

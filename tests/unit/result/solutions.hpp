@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "scabo/analysis/static_analysis.hpp"
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/plane/stiffness.hpp"
 #include "unit/mesh/models.hpp"
 
 namespace scabo::test {

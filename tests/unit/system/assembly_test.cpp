@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scabo/element/finite_element.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "unit/mesh/models.hpp"
 
 namespace scabo::system {

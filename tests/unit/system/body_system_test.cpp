@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/plane/stiffness.hpp"
 #include "scabo/system/loads.hpp"
 #include "scabo/system/structure.hpp"
 #include "theory/rings.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/mass.hpp"
+#include "scabo/element/facet/mass.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 #include "support/decompositions.hpp"

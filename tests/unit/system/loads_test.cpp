@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scabo/element/stiffness.hpp"
+#include "scabo/element/plane/stiffness.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/structure.hpp"
 #include "theory/rings.hpp"

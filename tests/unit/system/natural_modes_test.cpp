@@ -6,7 +6,7 @@
 #include <array>
 #include <map>
 
-#include "scabo/element/mass.hpp"
+#include "scabo/element/facet/mass.hpp"
 #include "scabo/linalg/symmetric_eigen.hpp"
 #include "scabo/system/assembly.hpp"
 #include "support/decompositions.hpp"

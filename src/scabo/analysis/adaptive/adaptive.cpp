@@ -240,7 +240,8 @@ std::string too_fine(const ModelRefinement& next, const mesh::Mesh& mesh, const 
                      const std::string& at) {
   int present = 0;
   for (const mesh::BodyMesh& body : mesh.bodies)
-    if (body.cells.size() == 1) present = std::max(present, 2 * static_cast<int>(body.nodes.size()));
+    if (body.cells.size() == 1)
+      present = std::max(present, static_cast<int>(mesh.components().count(body.nodes.size())));
   const int dofs = next.boundaries.largest_body(), of_cells = next.cells.largest_body();
   const auto text = [&](const char* about, int would, int most) {
     return fmt::format("{}; a finer mesh would have {}{} in one body, more than {}", at, about, would, most);
@@ -287,7 +288,7 @@ StaticSolution solve_refined(model::Model model, const Options& options, const R
     }
     if (!wider) return end(std::move(solution));
     const Judgement judgement = judge(solution);
-    passes.push_back({2 * solution.mesh.nodes(), judgement.error, 0, 0});
+    passes.push_back({solution.mesh.dofs(), judgement.error, 0, 0});
     sums.push_back(judgement.sum);
     if (judgement.sum <= aim * aim) return end(std::move(solution));
 

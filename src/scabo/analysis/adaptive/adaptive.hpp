@@ -1,8 +1,8 @@
 // Estimated error of an analysis, and refinement until it is below a tolerance.
 //
 // The model is solved on its mesh and again with every boundary element raised by one order. The difference in the
-// energy norm, for every body and increment, is the estimate (element/two_orders.hpp). Relative errors are divided by
-// the norm of the displacement of the whole model.
+// energy norm, for every body and increment, is the estimate (element/plane/two_orders.hpp). Relative errors are
+// divided by the norm of the displacement of the whole model.
 //
 // Refinement. With tau_b the tolerance of body b and eta_b its relative error, meshes are refined until
 //

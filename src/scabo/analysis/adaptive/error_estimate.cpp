@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/finite_element.hpp"
-#include "scabo/element/two_orders.hpp"
+#include "scabo/element/plane/finite_element.hpp"
+#include "scabo/element/plane/two_orders.hpp"
 
 namespace scabo::analysis {
 
@@ -24,8 +24,7 @@ CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::s
   const mesh::Cell& cell = mesh.cells[c];
   std::map<int, int> own;
   for (const int node : cell.nodes()) own.emplace(node, static_cast<int>(own.size()));
-  CellStiffness made{cell.boundary, Matrix::Zero(2 * static_cast<Eigen::Index>(own.size()),
-                                                 2 * static_cast<Eigen::Index>(own.size()))};
+  CellStiffness made{cell.boundary, Matrix::Zero(places_of(own.size()), places_of(own.size()))};
   for (mesh::LineElement& element : made.elements)
     for (int& node : element.nodes) node = own.at(node);
   const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);

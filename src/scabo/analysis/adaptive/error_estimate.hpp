@@ -1,5 +1,5 @@
 // Estimated errors in the energy norm: an analysis against the same on the mesh with boundary elements one order higher
-// (element/two_orders.hpp).
+// (element/plane/two_orders.hpp).
 #pragma once
 
 #include <vector>

@@ -14,7 +14,7 @@
 #include "scabo/analysis/adaptive/refinement.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
 #include "scabo/analysis/state/quantities.hpp"
-#include "scabo/element/two_orders.hpp"
+#include "scabo/element/plane/two_orders.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/validate.hpp"
 
@@ -159,8 +159,6 @@ void warn_of_infinite_values(StaticSolution& solution) {
   }
 }
 
-int degrees_of_freedom(const mesh::Mesh& mesh) { return 2 * mesh.nodes(); }
-
 /// Why no further mesh is made; empty if one is.
 std::string obstacle_of(const std::vector<double>& sums, const ModelRefinement& next, const RefinementPass& refined,
                         const mesh::Mesh& mesh, const RefinementLimits& limits) {
@@ -171,7 +169,8 @@ std::string obstacle_of(const std::vector<double>& sums, const ModelRefinement& 
   if (static_cast<int>(sums.size()) >= limits.passes) return fmt::format("{} passes were made", limits.passes);
   int present = 0;
   for (const mesh::BodyMesh& body : mesh.bodies)
-    if (body.cells.size() == 1) present = std::max(present, 2 * static_cast<int>(body.nodes.size()));
+    if (body.cells.size() == 1)
+      present = std::max(present, static_cast<int>(mesh.components().count(body.nodes.size())));
   if (next.boundaries.largest_body() > std::max(limits.dofs, present))
     return fmt::format("a finer mesh would have {} degrees of freedom in one body, more than {}",
                        next.boundaries.largest_body(), limits.dofs);
@@ -190,7 +189,7 @@ StaticSolution without_goal(StaticSolution solution, const model::Model& model, 
                         ? fmt::format(
                               "the tolerance of {} was not reached: its bar is {:.3g} of its value with {} degrees of "
                               "freedom, and {}",
-                              model.tolerance->of.name, found->relative(), degrees_of_freedom(solution.mesh), why)
+                              model.tolerance->of.name, found->relative(), solution.mesh.dofs(), why)
                         : fmt::format("the tolerance of {} was not reached: {}", model.tolerance->of.name, why);
   return solution;
 }
@@ -238,7 +237,7 @@ StaticSolution refine_for_goal(const model::Model& given, const Options& options
     const double wanted = model.tolerance->relative * std::abs(J), quick = bar_factor * std::abs(wider - J);
     const double rounding = rounding_of(solution, solution.increments.back(), quantity, model.solver.tolerance);
     if (wanted < rounding) {
-      passes.push_back({degrees_of_freedom(solution.mesh), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
+      passes.push_back({solution.mesh.dofs(), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
       add_own_bars(solution, refinement);
       return end(without_goal(
           std::move(solution), model,
@@ -252,7 +251,7 @@ StaticSolution refine_for_goal(const model::Model& given, const Options& options
     double sum = 0.0;
     MeshErrors errors = goal_errors(pass, sum);
     sums.push_back(sum);
-    passes.push_back({degrees_of_freedom(solution.mesh), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
+    passes.push_back({solution.mesh.dofs(), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
     if (quick <= wanted) {
       add_own_bars(solution, refinement);
       const auto& quantities = solution.increments.back().quantities;

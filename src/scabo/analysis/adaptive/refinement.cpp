@@ -236,7 +236,7 @@ int BoundaryRefinement::largest_body() const {
       for (const int order : edge.orders) of_body += order;
     nodes = std::max(nodes, of_body);
   }
-  return 2 * nodes;
+  return static_cast<int>(places_of(nodes));
 }
 
 CellRefinement::CellRefinement(const model::Model& model) : model_(model), sizes_(model.bodies.size()) {}

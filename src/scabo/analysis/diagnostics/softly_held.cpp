@@ -15,8 +15,9 @@ constexpr double soft = 1e4;  // flexibility of a pair times the stiffness of a 
 double against_the_law(const contact::Problem& problem, const contact::Solution& solution, Eigen::Index i) {
   const contact::ContactState state = solution.states[static_cast<std::size_t>(i)];
   const double gap = solution.gap[i], slip = solution.slip_increment[i];
-  const bool slips_wrongly = state == contact::ContactState::stick ||
-                             (state == contact::ContactState::slip && solution.p[2 * i + 1] * slip > 0.0);
+  const bool slips_wrongly =
+      state == contact::ContactState::stick ||
+      (state == contact::ContactState::slip && solution.p[problem.dimension * i + 1] * slip > 0.0);
   return std::max(std::isinf(problem.tension_of(i)) ? 0.0 : -gap, slips_wrongly ? std::abs(slip) : 0.0);
 }
 
@@ -42,7 +43,7 @@ std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const contact::Pr
   const auto is_soft = [&](int body, Eigen::Index pair) {
     const std::size_t p = prepared.structure.dofs.part_of(body);
     return prepared.structure.parts[p]->has_springs() ||
-           flexibility.segment<2>(2 * pair).maxCoeff() * stiffness[p] > soft;
+           flexibility.segment(problem.dimension * pair, problem.dimension).maxCoeff() * stiffness[p] > soft;
   };
   std::vector<Eigen::Index> found;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {

@@ -26,7 +26,8 @@ std::map<Eigen::Index, Mat2> left_by_supports(const system::BodySystem& part) {
   std::map<Eigen::Index, Mat2> left;
   for (const system::Constraint& constraint : part.constraints()) {
     const Vec2 d = constraint.direction();
-    const auto [at, first] = left.try_emplace(constraint.dof / 2, Mat2(Mat2::Identity() - d * d.transpose()));
+    const auto [at, first] =
+        left.try_emplace(plane_components.node_of(constraint.dof), Mat2(Mat2::Identity() - d * d.transpose()));
     if (!first) at->second.setZero();
   }
   return left;
@@ -63,11 +64,11 @@ contact::ActionOfPairs action_of_pairs(const Prepared& prepared) {
       continue;
     }
     const auto left = left_by_supports(part);
-    for (Eigen::Index node = 0; 2 * node < motion.outerSize(); ++node) {
+    for (Eigen::Index node = 0; place_of(node) < motion.outerSize(); ++node) {
       const auto held = left.find(node);
       bool any = false;
       for (Eigen::Index k = 0; k < 2; ++k)
-        for (Sparse::InnerIterator it(motion, 2 * node + k); it; ++it) {
+        for (Sparse::InnerIterator it(motion, place_of(node, k)); it; ++it) {
           any = true;
           for (Eigen::Index row = 0; row < 2; ++row) {
             const double share = held == left.end() ? (row == k ? 1.0 : 0.0) : held->second(row, k);

@@ -51,7 +51,7 @@ std::vector<contact::ContactState> held_states(const contact::Problem& problem, 
   std::vector<contact::ContactState> states = solution.states;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i)
     if (problem.tension_of(i) == 0.0 && problem.cohesion_of(i) == 0.0 &&
-        solution.p.segment<2>(2 * i).lpNorm<Eigen::Infinity>() <= least)
+        solution.p.segment(problem.dimension * i, problem.dimension).lpNorm<Eigen::Infinity>() <= least)
       states[static_cast<std::size_t>(i)] = contact::ContactState::open;
   return states;
 }

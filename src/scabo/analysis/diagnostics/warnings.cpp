@@ -8,7 +8,7 @@
 #include <set>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/conditioning.hpp"
+#include "scabo/element/plane/conditioning.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/model/materials_of.hpp"
 
@@ -398,7 +398,7 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
       for (std::size_t c = 0; c < part.constraints().size(); ++c) {
         const system::Constraint& constraint = part.constraints()[c];
         const auto both = [&](const system::Constraint& other) { return other.dof == (constraint.dof ^ 1); };
-        auto at = forces.segment<2>(constraint.dof / 2 * 2);
+        auto at = forces.segment<2>(plane_components.first_of_node(constraint.dof));
         if (constraint.component < 0 && std::any_of(part.constraints().begin(), part.constraints().end(), both))
           at.setZero();
         else

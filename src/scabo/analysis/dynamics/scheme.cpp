@@ -10,7 +10,7 @@
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 #include "scabo/base/components.hpp"
-#include "scabo/element/elasticity.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 
 namespace scabo::analysis {
 

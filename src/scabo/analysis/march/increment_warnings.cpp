@@ -12,7 +12,7 @@
 #include "scabo/analysis/state/cracks.hpp"
 #include "scabo/analysis/state/outside.hpp"
 #include "scabo/analysis/state/quantities.hpp"
-#include "scabo/element/conditioning.hpp"
+#include "scabo/element/plane/conditioning.hpp"
 
 namespace scabo::analysis {
 

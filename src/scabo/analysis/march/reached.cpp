@@ -25,7 +25,7 @@ bool breaks(const Prepared& prepared) {
 }
 
 std::string remedy_for(const Prepared& prepared, double figure) {
-  return tolerance_to_set(figure, prepared.model.solver.tolerance, 2 * prepared.mesh.nodes());
+  return tolerance_to_set(figure, prepared.model.solver.tolerance, prepared.mesh.dofs());
 }
 
 /// The part that resists its displacements most.

@@ -1,4 +1,5 @@
-// Stress intensity factors of the cracks and corners of a structure after an increment (element/stress_intensity.hpp).
+// Stress intensity factors of the cracks and corners of a structure after an increment
+// (element/plane/stress_intensity.hpp).
 #pragma once
 
 #include "scabo/analysis/state/solution.hpp"

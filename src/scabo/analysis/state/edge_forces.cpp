@@ -6,8 +6,8 @@
 #include <set>
 
 #include "scabo/base/components.hpp"
-#include "scabo/element/elasticity.hpp"
-#include "scabo/element/finite_element.hpp"
+#include "scabo/element/plane/elasticity.hpp"
+#include "scabo/element/plane/finite_element.hpp"
 #include "scabo/system/pore_pressure.hpp"
 
 namespace scabo::analysis {
@@ -20,7 +20,7 @@ class SumOverEdge {
   SumOverEdge(const Prepared& prepared, const State& state, const model::EdgeResultant& edge)
       : prepared_(prepared), state_(state), edge_(edge), body_(prepared.mesh.bodies[body_index()]) {
     for (const int node : mesh::nodes_of(edge.on, prepared.mesh).nodes)
-      number_in_part_[prepared.structure.dofs.of(edge.on.body, node, 0) / 2] = node;
+      number_in_part_[prepared.structure.dofs.node_in_part(edge.on.body, node)] = node;
     on_edge_.assign(body_.nodes.size(), false);
     for (const auto& [in_part, node] : number_in_part_) on_edge_[static_cast<std::size_t>(node)] = true;
     find_other_ties();
@@ -79,7 +79,7 @@ class SumOverEdge {
     const std::vector<system::Constraint>& constraints = prepared_.structure.parts[part]->constraints();
     for (std::size_t c = 0; c < constraints.size(); ++c) {
       const model::Place& on = prepared_.model.supports[static_cast<std::size_t>(constraints[c].support)].on;
-      const auto found = number_in_part_.find(constraints[c].dof / 2);
+      const auto found = number_in_part_.find(plane_components.node_of(constraints[c].dof));
       if (on.body != edge_.on.body || found == number_in_part_.end()) continue;
       apply(is_elsewhere(on), found->second,
             state_.reactions[part][static_cast<Eigen::Index>(c)] * constraints[c].direction());
@@ -181,8 +181,9 @@ class SumOverEdge {
   void add_cell(const std::vector<int>& dofs, const Matrix& K, const Vector& u) {
     const Vector forces = K * Vector(u(dofs));
     for (std::size_t k = 0; k < dofs.size(); k += 2) {
-      const auto node = static_cast<std::size_t>(dofs[k] / 2);
-      if (on_edge_[node] && !tied_elsewhere_[node]) add(dofs[k] / 2, forces.segment<2>(static_cast<Eigen::Index>(k)));
+      const auto node = static_cast<std::size_t>(plane_components.node_of(dofs[k]));
+      if (on_edge_[node] && !tied_elsewhere_[node])
+        add(static_cast<int>(node), forces.segment<2>(static_cast<Eigen::Index>(k)));
     }
   }
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "scabo/base/disjoint_sets.hpp"
-#include "scabo/element/interior_field.hpp"
+#include "scabo/element/plane/interior_field.hpp"
 
 namespace scabo::analysis {
 

@@ -1,5 +1,5 @@
 // Unbounded bodies. In the plane, their displacement under forces with a nonzero resultant grows with the logarithm of
-// the distance and is determined only up to a translation (element/stiffness.hpp, eqs. 5 and 6).
+// the distance and is determined only up to a translation (element/plane/stiffness.hpp, eqs. 5 and 6).
 #pragma once
 
 #include "scabo/analysis/state/state.hpp"

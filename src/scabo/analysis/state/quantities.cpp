@@ -8,7 +8,7 @@
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/cracks.hpp"
 #include "scabo/element/cell_locator.hpp"
-#include "scabo/element/elasticity.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/mesh/output_points.hpp"
 
@@ -249,7 +249,7 @@ void add_reaction(const Prepared& prepared, const model::Quantity& quantity, Fun
 
 /// Numbers in its part of degrees of freedom of a body.
 std::vector<int> in_part(const system::Dofs& dofs, int body, std::vector<int> of_body) {
-  for (int& dof : of_body) dof = dofs.of(body, dof / 2, dof % 2);
+  for (int& dof : of_body) dof = dofs.of(body, plane_components.node_of(dof), plane_components.component_of(dof));
   return of_body;
 }
 

@@ -9,7 +9,7 @@
 
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/cell_library.hpp"
-#include "scabo/element/initial_stress.hpp"
+#include "scabo/element/plane/initial_stress.hpp"
 
 namespace scabo::analysis {
 
@@ -86,7 +86,7 @@ struct AttemptResult {
   bool accepted = false;
 };
 
-/// Estimated discretisation error in the energy norm |u| = sqrt(u'K u) (element/two_orders.hpp).
+/// Estimated discretisation error in the energy norm |u| = sqrt(u'K u) (element/plane/two_orders.hpp).
 struct BodyError {
   double absolute = 0.0;  ///< sqrt(force times length)
   double relative = 0.0;  ///< relative to the norm of the displacement of the whole model
@@ -109,7 +109,7 @@ struct UniquenessResult {
 /// What the fields of all bodies at one time follow from (result/).
 struct FieldState {
   /// Per body: 2 per node; for a rigid body [u_x, u_y, rotation] about its centroid. For an unbounded body they are
-  /// those of its stiffness (element/stiffness.hpp, eq. 6), because a translation would change its forces.
+  /// those of its stiffness (element/plane/stiffness.hpp, eq. 6), because a translation would change its forces.
   std::vector<Vector> displacements;
   /// Per body: displacement of the reference point to which it belongs (analysis/state/outside.hpp), or zero; empty:
   /// there is none. Displacements shown in results are relative to it; those of contact pairs (PairResult) are already

@@ -33,7 +33,7 @@ std::vector<int> moved_pairs(const Problem& problem) {
 
 /// Entries of W of these pairs, not less than there are; the pairs of a body have those of its three motions.
 double entries_of(const Problem& problem, const std::vector<int>& pairs, bool many) {
-  const double rows = 2.0 * static_cast<double>(pairs.size());
+  const double rows = problem.dimension * static_cast<double>(pairs.size());
   if (!many) return rows * rows;
   const RigidMap::Sparse& G = problem.G.sparse();
   double entries = 0.0;
@@ -46,7 +46,9 @@ double entries_of(const Problem& problem, const std::vector<int>& pairs, bool ma
 
 /// The problem of these pairs alone, its loads and strengths times `scale`; W and q stay empty.
 Problem of_moved_pairs(const Problem& problem, const std::vector<int>& pairs, double scale) {
+  const int d = problem.dimension;
   Problem part;
+  part.dimension = d;
   part.mu = values_of(problem.mu, pairs);
   part.mu_backward = values_of(problem.mu_backward, pairs);
   part.cohesion = scale * values_of(problem.cohesion, pairs);
@@ -58,9 +60,9 @@ Problem of_moved_pairs(const Problem& problem, const std::vector<int>& pairs, do
   const RigidMap::Sparse& G = problem.G.sparse();
   for (Eigen::Index motion = 0; motion < G.outerSize(); ++motion)
     for (RigidMap::Sparse::InnerIterator it(G, motion); it; ++it)
-      if (const int pair = place[static_cast<std::size_t>(it.row() / 2)]; pair >= 0)
-        entries.emplace_back(2 * pair + it.row() % 2, motion, it.value());
-  RigidMap::Sparse rows(2 * static_cast<Eigen::Index>(pairs.size()), G.cols());
+      if (const int pair = place[static_cast<std::size_t>(it.row() / d)]; pair >= 0)
+        entries.emplace_back(d * pair + it.row() % d, motion, it.value());
+  RigidMap::Sparse rows(d * static_cast<Eigen::Index>(pairs.size()), G.cols());
   rows.setFromTriplets(entries.begin(), entries.end());
   part.G = RigidMap(std::move(rows));
   return part;
