@@ -1,7 +1,7 @@
 """What a model and its twin must have in common.
 
 Units, turned, reordered: the same status, in the same increment; the same pairs; forces that are unique to 1e-8 of the
-largest force so far. Finer, and turned where the mesh does not turn with the bodies: the same status; at the end of each
+largest force so far. Supports that hold a corner together are compared by the sum of their forces. Finer, and turned where the mesh does not turn with the bodies: the same status; at the end of each
 step resultants within 5 % of the largest one. A joint that breaks brittly does so at a load that depends on the mesh
 (docs/methods/20_contact_laws.md): finer meshes are then compared by their status alone."""
 import math
@@ -47,7 +47,7 @@ def worst(one, other, strict):
 
 def sizes(increment):
     yield from (contact["size"] for contact in increment["contacts"].values())
-    yield from (math.hypot(*force) for force in increment["supports"].values())
+    yield increment["largest_of_supports"]
 
 
 def of_increment(one, other, increment, twin, limit, largest):

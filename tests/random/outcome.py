@@ -2,6 +2,7 @@
 import csv
 import dataclasses
 import json
+import math
 import os
 import pathlib
 import re
@@ -9,6 +10,8 @@ import resource
 import subprocess
 
 import yaml
+
+import geometry
 
 STATUS = {1: "refused", 3: "failed"}
 SECONDS = 300  # of the processor, then a run counts as endless; no speed is judged
@@ -63,13 +66,14 @@ def message(text):
 def read(results, change, base):
     summary = json.loads((results / "summary.json").read_text(encoding="utf-8"))
     keys = {contact["name"]: key_of(contact["between"], change, base) for contact in summary["model"]["contacts"]}
+    together = held_together(base)
     found = Outcome(summary["status"], summary["reason"] or "", cells=summary["model"]["super_elements"])
     for kind, text in zip(summary["warning_kinds"], summary["warnings"]):
         found.warnings[kind] = found.warnings.get(kind, "") + text
     found.loose = {key for name, key in keys.items() if re.search(rf"\b{re.escape(name)}\b", found.warnings.get("undetermined_force", ""))}
     for increment in summary["increments"]:
         if increment["converged"]:
-            found.increments.append(forces_of(increment, keys, change))
+            found.increments.append(forces_of(increment, keys, together, change))
     found.last = tuple(summary["increments"][-1][key] for key in ("step", "increment")) if summary["increments"] else (0, 0)
     found.gap = max((abs(contact.get("gap", 0.0)) for contact in base.get("contacts", {}).values()), default=0.0)
     read_pairs(results / "contact.csv", keys, change, found)
@@ -87,15 +91,61 @@ def every_edge(model):
             for edge in ("bottom", "right", "top", "left")]
 
 
-def forces_of(increment, keys, change):
+def held_together(model):
+    """Supports that hold a corner together, by name, each with the name of their group: only the sum of their reactions there
+    is unique. A corner of a body is that of all bodies to which it is tied."""
+    parts = Groups()
+    for tie in model.get("ties", {}).values():
+        parts.join(*(place.split(".")[0] for place in tie["between"]))
+    groups, holder = Groups(), {}
+    for name, body, edge in held_edges(model):
+        for corner in (edge.start, edge.end):
+            key = parts.of(body), tuple(round(x, 9) + 0.0 for x in corner)
+            groups.join(holder.setdefault(key, name), name)
+    return {name: groups.of(name) for name in groups.above}
+
+
+def held_edges(model):
+    """Of the model from which twins are made: the name of a support, its body and its edge; lines of symmetry hold every edge
+    that lies on them."""
+    edges = [(body, name, edge) for body, of in model["bodies"].items() for name, edge in geometry.edges(of["shape"]).items()]
+    for support in model.get("supports", []):
+        for axis, value in support.get("symmetry", {}).items():
+            on_line = [point["xy".index(axis)] == value for _, _, edge in edges for point in (edge.start, edge.end)]
+            yield from ((f"{body}.{name}", body, edge) for (body, name, edge), start, end in zip(edges, on_line[::2], on_line[1::2])
+                        if edge.straight and start and end)
+        yield from ((support["name"], body, edge) for body, name, edge in edges if support.get("on") == f"{body}.{name}")
+
+
+class Groups:
+    """What has been joined, however indirectly, has the same representative."""
+
+    def __init__(self):
+        self.above = {}
+
+    def of(self, one):
+        above = self.above.setdefault(one, one)
+        return one if above == one else self.of(above)
+
+    def join(self, *members):
+        for member in members:
+            self.above[self.of(member)] = self.of(members[0])
+
+
+def forces_of(increment, keys, together, change):
     """Of an increment: resultants of contacts, and forces of supports and springs."""
     force = lambda v: change.back(v, change.force)
     contacts = {}
     for name, of in increment["contacts"].items():
         value = {"normal": of["normal_force"] / change.force, "tangential": of["tangential_force"] / change.force}
         contacts[keys[name]] = {**value, "size": sum(abs(f) for f in value.values()), "broken": of.get("broken", 0)}
+    single = {name: force(v) for name, v in {**increment["reactions"], **increment.get("springs", {})}.items()}
+    supports = {}
+    for name, v in single.items():
+        group = together.get(name, name)
+        supports[group] = [one + other for one, other in zip(supports.get(group, (0.0, 0.0)), v)]
     return {"step": increment["step"], "increment": increment["increment"], "end": increment["reached"] == 1, "contacts": contacts,
-            "supports": {name: force(v) for name, v in {**increment["reactions"], **increment.get("springs", {})}.items()}}
+            "supports": supports, "largest_of_supports": max((math.hypot(*v) for v in single.values()), default=0.0)}
 
 
 def read_pairs(path, keys, change, found):

@@ -31,9 +31,9 @@ class Comparison(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.path = pathlib.Path(holder.name) / "model.yaml"
 
-    def solve(self, model, change=Change()):
+    def solve(self, model, change=Change(), base=BLOCKS):
         outcome.write(model, self.path)
-        return outcome.run(PROGRAM, self.path, change, BLOCKS)
+        return outcome.run(PROGRAM, self.path, change, base)
 
     def of(self, strict=True, change=Change(), **changes):
         """What differs between the blocks and themselves with some sections changed."""
@@ -52,6 +52,16 @@ class Comparison(unittest.TestCase):
     def test_a_load_that_differs_by_a_tenth_on_a_finer_mesh(self):
         found = self.of(strict=False, loads={**BLOCKS["loads"], "weight": {"gravity": [0.0, -13.0]}})
         self.assertTrue(any("normal force" in text for text in found), found)
+
+    def test_a_corner_of_tied_bodies_that_two_supports_hold(self):
+        """The sum of their reactions is compared: the one that is listed first gets what the corner carries."""
+        right = {**BLOCKS["bodies"]["lower"], "shape": {"rectangle": {"corner": [2.0, 0.0], "size": [1.0, 1.0]}}}
+        model = {**BLOCKS, "bodies": {**BLOCKS["bodies"], "right": right}, "ties": {"joined": {"between": ["lower.right", "right.left"]}},
+                 "supports": BLOCKS["supports"] + [{"on": "right.bottom", "fix": ["x", "y"], "name": "beside"}]}
+        supports = model["supports"]
+        for base, agree in ((model, True), ({**model, "ties": {}}, False)):
+            one, other = (self.solve({**model, "supports": order}, base=base) for order in (supports, supports[::-1]))
+            self.assertEqual(compare.differences(one, other, True) == [], agree)
 
     def test_pressure_that_is_distributed_otherwise(self):
         found = self.of(bodies={**BLOCKS["bodies"], "upper": {**BLOCKS["bodies"]["upper"], "mesh": {"size": 0.25, "order": 4}}})

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -178,6 +180,37 @@ TEST(SmoothestForces, OfAPressFitInSectorsAreThoseOfLame) {
     }
     EXPECT_TRUE(std::none_of(solution.warnings.begin(), solution.warnings.end(),
                              [](const Warning& warning) { return warning.kind == WarningKind::pressure; }));
+  }
+}
+
+/// Two equal blocks side by side on a third one, with a gap between them and a shear strength in all joints.
+analysis::StaticSolution apart_on_a_floor(const std::array<std::size_t, 3>& order) {
+  const std::array<const char*, 3> bodies{"floor: {material: m, shape: {rectangle: {corner: [0, -1], size: [2, 1]}}",
+                                          "left: {material: m, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}",
+                                          "right: {material: m, shape: {rectangle: {corner: [1, 0], size: [1, 1]}}"},
+      contacts{"a: {between: [floor.top, left.bottom]", "b: {between: [floor.top, right.bottom]",
+               "c: {between: [left.right, right.left], gap: 1e-6"};
+  std::string text = "scabo: 1\nmaterials: {m: {young: 1e9, poisson: 0.2}}\nbodies:\n";
+  for (const std::size_t i : order) text += fmt::format("  {}, mesh: {{size: 0.5}}}}\n", bodies[i]);
+  text +=
+      "supports: [{on: floor.bottom, fix: [x, y]}]\nloads: {p: {on: left.top, pressure: 1e5}, q: {on: right.top, "
+      "pressure: 1e5}}\ncontacts:\n";
+  for (const std::size_t i : order) text += fmt::format("  {}, shear_strength: 1e5}}\n", contacts[i]);
+  return run(text);
+}
+
+// Open pairs carry shear up to a strength that pressure does not change. Where three bodies meet in a point, the two
+// pairs on the floor may exchange any force by the shear of the third one: none by symmetry, whatever the order.
+TEST(SmoothestForces, OfOpenPairsThatCarryShear) {
+  for (const std::array<std::size_t, 3>& order : {std::array<std::size_t, 3>{0, 1, 2}, {2, 1, 0}, {1, 2, 0}}) {
+    const auto solution = apart_on_a_floor(order);
+    EXPECT_TRUE(std::any_of(solution.warnings.begin(), solution.warnings.end(),
+                            [](const auto& warning) { return warning.kind == WarningKind::undetermined_force; }));
+    for (const analysis::ContactResult& contact : last(solution).contacts) {
+      const bool upright = contact.pairs.front().normal.x() != 0.0;
+      if (upright) EXPECT_NEAR(contact.tangential_force, 0.0, 1e-6 * 1e5);
+      if (!upright) EXPECT_NEAR(contact.normal_force, 1e5, 1e-9 * 1e5);
+    }
   }
 }
 

@@ -89,6 +89,8 @@ void ContactReader::pairs(const DeckBlock& block, bool in_step) {
   if (in_step)
     return remarks_.essential(
         block.at, fmt::format("{} within a step is not taken; give it before the first step", block.written));
+  if (!tie && parameter(block, "INTERACTION").empty())
+    remarks_.essential(block.at, fmt::format("{} has no INTERACTION; name its *SURFACE INTERACTION", block.written));
   for (const DeckLine& line : block.lines) {
     if (line.fields.size() < 2 || line.fields[1].empty()) {
       remarks_.essential(

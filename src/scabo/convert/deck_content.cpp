@@ -148,7 +148,10 @@ class ContentReader {
     const std::size_t steps = content_.steps.size();
     course.resize(steps - 1);
     const double before = steps > 1 ? course.back().end : 0.0;
-    if (growing.touched)
+    if (!growing.touched && taken_back) growing.value = 0.0, growing.amplitude.clear();
+    // An amplitude in total time goes on in later steps, one in step time does not.
+    const bool goes_on = !growing.amplitude.empty() && amplitudes_.at(growing.amplitude).total_time;
+    if (growing.touched || goes_on)
       course.push_back(leg_of(growing, before));
     else
       course.push_back({taken_back ? 0.0 : before, {}});
@@ -361,8 +364,13 @@ class ContentReader {
       if (taken && !has_its_entries(line, label == "GRAV")) continue;
       if (pressure) {
         const auto value = number(remarks_, line, 2, "the pressure");
-        const auto sides = line.sides.empty() ? sides_named(deck_, line.fields[0]) : sides_of_line(line);
-        if (!sides)
+        const auto sides = line.sides.empty() ? surface_named(deck_, line.fields[0]) : sides_of_line(line);
+        if (!sides && sides_named(deck_, line.fields[0]))
+          remarks_.essential(line.at,
+                             fmt::format("'{}' has nodes and no sides of elements, and the pressure on it is lost; "
+                                         "give a *SURFACE, TYPE=ELEMENT",
+                                         files::printable(line.fields[0])));
+        else if (!sides)
           remarks_.essential(
               line.at, fmt::format("the pressure acts on no side of a plane element ('{}') and is lost; correct it",
                                    files::printable(line.fields[0])));

@@ -168,13 +168,15 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
     if (!used.contains(upper(material.name)))
       remarks.note(material.at,
                    fmt::format("material '{}' is used by no section and is left out", files::printable(material.name)));
-  for (std::size_t c = 0; c < deck.mesh.cells.size(); ++c)
-    if (given.of_cell[c].empty()) {
-      remarks.essential(
-          deck.elements[static_cast<std::size_t>(deck.type_of_cell.at(deck.mesh.cells[c].number))].at,
-          fmt::format("element {} and maybe others have no material; add a *SOLID SECTION", deck.mesh.cells[c].number));
-      break;
-    }
+  const auto without =
+      std::find_if(given.of_cell.begin(), given.of_cell.end(), [](const auto& of) { return of.empty(); });
+  if (without != given.of_cell.end()) {
+    const auto count = std::count_if(without, given.of_cell.end(), [](const auto& of) { return of.empty(); });
+    const std::int64_t number = deck.mesh.cells[static_cast<std::size_t>(without - given.of_cell.begin())].number;
+    remarks.essential(deck.elements[static_cast<std::size_t>(deck.type_of_cell.at(number))].at,
+                      fmt::format("element {}{} no material; add a *SOLID SECTION", number,
+                                  count > 1 ? fmt::format(" and {} more have", count - 1) : " has"));
+  }
   return given;
 }
 

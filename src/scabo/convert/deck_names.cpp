@@ -70,8 +70,13 @@ std::string shown_number(const AbaqusDeck& deck, std::int64_t number, DeckNumber
   return fmt::format("{}", number);
 }
 
+std::optional<std::vector<files::Facet>> surface_named(const AbaqusDeck& deck, const std::string& name) {
+  const files::FacetSet* set = set_in(deck, deck.mesh.facet_sets, name);
+  return set == nullptr ? std::nullopt : std::optional(set->facets);
+}
+
 std::optional<std::vector<files::Facet>> sides_named(const AbaqusDeck& deck, const std::string& name) {
-  if (const files::FacetSet* set = set_in(deck, deck.mesh.facet_sets, name)) return set->facets;
+  if (auto surface = surface_named(deck, name)) return surface;
   const files::NodeSet* set = set_in(deck, deck.mesh.node_sets, name);
   if (set == nullptr) return std::nullopt;
   const std::unordered_set<int> nodes(set->nodes.begin(), set->nodes.end());

@@ -24,6 +24,9 @@ std::optional<DeckName> meaning_of(const files::AbaqusDeck& deck, const std::str
 /// `105`, or `5 of 'Block-1'`.
 std::string shown_number(const files::AbaqusDeck& deck, std::int64_t number, DeckNumbers of);
 
+/// Sides of the facet set of this name in any case; nothing if there is none.
+std::optional<std::vector<files::Facet>> surface_named(const files::AbaqusDeck& deck, const std::string& name);
+
 /// Sides of the facet set, or between nodes of the node set, of this name in any case; nothing if there is neither.
 std::optional<std::vector<files::Facet>> sides_named(const files::AbaqusDeck& deck, const std::string& name);
 /// Nodes of the node set, or the node, of this name; nothing if there is none.

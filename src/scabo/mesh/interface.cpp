@@ -196,6 +196,19 @@ class Matching {
                     text_of(other.points[lone.nearest]), lone.along, remedy));
   }
 
+  /// Whether what lies on the rigid edge is more than a corner at one of its ends.
+  static bool share_length(const model::Edge& rigid, const std::vector<std::optional<geometry::Foot>>& feet,
+                           double tolerance) {
+    if ((rigid.at(0.0) - rigid.at(1.0)).norm() <= tolerance * rigid.length()) return true;  // closed: it has no ends
+    double first = 1.0, last = 0.0;
+    for (const std::optional<geometry::Foot>& foot : feet) {
+      if (!foot) continue;
+      first = std::min(first, foot->t);
+      last = std::max(last, foot->t);
+    }
+    return first < 1.0 - tolerance && last > tolerance;
+  }
+
   std::optional<Diagnostic> pair_with_rigid() {
     const bool a_is_rigid = !side_a_;
     const ContactSide& side = a_is_rigid ? *side_b_ : *side_a_;
@@ -214,6 +227,7 @@ class Matching {
       if (cosine <= pairing_cosine) feet[i] = foot;
     }
     if (!over && contact_.has_moved()) return std::nullopt;
+    if (!over && !unlike_) return not_overlapping();
     if (!over) {
       const auto& [elastic, rigid] = a_is_rigid ? std::tie(contact_.b, contact_.a) : std::tie(contact_.a, contact_.b);
       return mistake(fmt::format(
@@ -221,6 +235,10 @@ class Matching {
           elastic.text, rigid.text));
     }
     if (!facing) return not_facing();
+    if (!share_length(edge, feet, tolerance)) {
+      if (contact_.has_moved()) return std::nullopt;
+      return not_overlapping();
+    }
 
     // A closed edge may be paired across its first node: start after a node without a partner.
     int first = 0;

@@ -184,10 +184,22 @@ TEST(RigidInterfaceMistake, NothingAboveOrBelow) {
   model::Model model = punch();
   model.bodies[1].outline = rectangle({3, 0}, {1, 1});
   EXPECT_EQ(message_of(model),
-            "model.yaml:24:3: contacts.joint: no node of block.top lies opposite the rigid punch.bottom: move a body, "
-            "name other edges, or use a smaller mesh size");
+            "model.yaml:24:3: contacts.joint: block.top and punch.bottom are nowhere opposite each other: move a body, "
+            "or name other edges");
   model.bodies[1].outline = rectangle({0.01, 0}, {0.02, 1});  // between two nodes: the element is divided
   EXPECT_EQ(message_of(swapped(model)), "no error");
+}
+
+// Bodies side by side that have only a corner in common share no length: elastic ones are refused with the same words.
+TEST(RigidInterfaceMistake, ACornerOnly) {
+  for (const double x : {-3.0, 2.0}) {  // the block is on [-2, 2]
+    for (const double beyond : {0.0, 1e-9, -1e-9}) {
+      model::Model model = punch();
+      model.bodies[1].outline = rectangle({x + beyond, 0}, {1, 1});
+      EXPECT_THAT(message_of(model), HasSubstr("block.top and punch.bottom are nowhere opposite each other")) << x;
+      EXPECT_THAT(message_of(swapped(model)), HasSubstr("are nowhere opposite each other")) << x;
+    }
+  }
 }
 
 TEST(RigidInterfaceMistake, TheWrongEdgeOfThePunch) {

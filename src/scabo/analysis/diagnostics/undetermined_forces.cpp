@@ -96,7 +96,12 @@ Sparse free_forces(const State& state, const contact::Problem& problem) {
   for (Eigen::Index i = 0; i < N; ++i) {
     const double p_n = state.p[2 * i], p_t = state.p[2 * i + 1];
     const contact::ContactState pair = state.states[static_cast<std::size_t>(i)];
-    if (pair == contact::ContactState::open || !(p_n + problem.tension_of(i) > room)) continue;
+    if (pair == contact::ContactState::open || !(p_n + problem.tension_of(i) > room)) {
+      if (problem.friction_bound(i, p_n, p_t) - std::abs(p_t) >
+          room)  // shear of a strength that pressure does not change
+        entries.emplace_back(2 * i + 1, columns++, 1.0);
+      continue;
+    }
     const bool bonded = std::isinf(problem.tension_of(i));
     const bool sticks =
         bonded || (pair == contact::ContactState::stick && problem.friction_bound(i, p_n, p_t) - std::abs(p_t) > room);

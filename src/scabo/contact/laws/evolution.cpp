@@ -231,8 +231,8 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   result.history = from;
   result.problem = std::move(problem);
   result.solution.status = Status::not_converged;
-  result.solution.reason = "the failure states of the joints did not converge within " + std::to_string(result.rounds) +
-                           " iterations; the increment may be too large, or failure propagates without limit";
+  result.solution.reason =
+      "the failure states of the joints did not converge within " + std::to_string(result.rounds) + " iterations";
   return result;
 }
 

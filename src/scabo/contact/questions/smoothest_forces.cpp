@@ -83,7 +83,14 @@ Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, co
   const bool moves = std::abs(slip) > still[1];
   const ContactState state = solution.states[static_cast<std::size_t>(i)];
   Freedom freedom;
-  if (state == ContactState::open && solution.gap[i] > still[0]) return freedom;
+  if (state == ContactState::open && solution.gap[i] > still[0]) {
+    const double cohesion = problem.cohesion_of(i);
+    if (moves || !(cohesion > 0.0)) return freedom;
+    freedom.C(1, 0) = 1.0;
+    freedom.columns = 1;
+    freedom.limits = {{{0.0, 1.0}, -cohesion}, {{0.0, -1.0}, -cohesion}};
+    return freedom;
+  }
   const bool bonded = std::isinf(problem.tension_of(i));
   const bool slips = moves && state != ContactState::stick;
   const bool frictionless = !bonded && problem.largest_mu(i) == 0.0 && problem.cohesion_of(i) == 0.0;

@@ -6,6 +6,7 @@
 //
 //     open         none                                 slip     p_n >= 0,  p_t = -+ (c + mu p_n)
 //     stick, touch p_n >= 0,  |p_t| <= c + mu p_n       bonded   any
+//     open, with a shear strength and without slip      p_n = 0,  |p_t| <= c
 //     with tensile strength T: p_n >= -T, |p_t| <= c, or p_n >= 0, |p_t| <= c + mu p_n: not convex, so that the least
 //     sum is looked for in the convex hull first, and a force that is in neither part then goes to the nearer one
 //

@@ -245,7 +245,7 @@ std::string why_no_solution(const Problem& problem, const SolverOptions& options
   const bool plain = problem.dimension == 2 && problem.G.cols() == 0 && problem.cohesion.size() == 0 &&
                      problem.tension.size() == 0 && problem.pairs() > 0 && problem.pairs() <= most_pivoted;
   if (plain && !lemke(problem))
-    return "Lemke's pivoting also ends on a ray: with this much friction there may be no solution";
+    return "Lemke's pivoting also ends on a ray, so that it is not known whether there is a solution";
   return {};
 }
 
