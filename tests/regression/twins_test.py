@@ -191,5 +191,82 @@ def segment(draw, push, radius=50.0, half=0.5, size=0.25):
     })
 
 
+def on_slope(draw, shape, slope, size=0.05, increments=1, floor=None):
+    """A body of 20 kN/m^3 on a rigid floor that rises by `slope`; friction 0.9."""
+    floor = floor or draw.polygon([(-4, -1), (4, -1), (4, 0), (-4, 0)], base="edge_1", top="edge_3")
+    weight = [draw.length(component) for component in draw.vector(9.81 * math.sin(slope), -9.81 * math.cos(slope))]
+    return draw.text({
+        "analysis": {"plane": "strain"},
+        "materials": {"m": {"young": draw.stress(1e9), "poisson": 0.3, "density": draw.per_volume(2000.0) / draw.metre}},
+        "bodies": {"floor": {"rigid": True, "shape": floor},
+                   "d": {"material": "m", "shape": shape, "mesh": {"size": draw.length(size)}}},
+        "supports": draw.fixed("floor", (1, 0), (0, 1)),
+        "loads": {"w": {"gravity": weight}},
+        "contacts": {"c": {"between": ["floor.top", "d.rim"], "friction": 0.9}},
+        "steps": [{"name": "s", "increments": increments}],
+    })
+
+
+def disc(draw, radius=1.0):
+    return {"circle": {"centre": draw.point(0, radius), "radius": draw.length(radius)}}
+
+
+def rollers(draw, push):
+    """A plate on two rollers, pushed along by a part of its weight of 100 kN."""
+    steel = {"material": "m", "mesh": {"size": draw.length(0.05)}}
+    return draw.text({
+        "materials": {"m": {"young": draw.stress(1e9), "poisson": 0.3}},
+        "bodies": {
+            "floor": {"rigid": True, "shape": draw.box(-3, -1, 6, 1)},
+            "a": {**steel, "shape": {"circle": {"centre": draw.point(-1, 0.5), "radius": draw.length(0.5)}}},
+            "b": {**steel, "shape": {"circle": {"centre": draw.point(1, 0.5), "radius": draw.length(0.5)}}},
+            "plate": {"rigid": True, "shape": draw.box(-2, 1, 4, 0.2)},
+        },
+        "supports": draw.fixed("floor", (1, 0), (0, 1)),
+        "loads": {"P": {"on": "plate", "force": draw.vector(push * 1e5, -1e5)}},
+        "contacts": {f"{body}_{side}": {"between": [place, f"{body}.rim"], "friction": 0.9}
+                     for body in "ab" for side, place in (("low", "floor.edge_3"), ("high", "plate.edge_1"))},
+    })
+
+
+class Rolling(Twins):
+    """With small rotations the contact of a round body moves and its weight stays: it would rest on any slope."""
+
+    def rolls(self, text, body="d"):
+        summary = self.stops_as_mechanism(text)
+        self.assertIn(f"body '{body}' rolls", summary["reason"])
+        return summary
+
+    def test_a_disc_on_a_slope(self):
+        for draw in SAMPLE:
+            with self.subTest(draw=draw):
+                self.rolls(on_slope(draw, disc(draw), 0.05))
+
+    def test_mirrored_in_ten_increments_finer_and_on_other_slopes(self):
+        draw = Drawing()
+        self.rolls(on_slope(draw, disc(draw), -0.05))
+        self.rolls(on_slope(draw, disc(draw), 0.05, increments=10))
+        self.rolls(on_slope(draw, disc(draw), 0.05, size=0.03))
+        for slope in (0.02, 0.08):
+            self.rolls(on_slope(draw, disc(draw), slope))
+        self.rolls(on_slope(draw, disc(draw, 0.3), 0.05, size=0.01))
+
+    def test_rollers_under_a_plate(self):
+        _, _, summary = self.run_model(rollers(Drawing(), 0.08))
+        self.assertEqual(summary["status"], "mechanism")
+        self.assertIn("rolls", summary["reason"])
+
+    def test_what_stands_does_not_roll(self):
+        draw = Drawing()
+        self.solve(on_slope(draw, disc(draw), 0.0))
+        for width in (1.0, 0.3):
+            self.solve(on_slope(draw, draw.polygon([(0, 0), (width, 0), (width, 2), (0, 2)], rim="edge_1"), 0.05))
+        groove = draw.polygon([(-2, -1), (2, -1), (2, 1), (math.sqrt(2), 1), (0, 1 - math.sqrt(2)), (-math.sqrt(2), 1), (-2, 1)],
+                              left="edge_4", right="edge_5")
+        model = on_slope(draw, disc(draw), 0.1, floor=groove).replace(
+            '"c": {', '"e": {"between": ["floor.left", "d.rim"], "friction": 0.9}, "c": {').replace("floor.top", "floor.right")
+        self.solve(model)
+
+
 if __name__ == "__main__":
     support.main()

@@ -132,6 +132,20 @@ Eigen::Matrix3d moments_of_part(const Prepared& prepared, std::size_t p) {
   return moments;
 }
 
+Eigen::Vector3d nearest_rigid_motion(const Prepared& prepared, std::size_t p, const Vector& u) {
+  if (prepared.structure.dofs.is_rigid(p)) return u;
+  const system::BodySystem& part = *prepared.structure.parts[p];
+  const std::vector<Vec2>& nodes = prepared.structure.dofs.nodes(p);
+  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const Eigen::Matrix<double, 2, 3> N = system::rigid_point(nodes[node], part.reference(), part.lever());
+    gram += N.transpose() * N;
+    along += N.transpose() * u.segment<2>(place_of(node));
+  }
+  return gram.inverse() * along;
+}
+
 Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared) {
   std::vector<Eigen::Triplet<double>> entries;
   double scale = 0.0;  // a power of two, of the first part

@@ -22,6 +22,9 @@ Mechanism mechanism_of(const Prepared& prepared, const Vector& rigid, FlowRule r
 /// reference point: M, from area and moments of area (of an unbounded part those of a square of its size).
 Eigen::Matrix3d moments_of_part(const Prepared& prepared, std::size_t p);
 
+/// [u_x, u_y, L rotation] of the rigid motion nearest to displacements of the nodes of a part.
+Eigen::Vector3d nearest_rigid_motion(const Prepared& prepared, std::size_t p, const Vector& u);
+
 /// M^-1 of the parts as rigid bodies, m x m, as if all were of one material: area, and moments of area about the
 /// reference point (of an unbounded body those of a square of its size).
 Eigen::SparseMatrix<double> inverse_mass(const Prepared& prepared);

@@ -29,21 +29,6 @@ Matrix motions_of_part(const Prepared& prepared, std::size_t p, const Matrix& mo
   return part.rigid_coordinates() * motions.middleRows(prepared.contact.first_rigid[p], m);
 }
 
-/// [u_x, u_y, L rotation] of the rigid motion nearest to displacements of the nodes of a part.
-Eigen::Vector3d nearest_rigid_motion(const Prepared& prepared, std::size_t p, const Vector& u) {
-  if (prepared.structure.dofs.is_rigid(p)) return u;
-  const system::BodySystem& part = *prepared.structure.parts[p];
-  const std::vector<Vec2>& nodes = prepared.structure.dofs.nodes(p);
-  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d along = Eigen::Vector3d::Zero();
-  for (std::size_t node = 0; node < nodes.size(); ++node) {
-    const Eigen::Matrix<double, 2, 3> N = system::rigid_point(nodes[node], part.reference(), part.lever());
-    gram += N.transpose() * N;
-    along += N.transpose() * u.segment<2>(place_of(node));
-  }
-  return gram.inverse() * along;
-}
-
 /// The states of the pairs, open those with a force of less than `least`: all that holds a body that is loose may be
 /// what the tolerance leaves.
 std::vector<contact::ContactState> held_states(const contact::Problem& problem, const contact::Solution& solution,

@@ -18,6 +18,7 @@ struct Attempt {
   std::string beyond;     ///< why a solution contradicts small displacements (beyond_sides.hpp) or the displacements of
                           ///< its bodies (softly_held.hpp); else empty
   bool lost = false;      ///< in rounding, whatever part of the loads acts (softly_held.hpp)
+  std::string rolls;      ///< which body of a solution would roll away (rolling.hpp); else empty
   bool accepted = false;
   contact::Problem problem;  ///< the problem solved, from `start`; W is shared, not copied
   contact::Start start;

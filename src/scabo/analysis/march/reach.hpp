@@ -31,7 +31,7 @@ bool halves(const Scheme& scheme, const Attempt& tried, double next, double part
             const Options& options, Reached& reached) {
   using contact::Status;
   const Status status = tried.solution.status;
-  const bool no_equilibrium = status == Status::mechanism || status == Status::collapse;
+  const bool no_equilibrium = status == Status::mechanism || status == Status::collapse || !tried.rolls.empty();
   const auto is_same_at_half = [&] { return scheme.is_same_scaled(reached.state, tried, reached.part + 0.5 * part); };
   // A mechanism is a proof; that stages found nothing is none, and the last equilibrium is part of the answer.
   const bool may_close_in = no_equilibrium && (automatic || status == Status::collapse);

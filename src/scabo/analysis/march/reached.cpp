@@ -152,9 +152,14 @@ void give_up(const Prepared& prepared, const Attempt& tried, double part, Reache
   reached.certificate = tried.certificate;
   if ((status == Status::not_converged || status == Status::collapse) && gives_up_broken(prepared, tried, reached))
     return;
-  reached.mechanism = status == Status::mechanism;
+  reached.mechanism = status == Status::mechanism || !tried.rolls.empty();
   reached.collapse = status == Status::collapse;
-  if (status == Status::mechanism) {
+  if (!tried.rolls.empty()) {
+    const Vector motion = tried.state.rigid_motion - reached.state.rigid_motion;
+    reached.motion = mechanism_of(prepared, motion.isZero(0.0) ? tried.state.rigid_motion : motion, FlowRule::coulomb,
+                                  tried.problem.f);
+    reached.reason = fmt::format("mechanism: {}", tried.rolls);
+  } else if (status == Status::mechanism) {
     set_motion_of_mechanism(prepared, tried, reached);
     reached.reason = fmt::format("mechanism: {}, held neither by supports nor by contact and friction",
                                  describe_motions(prepared, reached.motion->rigid));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scabo/analysis/diagnostics/beyond_sides.hpp"
+#include "scabo/analysis/diagnostics/rolling.hpp"
 #include "scabo/analysis/diagnostics/softly_held.hpp"
 #include "scabo/analysis/diagnostics/undetermined_forces.hpp"
 #include "scabo/analysis/diagnostics/undetermined_motions.hpp"
@@ -190,6 +191,8 @@ void certify(Making& making) {
   made.lost = made.accepted && made.beyond.empty() && making.soft && making.soft->wrong > SoftlyHeld::allowed;
   if (made.lost) made.beyond = lost_where_softly_held(prepared, *making.soft);
   made.accepted = made.accepted && made.beyond.empty();
+  if (made.accepted) made.rolls = rolling_body(prepared, to);
+  made.accepted = made.accepted && made.rolls.empty();
 }
 
 }  // namespace

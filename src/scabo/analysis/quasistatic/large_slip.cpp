@@ -344,7 +344,8 @@ Attempt solved_on(const Prepared& prepared, const State& start, const std::vecto
   }
   if (!tried.accepted)
     found.reason = "pairs were found anew, but contact was not solved on them under the same loads: " +
-                   (tried.solution.status == contact::Status::solved
+                   (!tried.rolls.empty() ? tried.rolls
+                    : tried.solution.status == contact::Status::solved
                         ? fmt::format("the largest figure of the certificate is {:.3g}", tried.certificate.worst())
                         : tried.solution.reason);
   found.certificate = tried.certificate;
