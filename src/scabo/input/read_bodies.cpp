@@ -258,98 +258,123 @@ Copies copies_of(Reading& reading, const Value& value, const Body& body) {
   return copies;
 }
 
+/// The entry of a shape that names an image; null if it is an outline.
+const MapEntry* image_of(const std::optional<Value>& shape) {
+  return shape && shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
+}
+
+void read_shape_of(Reading& reading, const Value& shape, ReadBody& read) {
+  const MapEntry* image = image_of(shape);
+  auto outline = image != nullptr ? read_image(reading, {image->value, shape.path + ".image"}, read.body)
+                                  : read_shape(reading, shape);
+  if (image != nullptr && shape.node->entries.size() > 1)
+    reading.report.error(shape, "an image is the whole shape: leave the other keys out");
+  if (!outline) return;
+  read.body.outline = std::move(*outline);
+  read.state.shape = true;
+}
+
+/// Whether a mesh says where the scaling centre is.
+bool names_centre(const std::optional<Value>& mesh) {
+  return mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre");
+}
+
+/// The mesh of an elastic body that has a shape, and what follows from both.
+void read_mesh_of_shape(Reading& reading, const MapReader& map, bool has_cracks, ReadBody& read) {
+  Body& body = read.body;
+  const auto mesh = map.need("mesh");
+  body.mesh.size = unread;
+  if (mesh)
+    body.mesh = read_mesh(reading, *mesh, read.state.shape ? &body.outline : nullptr,
+                          body.cracks.empty() || !body.cracks.front().path.empty() ? nullptr : &body.cracks.front());
+  if (body.mesh.kind == MeshKind::superelement && needs_cells_for_cracks(body)) body.mesh.kind = MeshKind::polygons;
+  if (body.mesh.kind != MeshKind::superelement)
+    for (Crack& crack : body.cracks)
+      if (crack.path.empty()) crack.path = {crack.mouth, crack.tip}, crack.edge = -1;
+  if (body.mesh.kind == MeshKind::superelement && !has_cracks && !map.has("outside") && !map.has("sectors") &&
+      !names_centre(mesh) && read.state.shape)
+    choose_centre(body);
+}
+
+/// Materials, cracks, mesh, sectors and surroundings of an elastic body that has a shape.
+void read_elastic(Reading& reading, const MapReader& map, bool from_image, ReadBody& read) {
+  Body& body = read.body;
+  // Also an image that could not be read names the materials.
+  if (from_image) map.refuse("material", "the image names the materials: leave 'material' out");
+  const auto material = from_image ? std::nullopt : map.need("material");
+  if (material) body.material = read_material_name(reading, *material).value_or(-1);
+  if (const auto regions = map.get("regions")) read_regions(reading, *regions, body);
+  const std::size_t before = reading.report.count();
+  const auto cracks = map.get("cracks");
+  if (cracks && read.state.shape) body.cracks = read_cracks(reading, *cracks, body);
+  read_mesh_of_shape(reading, map, cracks.has_value(), read);
+  // Names of side faces, and of the crack, may not be known.
+  const bool broken = reading.report.count() > before;
+  if (broken && (cracks || names_centre(map.get("mesh")))) read.state.shape = false;
+  if (const auto sectors = map.get("sectors"); sectors && read.state.shape)
+    body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
+  read_outside(reading, map, body);
+  if (body.outside && !body.outline.edges.empty() && body.outline.holes.empty()) turn_outside(body);
+}
+
+/// The copies of a body that `repeat` asks for, or the body alone.
+void add_with_copies(Reading& reading, const MapReader& map, ReadBody read) {
+  Copies copies;
+  const auto repeat = map.get("repeat");
+  if (repeat) copies = copies_of(reading, *repeat, read.body);
+  const auto states = read_stages(reading, map, read.state, copies.bodies.size(), copies.rows);
+  if (!repeat) copies.bodies.push_back(std::move(read.body));
+  for (std::size_t i = 0; i < copies.bodies.size(); ++i)
+    add_body(reading, std::move(copies.bodies[i]), states ? (*states)[i] : read.state);
+}
+
+/// The parts of a mesh file whose cells are not all joined by sides.
+void add_parts(Reading& reading, const MapReader& map, std::vector<ReadBody> parts) {
+  if (const auto states = read_stages(reading, map, parts.front().state, 0, 0))
+    for (ReadBody& part : parts) {
+      part.state.added = states->front().added;
+      part.state.removed = states->front().removed;
+    }
+  for (ReadBody& part : parts) add_body(reading, std::move(part.body), part.state);
+}
+
 void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(report, entry.value,
                       {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors",
                        "outside", "reference", "repeat", "added", "removed", "file", "density"},
                       body_example);
-  Body body;
-  BodyState state;
-  body.name = entry.key;
-  body.source = entry.key_source;
-  state.held = !map.is_map();  // reported already; supports are then not checked
+  ReadBody read;
+  read.body.name = entry.key;
+  read.body.source = entry.key_source;
+  read.state.held = !map.is_map();  // reported already; supports are then not checked
   const auto rigid_value = map.get("rigid");
   const auto rigid = rigid_value ? read_flag(report, *rigid_value) : std::optional(false);
-  body.rigid = rigid.value_or(false);
-  const bool from_file = rigid && !body.rigid && is_from_file(map.get("mesh"));
+  read.body.rigid = rigid.value_or(false);
+  const bool from_file = rigid && !read.body.rigid && is_from_file(map.get("mesh"));
   map.refuse("file", "is a key of 'mesh': write mesh: {file: part.msh} instead of shape");
   const auto shape = from_file || map.has("file") ? std::nullopt : map.need("shape");
-  const MapEntry* image = shape && shape->node->kind == Node::Kind::map ? shape->node->find("image") : nullptr;
-  if (shape) {
-    auto outline = image != nullptr ? read_image(reading, {image->value, shape->path + ".image"}, body)
-                                    : read_shape(reading, *shape);
-    if (image != nullptr && shape->node->entries.size() > 1)
-      report.error(*shape, "an image is the whole shape: leave the other keys out");
-    if (outline) {
-      body.outline = std::move(*outline);
-      state.shape = true;
-    }
-  }
+  if (shape) read_shape_of(reading, *shape, read);
   if (!from_file) map.refuse("materials", "only a body from a mesh file has materials of its regions: use 'material'");
-  if (const auto holes = map.get("holes"); holes && state.shape)
-    state.shape = read_holes(reading, *holes, body.outline);
-  if (body.rigid) {
-    if (const auto density = map.get("density")) body.density = number_or_unread(reading, density);
+  if (const auto holes = map.get("holes"); holes && read.state.shape)
+    read.state.shape = read_holes(reading, *holes, read.body.outline);
+  if (read.body.rigid) {
+    if (const auto density = map.get("density")) read.body.density = number_or_unread(reading, density);
     for (const char* key : {"material", "mesh", "cracks", "sectors", "outside", "reference", "regions"})
       map.refuse(key, not_for_rigid);
   } else if (!rigid) {  // the required keys are not known
-    body.rigid = true;
+    read.body.rigid = true;
     reading.rigid_known = false;
-    state.touched = true;
+    read.state.touched = true;
   } else if (from_file) {
-    std::vector<ReadBody> parts =
-        read_imported_bodies(reading, map, *map.get("mesh"), {std::move(body), std::move(state)});
-    if (parts.size() > 1) {
-      if (const auto states = read_stages(reading, map, parts.front().state, 0, 0))
-        for (ReadBody& part : parts) {
-          part.state.added = states->front().added;
-          part.state.removed = states->front().removed;
-        }
-      for (ReadBody& part : parts) add_body(reading, std::move(part.body), part.state);
-      return;
-    }
-    body = std::move(parts.front().body);
-    state = std::move(parts.front().state);
+    std::vector<ReadBody> parts = read_imported_bodies(reading, map, *map.get("mesh"), std::move(read));
+    if (parts.size() > 1) return add_parts(reading, map, std::move(parts));
+    read = std::move(parts.front());
   } else {
-    // Also an image that could not be read names the materials.
-    if (image != nullptr) map.refuse("material", "the image names the materials: leave 'material' out");
-    const auto material = image != nullptr ? std::nullopt : map.need("material");
-    if (material) body.material = read_material_name(reading, *material).value_or(-1);
-    if (const auto regions = map.get("regions")) read_regions(reading, *regions, body);
-    const std::size_t before = report.count();
-    const auto cracks = map.get("cracks");
-    if (cracks && state.shape) body.cracks = read_cracks(reading, *cracks, body);
-    const auto mesh = map.need("mesh");
-    body.mesh.size = unread;
-    if (mesh)
-      body.mesh = read_mesh(reading, *mesh, state.shape ? &body.outline : nullptr,
-                            body.cracks.empty() || !body.cracks.front().path.empty() ? nullptr : &body.cracks.front());
-    if (body.mesh.kind == MeshKind::superelement && needs_cells_for_cracks(body)) body.mesh.kind = MeshKind::polygons;
-    if (body.mesh.kind != MeshKind::superelement)
-      for (Crack& crack : body.cracks)
-        if (crack.path.empty()) crack.path = {crack.mouth, crack.tip}, crack.edge = -1;
-    const bool has_centre = mesh && mesh->node->kind == Node::Kind::map && mesh->node->find("centre");
-    const bool one = body.mesh.kind == MeshKind::superelement && !cracks && !map.has("outside") && !map.has("sectors");
-    if (one && !has_centre && state.shape) choose_centre(body);
-    // Names of side faces, and of the crack, may not be known.
-    const bool broken = report.count() > before;
-    if (broken && (cracks || has_centre)) state.shape = false;
-    if (const auto sectors = map.get("sectors"); sectors && state.shape)
-      body.sector_materials = read_sectors(reading, *sectors, body).value_or(std::vector<int>{});
-    read_outside(reading, map, body);
-    if (body.outside && !body.outline.edges.empty() && body.outline.holes.empty()) turn_outside(body);
+    read_elastic(reading, map, image_of(shape) != nullptr, read);
   }
-  if (!body.rigid) map.refuse("density", "belongs to the material of an elastic body");
-  if (const auto repeat = map.get("repeat")) {
-    Copies copies = copies_of(reading, *repeat, body);
-    const auto states = read_stages(reading, map, state, copies.bodies.size(), copies.rows);
-    for (std::size_t i = 0; i < copies.bodies.size(); ++i)
-      add_body(reading, std::move(copies.bodies[i]), states ? (*states)[i] : state);
-    return;
-  }
-  const auto states = read_stages(reading, map, state, 0, 0);
-  add_body(reading, std::move(body), states ? states->front() : state);
+  if (!read.body.rigid) map.refuse("density", "belongs to the material of an elastic body");
+  add_with_copies(reading, map, std::move(read));
 }
 
 }  // namespace

@@ -71,47 +71,76 @@ std::complex<double> inverse(std::complex<double> z) {
   return {z.real() / square, -z.imag() / square};
 }
 
-/// Solves one diagonal block of z - s T, rows first to last of X, all contour points (columns: real parts, then
-/// imaginary parts), by back substitution.
-void solve_diagonal_block(const Matrix& T, double s, Eigen::Index start, Eigen::Index size, const Contour& contour,
-                          Matrix& X) {
-  const auto count = static_cast<Eigen::Index>(contour.points.size());
-  for (Eigen::Index point = 0; point < count; ++point) {
-    const std::complex<double> z = contour.points[static_cast<std::size_t>(point)].z;
-    double* const x = X.col(point).data();
-    double* const y = X.col(count + point).data();
-    for (Eigen::Index j = start + size - 1; j >= start; --j) {
-      const Eigen::Index first = j > start && pair_begins(T, j - 1) ? j - 1 : j;
-      if (first < j) {
-        const std::complex<double> a = z - s * T(first, first), d = z - s * T(j, j);
-        const double b = -s * T(first, j), c = -s * T(j, first);
-        const std::complex<double> f(x[first], y[first]), g(x[j], y[j]), over = inverse(a * d - b * c);
-        const std::complex<double> u = (d * f - b * g) * over, v = (a * g - c * f) * over;
-        x[first] = u.real(), y[first] = u.imag(), x[j] = v.real(), y[j] = v.imag();
-      } else {
-        const std::complex<double> u = std::complex<double>(x[j], y[j]) * inverse(z - s * T(j, j));
-        x[j] = u.real(), y[j] = u.imag();
-      }
-      for (Eigen::Index column = first; column <= j; ++column) {
-        const double u = s * x[column], v = s * y[column];
-        const double* const t = T.col(column).data();
-        for (Eigen::Index row = start; row < first; ++row) x[row] += u * t[row], y[row] += v * t[row];
-      }
-      j = first;
+/// The points of a contour and what has one value at each of them; a matrix of such values has a column for each
+/// unknown, real parts above imaginary parts, so that all points are solved for at once.
+struct Points {
+  Eigen::ArrayXd real, imaginary;  // z
+  Vector weights;                  // 2 Re w, then -2 Im w: their product with such a column is the sum over all points
+
+  explicit Points(const Contour& contour) {
+    const auto count = static_cast<Eigen::Index>(contour.points.size());
+    real.resize(count), imaginary.resize(count), weights.resize(2 * count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto& [z, weight] = contour.points[static_cast<std::size_t>(k)];
+      real[k] = z.real(), imaginary[k] = z.imag();
+      weights[k] = 2.0 * weight.real(), weights[count + k] = -2.0 * weight.imag();
     }
+  }
+  Eigen::Index count() const { return real.size(); }
+  std::complex<double> operator[](Eigen::Index k) const { return {real[k], imaginary[k]}; }
+};
+
+/// Column j of X over z - s T(j, j).
+void divide_column(const Matrix& transposed, double s, Eigen::Index j, const Points& points, Matrix& X) {
+  const Eigen::Index count = points.count();
+  double *const x = X.col(j).data(), *const y = x + count;
+  const double shift = s * transposed(j, j);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double a = points.real[k] - shift, b = points.imaginary[k], square = a * a + b * b;
+    const double u = (x[k] * a + y[k] * b) / square, v = (y[k] * a - x[k] * b) / square;
+    x[k] = u, y[k] = v;
   }
 }
 
-/// X <- (z - s T)^-1 X for all contour points at once: the contribution of a block of rows to those above it is one
-/// product of matrices.
-void solve_shifted(const Matrix& T, double s, const Contour& contour, Matrix& X) {
-  constexpr Eigen::Index rows_at_a_time = 32;
-  for (Eigen::Index end = T.rows(); end > 0;) {
-    Eigen::Index start = std::max<Eigen::Index>(0, end - rows_at_a_time);
-    if (start > 0 && pair_begins(T, start - 1)) --start;  // 2 x 2 blocks are not split
-    solve_diagonal_block(T, s, start, end - start, contour, X);
+/// The same for a 2 x 2 block, columns j and j + 1; in real numbers, for products of complex ones look out for
+/// infinities.
+void divide_columns(const Matrix& transposed, double s, Eigen::Index j, const Points& points, Matrix& X) {
+  const Eigen::Index count = points.count();
+  double *const x = X.col(j).data(), *const y = x + count;
+  double *const v = X.col(j + 1).data(), *const w = v + count;
+  const double first = s * transposed(j, j), second = s * transposed(j + 1, j + 1);
+  const double b = -s * transposed(j + 1, j), c = -s * transposed(j, j + 1);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double z = points.imaginary[k], a = points.real[k] - first, d = points.real[k] - second;
+    const double real = a * d - z * z - b * c, imaginary = z * (a + d);  // determinant
+    const double square = real * real + imaginary * imaginary, over = real / square, under = -imaginary / square;
+    const double p = d * x[k] - z * y[k] - b * v[k], q = d * y[k] + z * x[k] - b * w[k];
+    const double f = a * v[k] - z * w[k] - c * x[k], g = a * w[k] + z * v[k] - c * y[k];
+    x[k] = p * over - q * under, y[k] = p * under + q * over;
+    v[k] = f * over - g * under, w[k] = f * under + g * over;
+  }
+}
+
+/// X' <- (z - s T)^-1 X' for all contour points at once, by back substitution; `transposed` is T'. The contribution of
+/// a block of unknowns to those before it is one product of matrices.
+void solve_shifted(const Matrix& transposed, double s, const Points& points, Matrix& X) {
+  constexpr Eigen::Index at_a_time = 8;
+  const auto pair_ends = [&](Eigen::Index j) { return j > 0 && transposed(j - 1, j) != 0.0; };  // T(j, j - 1)
+  for (Eigen::Index end = transposed.rows(); end > 0;) {
+    Eigen::Index start = std::max<Eigen::Index>(0, end - at_a_time);
+    if (pair_ends(start)) --start;  // 2 x 2 blocks are not split
+    for (Eigen::Index j = end - 1; j >= start; --j) {
+      const Eigen::Index last = j;
+      if (pair_ends(j))
+        divide_columns(transposed, s, --j, points, X);
+      else
+        divide_column(transposed, s, j, points, X);
+      for (Eigen::Index solved = j; solved <= last; ++solved)
+        for (Eigen::Index row = start; row < j; ++row) X.col(row) += s * transposed(solved, row) * X.col(solved);
+    }
     if (start > 0)
-      add_product(s, T.block(0, start, start, end - start), X.middleRows(start, end - start), X.topRows(start));
+      add_product(s, X.middleCols(start, end - start), transposed.block(start, 0, end - start, start),
+                  X.leftCols(start));
     end = start;
   }
 }
@@ -154,47 +183,47 @@ const Contour* contour_for(const std::vector<std::complex<double>>& eigenvalues,
   return nullptr;
 }
 
+/// The dense exponential: forcings are additional rows of the system, [[T, w ...], [0, power ...]], with the value 1 at
+/// s = 0.
+Vector dense_propagation(const Matrix& T, const Vector& c, const std::vector<Forcing>& forcings, double s,
+                         double shift) {
+  const Eigen::Index n = c.size();
+  const auto terms = static_cast<Eigen::Index>(forcings.size());
+  Matrix augmented = Matrix::Zero(n + terms, n + terms);
+  augmented.topLeftCorner(n, n) = T * s;
+  augmented.diagonal().head(n).array() -= shift * s;
+  for (Eigen::Index j = 0; j < terms; ++j) {
+    augmented.col(n + j).head(n) = s * forcings[static_cast<std::size_t>(j)].w;
+    augmented(n + j, n + j) = (forcings[static_cast<std::size_t>(j)].power - shift) * s;
+  }
+  Vector start = Vector::Ones(n + terms);
+  start.head(n) = c;
+  return (augmented.exp() * start).head(n);
+}
+
 }  // namespace
 
 Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& forcings, double s,
                                    double shift) const {
   const Eigen::Index n = c.size();
   if (s == 0.0 || n == 0) return c;
-  Matrix T = schur_.T;
-  T.diagonal().array() -= shift;
-  // Forcings are additional rows of the system, [[T, w ...], [0, power ...]], with the value 1 at s = 0.
   const Contour* const contour = contour_for(eigenvalues_, s, shift);
-  if (contour == nullptr) {  // rare: the dense exponential
-    const auto terms = static_cast<Eigen::Index>(forcings.size());
-    Matrix augmented = Matrix::Zero(n + terms, n + terms);
-    augmented.topLeftCorner(n, n) = T * s;
-    for (Eigen::Index j = 0; j < terms; ++j) {
-      augmented.col(n + j).head(n) = s * forcings[static_cast<std::size_t>(j)].w;
-      augmented(n + j, n + j) = (forcings[static_cast<std::size_t>(j)].power - shift) * s;
+  if (contour == nullptr) return dense_propagation(schur_.T, c, forcings, s, shift);  // rare
+  const Points points(*contour);
+  const Eigen::Index count = points.count();
+  Matrix X(2 * count, n);
+  X.topRows(count).rowwise() = c.transpose();
+  X.bottomRows(count).setZero();
+  for (const Forcing& forcing : forcings)
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const std::complex<double> share = s * inverse(points[k] - (forcing.power - shift) * s);
+      X.row(k) += share.real() * forcing.w.transpose();
+      X.row(count + k) += share.imag() * forcing.w.transpose();
     }
-    Vector start = Vector::Ones(n + terms);
-    start.head(n) = c;
-    return (augmented.exp() * start).head(n);
-  }
-  const auto count = static_cast<Eigen::Index>(contour->points.size());
-  Matrix X(n, 2 * count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    X.col(k) = c;
-    X.col(count + k).setZero();
-    for (const Forcing& forcing : forcings) {
-      const std::complex<double> share =
-          s * inverse(contour->points[static_cast<std::size_t>(k)].z - (forcing.power - shift) * s);
-      X.col(k) += share.real() * forcing.w;
-      X.col(count + k) += share.imag() * forcing.w;
-    }
-  }
-  solve_shifted(T, s, *contour, X);
-  Vector psi = Vector::Zero(n);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const std::complex<double> weight = contour->points[static_cast<std::size_t>(k)].weight;
-    psi += 2.0 * weight.real() * X.col(k) - 2.0 * weight.imag() * X.col(count + k);
-  }
-  return psi;
+  Matrix transposed = schur_.T.transpose();
+  transposed.diagonal().array() -= shift;
+  solve_shifted(transposed, s, points, X);
+  return X.transpose() * points.weights;
 }
 
 }  // namespace scabo::linalg

@@ -13,7 +13,6 @@
 #include "scabo/base/disjoint_sets.hpp"
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/foot_points.hpp"
-#include "scabo/geometry/line_basis.hpp"
 #include "scabo/mesh/approximate_nodes.hpp"
 #include "scabo/mesh/crack_net.hpp"
 #include "scabo/mesh/divide.hpp"
@@ -23,6 +22,7 @@
 #include "scabo/mesh/polygons.hpp"
 #include "scabo/mesh/quadtree.hpp"
 #include "scabo/mesh/refusal.hpp"
+#include "scabo/mesh/sides_of_cells.hpp"
 #include "scabo/mesh/slit.hpp"
 #include "scabo/mesh/star_cells.hpp"
 #include "scabo/mesh/unit_free.hpp"
@@ -91,35 +91,6 @@ std::vector<DomainLine> lines_of(const Sizing& sizing, const geometry::Edge& edg
 int least_elements(const model::Body& body, const NetLine& line) {
   return line.crack && body.mesh.kind == model::MeshKind::fem ? 4 : 1;
 }
-
-/// Points of a side at fractions of it, in the direction from `a` to `b`.
-std::vector<Vec2> points_at(const std::vector<double>& fractions, const Vec2& a, const Vec2& b,
-                            const std::optional<geometry::Arc>& arc) {
-  std::vector<Vec2> points;
-  for (const double t : fractions) {
-    if (!arc) {
-      points.push_back(a + t * (b - a));
-      continue;
-    }
-    const Vec2 from = a - arc->centre, to = b - arc->centre;
-    const double turn = std::atan2(cross(from, to), from.dot(to)), angle = std::atan2(from.y(), from.x()) + t * turn;
-    const double radius = (1.0 - t) * from.norm() + t * to.norm();
-    points.push_back(arc->centre + radius * Vec2(std::cos(angle), std::sin(angle)));
-  }
-  return points;
-}
-
-/// Points between the ends of a side, in the direction from `a` to `b`.
-std::vector<Vec2> between(const Vec2& a, const Vec2& b, int order, const std::optional<geometry::Arc>& arc) {
-  const std::vector<double> lobatto = geometry::lobatto_points(order);
-  std::vector<double> fractions;
-  for (int i = 1; i < order; ++i) fractions.push_back(0.5 * (1.0 + lobatto[static_cast<std::size_t>(i)]));
-  return points_at(fractions, a, b, arc);
-}
-
-/// An element of the cell around a crack tip is seen from the tip under at most this angle: the singular stress is as
-/// exact as the elements there resolve it, however small the cell is.
-constexpr double largest_angle_at_tip = std::numbers::pi / 8;
 
 /// Whether the Jacobian of a triangle of six nodes is hardly positive, or not at all, at one of its corners.
 bool is_folded(const Cell& triangle, const std::vector<Vec2>& nodes) {
@@ -191,139 +162,75 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
   return made;
 }
 
-BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const model::Body& body) {
-  const Domain& domain = of.domain;
-  const int order = body.mesh.order;
-  BodyMesh mesh;
-  mesh.nodes = polygons.nodes;
-  using Ends = std::pair<int, int>;
-  std::map<Ends, std::size_t> on_arc;  // lower number first
-  for (std::size_t l = 0; l < domain.lines.size(); ++l)
-    for (const auto* chain : {&polygons.left[l], &polygons.right[l]})
-      for (std::size_t k = 0; domain.lines[l].arc && k + 1 < chain->size(); ++k)
-        on_arc.emplace(std::minmax((*chain)[k], (*chain)[k + 1]), l);
-  std::map<Ends, std::vector<int>> parts;  // of sides of cells at crack tips: nodes that divide them, as in `inner`
-  for (const PolygonCell& polygon : polygons.cells)
-    for (std::size_t i = 0; polygon.open && i + 1 < polygon.nodes.size(); ++i) {
-      const Ends ends = std::minmax(polygon.nodes[i], polygon.nodes[i + 1]);
-      const Vec2 from = mesh.nodes[static_cast<std::size_t>(ends.first)],
-                 to = mesh.nodes[static_cast<std::size_t>(ends.second)];
-      const Vec2 a = from - polygon.centre, b = to - polygon.centre;
-      const double angle = std::abs(std::atan2(cross(a, b), a.dot(b)));
-      const int count = std::max(1, static_cast<int>(std::ceil(angle / largest_angle_at_tip - 1e-6)));
-      if (count == 1 || parts.contains(ends)) continue;
-      std::vector<double> fractions;
-      for (int k = 1; k < count; ++k) fractions.push_back(static_cast<double>(k) / count);
-      const auto arc = on_arc.find(ends);
-      const std::size_t line = arc == on_arc.end() ? 0 : arc->second;
-      std::vector<int>& nodes = parts[ends];
-      int before = ends.first;
-      for (const Vec2& x :
-           points_at(fractions, from, to, arc == on_arc.end() ? std::nullopt : domain.lines[line].arc)) {
-        nodes.push_back(static_cast<int>(mesh.nodes.size()));
-        mesh.nodes.push_back(x);
-        if (arc != on_arc.end()) on_arc.emplace(std::minmax(before, nodes.back()), line);
-        before = nodes.back();
-      }
-      if (arc != on_arc.end()) on_arc.emplace(std::minmax(before, ends.second), line);
-    }
-  std::map<Ends, std::vector<int>> inner;  // nodes between the ends, from the lower number on
-  const auto side = [&](int a, int b) {
-    const Ends ends = std::minmax(a, b);
-    LineElement element;
-    element.nodes.push_back(a);
-    if (order > 1) {
-      const auto [found, is_new] = inner.try_emplace(ends);
-      if (is_new) {
-        const auto arc = on_arc.find(ends);
-        for (const Vec2& x : between(mesh.nodes[static_cast<std::size_t>(ends.first)],
-                                     mesh.nodes[static_cast<std::size_t>(ends.second)], order,
-                                     arc == on_arc.end() ? std::nullopt : domain.lines[arc->second].arc)) {
-          found->second.push_back(static_cast<int>(mesh.nodes.size()));
-          mesh.nodes.push_back(x);
-        }
-      }
-      if (a == ends.first)
-        element.nodes.insert(element.nodes.end(), found->second.begin(), found->second.end());
-      else
-        element.nodes.insert(element.nodes.end(), found->second.rbegin(), found->second.rend());
-    }
-    element.nodes.push_back(b);
-    return element;
-  };
-  const auto sides = [&](int a, int b) {
-    std::vector<LineElement> elements;
-    const auto divided = parts.find(std::minmax(a, b));
-    if (divided == parts.end()) return std::vector<LineElement>{side(a, b)};
-    std::vector<int> nodes = divided->second;
-    if (a > b) std::reverse(nodes.begin(), nodes.end());
-    nodes.push_back(b);
-    for (const int node : nodes) {
-      elements.push_back(side(a, node));
-      a = node;
-    }
-    return elements;
-  };
-  // A side on a hollow arc is seen from where its end tangents are seen: the corner where they meet stands for it.
-  const auto seeing_centre = [&](const PolygonCell& polygon) {
-    std::vector<Vec2> points;
-    bool hollow = false;
-    const std::size_t count = polygon.nodes.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const int a = polygon.nodes[i], b = polygon.nodes[(i + 1) % count];
-      const Vec2 &from = mesh.nodes[static_cast<std::size_t>(a)], &to = mesh.nodes[static_cast<std::size_t>(b)];
-      points.push_back(from);
-      const auto arc = on_arc.find(std::minmax(a, b));
-      if (arc == on_arc.end() || (polygon.open && i + 1 == count)) continue;
-      const Vec2 &centre = domain.lines[arc->second].arc->centre, middle = 0.5 * (from + to) - centre;
-      if (cross(from - centre, to - centre) >= 0.0) continue;  // bulges outwards
-      hollow = true;
-      points.push_back(centre + (from - centre).squaredNorm() / middle.squaredNorm() * middle);
-    }
-    constexpr double well_seen = 0.1, hardly_seen = 1e-3;
-    const bool straight = order == 1 || body.mesh.kind == model::MeshKind::fem;  // sides are the chords
-    if (!hollow || straight || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
-    const KernelCentre better = kernel_centre(points, well_seen);
-    if (better.visibility > hardly_seen) return better.centre;
-    throw Refusal("a cell is too large for the arc beside it", polygon.centre);
-  };
-  for (const PolygonCell& polygon : polygons.cells) {
-    Cell cell;
-    if (body.mesh.kind == model::MeshKind::fem) cell.kind = CellKind::finite_element;
-    cell.centre = seeing_centre(polygon);
-    const auto material_of = [&](int region) {
-      if (body.image) return region;
-      return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
-    };
-    cell.materials = {material_of(polygon.region)};
-    if (!polygon.side_regions.empty()) cell.materials.clear();
-    const std::size_t count = polygon.nodes.size();
-    for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i)
-      for (LineElement& element : sides(polygon.nodes[i], polygon.nodes[(i + 1) % count])) {
-        cell.boundary.push_back(std::move(element));
-        if (!polygon.side_regions.empty()) cell.materials.push_back(material_of(polygon.side_regions[i]));
-      }
-    mesh.cells.push_back(std::move(cell));
+namespace {
+
+/// The centre of a polygon from which its sides are seen. A side on a hollow arc is seen from where its end tangents
+/// are seen: the corner where they meet stands for it.
+Vec2 seeing_centre(const PolygonCell& polygon, const CellSides& sides, const std::vector<Vec2>& nodes, bool straight) {
+  std::vector<Vec2> points;
+  bool hollow = false;
+  const std::size_t count = polygon.nodes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const int a = polygon.nodes[i], b = polygon.nodes[(i + 1) % count];
+    const Vec2 &from = nodes[static_cast<std::size_t>(a)], &to = nodes[static_cast<std::size_t>(b)];
+    points.push_back(from);
+    const std::optional<geometry::Arc> arc = sides.arc_of(a, b);
+    if (!arc || (polygon.open && i + 1 == count)) continue;
+    const Vec2 &centre = arc->centre, middle = 0.5 * (from + to) - centre;
+    if (cross(from - centre, to - centre) >= 0.0) continue;  // bulges outwards
+    hollow = true;
+    points.push_back(centre + (from - centre).squaredNorm() / middle.squaredNorm() * middle);
   }
-  if (body.mesh.kind == model::MeshKind::fem && order == 2)
-    for (const Cell& cell : mesh.cells)
-      if (is_folded(cell, mesh.nodes)) throw Refusal("a triangle is too large for the arc beside it", cell.centre);
+  constexpr double well_seen = 0.1, hardly_seen = 1e-3;
+  if (!hollow || straight || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
+  const KernelCentre better = kernel_centre(points, well_seen);
+  if (better.visibility > hardly_seen) return better.centre;
+  throw Refusal("a cell is too large for the arc beside it", polygon.centre);
+}
+
+/// Materials and sides of a cell.
+Cell cell_of(const PolygonCell& polygon, const model::Body& body, CellSides& sides, const std::vector<Vec2>& nodes) {
+  const bool fem = body.mesh.kind == model::MeshKind::fem;
+  Cell cell;
+  if (fem) cell.kind = CellKind::finite_element;
+  cell.centre = seeing_centre(polygon, sides, nodes, body.mesh.order == 1 || fem);  // straight: sides are the chords
+  const auto material_of = [&](int region) {
+    if (body.image) return region;
+    return region == 0 ? body.material : body.regions[static_cast<std::size_t>(region - 1)].material;
+  };
+  cell.materials = {material_of(polygon.region)};
+  if (!polygon.side_regions.empty()) cell.materials.clear();
+  const std::size_t count = polygon.nodes.size();
+  for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i)
+    for (LineElement& element : sides.elements(polygon.nodes[i], polygon.nodes[(i + 1) % count])) {
+      cell.boundary.push_back(std::move(element));
+      if (!polygon.side_regions.empty()) cell.materials.push_back(material_of(polygon.side_regions[i]));
+    }
+  return cell;
+}
+
+/// Elements on the edges of the outline, with the node at the beginning of each edge.
+void add_sides_on_edges(const PolygonMesh& polygons, const BodyDomain& of, CellSides& sides, BodyMesh& mesh) {
   for (const std::vector<std::size_t>& lines : of.lines_of_edge) {
     std::vector<LineElement>& elements = mesh.edges.emplace_back();
     mesh.corners.push_back(polygons.left[lines.front()].empty() ? -1 : polygons.left[lines.front()].front());
     for (const std::size_t line : lines)
       for (std::size_t k = 0; k + 1 < polygons.left[line].size(); ++k)
-        for (LineElement& element : sides(polygons.left[line][k], polygons.left[line][k + 1]))
+        for (LineElement& element : sides.elements(polygons.left[line][k], polygons.left[line][k + 1]))
           elements.push_back(std::move(element));
   }
+}
+
+/// Elements on both faces of each crack.
+void add_sides_on_cracks(const PolygonMesh& polygons, const BodyDomain& of, CellSides& sides, BodyMesh& mesh) {
   for (const std::vector<std::size_t>& lines : of.lines_of_crack) {
     std::vector<LineElement> left, right;
     for (const std::size_t line : lines) {
       const std::vector<int>&here = polygons.left[line], &there = polygons.right[line];
       for (std::size_t k = 0; k + 1 < here.size(); ++k)
-        for (LineElement& element : sides(here[k], here[k + 1])) left.push_back(std::move(element));
+        for (LineElement& element : sides.elements(here[k], here[k + 1])) left.push_back(std::move(element));
       for (std::size_t k = 0; k + 1 < there.size(); ++k) {
-        std::vector<LineElement> elements = sides(there[k + 1], there[k]);
+        std::vector<LineElement> elements = sides.elements(there[k + 1], there[k]);
         right.insert(right.end(), elements.rbegin(), elements.rend());
       }
     }
@@ -331,6 +238,20 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
     mesh.faces.push_back(std::move(right));
     mesh.faces.push_back(std::move(left));
   }
+}
+
+}  // namespace
+
+BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const model::Body& body) {
+  BodyMesh mesh;
+  mesh.nodes = polygons.nodes;
+  CellSides sides(polygons, of.domain, body.mesh.order, mesh.nodes);
+  for (const PolygonCell& polygon : polygons.cells) mesh.cells.push_back(cell_of(polygon, body, sides, mesh.nodes));
+  if (body.mesh.kind == model::MeshKind::fem && body.mesh.order == 2)
+    for (const Cell& cell : mesh.cells)
+      if (is_folded(cell, mesh.nodes)) throw Refusal("a triangle is too large for the arc beside it", cell.centre);
+  add_sides_on_edges(polygons, of, sides, mesh);
+  add_sides_on_cracks(polygons, of, sides, mesh);
   return mesh;
 }
 

@@ -111,84 +111,102 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
-Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConstants& costs) {
-  Plan plan;
-  plan.sizes = sizes_of(model, mesh);
-  plan.increments = increments_of(model);
-  plan.bytes = costs.base_bytes;
-  std::vector<double> pairs_of(model.bodies.size(), 0.0);
+namespace {
+
+/// What the parts of a plan are made from.
+struct Estimate {
+  const model::Model& model;
+  const mesh::Mesh& mesh;
+  const CostConstants& costs;
+  std::vector<double> pairs;  // of each body
+  double written = 0.0;       // fields of bodies, how many times
+  // Of one factor of the bodies joined at their pairs:
+  double joined_bytes = 0.0, joined_seconds = 0.0;
+  std::set<std::tuple<std::size_t, int, bool, double>> known = {};  // equal bodies are solved once
+};
+
+std::vector<double> pairs_of_bodies(const model::Model& model, const mesh::Mesh& mesh) {
+  std::vector<double> pairs(model.bodies.size(), 0.0);
   for (const mesh::Interface& interface : mesh.interfaces) {
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(interface.contact)];
     const auto count = static_cast<double>(interface.pairs.size());
-    pairs_of[static_cast<std::size_t>(contact.a.body)] += count;
-    if (contact.b.body != contact.a.body) pairs_of[static_cast<std::size_t>(contact.b.body)] += count;
+    pairs[static_cast<std::size_t>(contact.a.body)] += count;
+    if (contact.b.body != contact.a.body) pairs[static_cast<std::size_t>(contact.b.body)] += count;
   }
-  const double written =
-      model.output.fields.any_of_bodies() ? std::ceil(static_cast<double>(plan.increments) / model.output.every) : 0.0;
-  double joined_bytes = 0.0, joined_seconds = 0.0;             // of one factor of the bodies joined at their pairs
-  std::set<std::tuple<std::size_t, int, bool, double>> known;  // equal bodies are solved once
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const model::Body& body = model.bodies[b];
-    plan.first_mesh_only = plan.first_mesh_only || body.mesh.tolerance || model.tolerance;
-    if (body.rigid) continue;
-    const double n = 2.0 * static_cast<double>(mesh.bodies[b].nodes.size());
-    const double k = std::min(2.0 * pairs_of[b], n);
-    const bool fem = body.mesh.kind == model::MeshKind::fem;
-    if (is_one_super_element(mesh.bodies[b])) {
-      const Effort effort = effort_of(model, body, mesh.bodies[b].cells.front(), mesh.bodies[b].nodes);
-      const bool is_new = known
-                              .insert({mesh.bodies[b].nodes.size(), effort.blocks, effort.last_digits,
-                                       geometry::outline_size(body.outline)})
-                              .second;
-      const double work = n * n * n;
-      plan.bytes += 8.0 * n * n + (is_new ? effort.bytes(n, costs) : 0.0);
-      if (is_new) plan.cells += effort.seconds(n, costs);
-      if (is_new && written > 0.0) plan.fields += costs.dense_field_seconds * work / (effort.blocks * effort.blocks);
-      plan.factorise += costs.dense_factor_seconds * work;
-      plan.condense += costs.dense_condense_seconds * n * n * k;
-    } else {
-      plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
-      const bool cells_differ = !fem && !may_share_cells(body);
-      if (cells_differ) {
-        plan.bytes += costs.own_cell_bytes * n;
-        plan.cells += costs.own_cell_seconds * n;
-        plan.fields += written * costs.own_field_seconds * n;
-      }
-      for (const mesh::Cell& cell : mesh.bodies[b].cells) {
-        if (cell.kind != mesh::CellKind::superelement) continue;
-        const double m = 2.0 * static_cast<double>(cell.nodes().size());
-        if (m < costs.least_large_cell) continue;
-        const Effort effort = effort_of(model, body, cell, mesh.bodies[b].nodes);
-        plan.bytes += 8.0 * m * m + effort.bytes(m, costs);
-        plan.cells += effort.seconds(m, costs);
-        if (written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m / (effort.blocks * effort.blocks);
-      }
-      plan.mesh += (fem ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;
-      if (cells_differ) plan.mesh += costs.own_mesh_seconds * n;
-      plan.cells += costs.cell_seconds * n;
-      const double operations = costs.factor_seconds + (cells_differ ? costs.own_factor_seconds : 0.0);
-      const double factor = costs.order_seconds * n * log2_of(n) + operations * std::pow(n, 1.5);
-      plan.factorise += factor;
-      joined_bytes += costs.fill_bytes * n * log2_of(n);
-      joined_seconds += 2.0 * factor;
-      if (k > 0.0)
-        plan.condense +=
-            costs.sweep_seconds * n + costs.condense_seconds * k * std::sqrt(n) + costs.flexibility_seconds * k * k;
-      plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
-    }
-    plan.fields += written * (fem ? costs.fem_field_seconds : costs.field_seconds) * n;
+  return pairs;
+}
+
+/// A body of `n` degrees of freedom that is one super-element, `k` of them on pairs.
+void add_super_element(Estimate& estimate, std::size_t b, double n, double k, Plan& plan) {
+  const CostConstants& costs = estimate.costs;
+  const model::Body& body = estimate.model.bodies[b];
+  const mesh::BodyMesh& mesh = estimate.mesh.bodies[b];
+  const Effort effort = effort_of(estimate.model, body, mesh.cells.front(), mesh.nodes);
+  const double work = n * n * n;
+  const bool is_new =
+      estimate.known
+          .insert({mesh.nodes.size(), effort.blocks, effort.last_digits, geometry::outline_size(body.outline)})
+          .second;
+  plan.bytes += 8.0 * n * n + (is_new ? effort.bytes(n, costs) : 0.0);
+  if (is_new) plan.cells += effort.seconds(n, costs);
+  if (is_new && estimate.written > 0.0)
+    plan.fields += costs.dense_field_seconds * work / (effort.blocks * effort.blocks);
+  plan.factorise += costs.dense_factor_seconds * work;
+  plan.condense += costs.dense_condense_seconds * n * n * k;
+}
+
+/// Super-elements among the cells of a body that cost more than the others.
+void add_large_cells(const Estimate& estimate, std::size_t b, Plan& plan) {
+  const CostConstants& costs = estimate.costs;
+  const mesh::BodyMesh& mesh = estimate.mesh.bodies[b];
+  for (const mesh::Cell& cell : mesh.cells) {
+    if (cell.kind != mesh::CellKind::superelement) continue;
+    const double m = 2.0 * static_cast<double>(cell.nodes().size());
+    if (m < costs.least_large_cell) continue;
+    const Effort effort = effort_of(estimate.model, estimate.model.bodies[b], cell, mesh.nodes);
+    plan.bytes += 8.0 * m * m + effort.bytes(m, costs);
+    plan.cells += effort.seconds(m, costs);
+    if (estimate.written > 0.0) plan.fields += costs.dense_field_seconds * m * m * m / (effort.blocks * effort.blocks);
   }
-  // W has a block for each body, dense within it; the systems of Newton's method are as sparse.
+}
+
+/// A body of many cells.
+void add_cells(Estimate& estimate, std::size_t b, double n, double k, Plan& plan) {
+  const CostConstants& costs = estimate.costs;
+  const model::Body& body = estimate.model.bodies[b];
+  const bool fem = body.mesh.kind == model::MeshKind::fem, cells_differ = !fem && !may_share_cells(body);
+  plan.bytes += costs.sparse_bytes * n + costs.fill_bytes * n * log2_of(n);
+  if (cells_differ) {
+    plan.bytes += costs.own_cell_bytes * n;
+    plan.cells += costs.own_cell_seconds * n;
+    plan.fields += estimate.written * costs.own_field_seconds * n;
+  }
+  add_large_cells(estimate, b, plan);
+  plan.mesh += (fem ? costs.fem_mesh_seconds : costs.mesh_seconds) * n;
+  if (cells_differ) plan.mesh += costs.own_mesh_seconds * n;
+  plan.cells += costs.cell_seconds * n;
+  const double operations = costs.factor_seconds + (cells_differ ? costs.own_factor_seconds : 0.0);
+  const double factor = costs.order_seconds * n * log2_of(n) + operations * std::pow(n, 1.5);
+  plan.factorise += factor;
+  estimate.joined_bytes += costs.fill_bytes * n * log2_of(n);
+  estimate.joined_seconds += 2.0 * factor;
+  if (k > 0.0)
+    plan.condense +=
+        costs.sweep_seconds * n + costs.condense_seconds * k * std::sqrt(n) + costs.flexibility_seconds * k * k;
+  plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
+}
+
+/// The contact problems. W has a block for each body, dense within it; the systems of Newton's method are as sparse.
+void add_contact(const Estimate& estimate, Plan& plan) {
+  const CostConstants& costs = estimate.costs;
   const double components = 2.0 * plan.sizes.contact_pairs;
   double blocks = 0.0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].rigid) continue;
-    blocks += 4.0 * pairs_of[b] * pairs_of[b];
-  }
+  for (std::size_t b = 0; b < estimate.model.bodies.size(); ++b)
+    if (!estimate.model.bodies[b].rigid) blocks += 4.0 * estimate.pairs[b] * estimate.pairs[b];
   if (components > system::most_formed && blocks > system::most_filled * components * components) {
-    plan.bytes += joined_bytes;
-    plan.contact += costs.joined_iterations * plan.increments * joined_seconds;
-    return plan;
+    plan.bytes += estimate.joined_bytes;
+    plan.contact += costs.joined_iterations * plan.increments * estimate.joined_seconds;
+    return;
   }
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
@@ -197,6 +215,32 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   const double iterations = costs.wall_first_iterations + costs.wall_iterations * (plan.increments - 1);
   plan.contact += many_bodies ? iterations * costs.wall_seconds * components * width
                               : plan.increments * costs.contact_seconds * components * components;
+}
+
+}  // namespace
+
+Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConstants& costs) {
+  Plan plan;
+  plan.sizes = sizes_of(model, mesh);
+  plan.increments = increments_of(model);
+  plan.bytes = costs.base_bytes;
+  Estimate estimate{model, mesh, costs, pairs_of_bodies(model, mesh)};
+  if (model.output.fields.any_of_bodies())
+    estimate.written = std::ceil(static_cast<double>(plan.increments) / model.output.every);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::Body& body = model.bodies[b];
+    plan.first_mesh_only = plan.first_mesh_only || body.mesh.tolerance || model.tolerance;
+    if (body.rigid) continue;
+    const double n = 2.0 * static_cast<double>(mesh.bodies[b].nodes.size());
+    const double k = std::min(2.0 * estimate.pairs[b], n);
+    if (is_one_super_element(mesh.bodies[b]))
+      add_super_element(estimate, b, n, k, plan);
+    else
+      add_cells(estimate, b, n, k, plan);
+    const bool fem = body.mesh.kind == model::MeshKind::fem;
+    plan.fields += estimate.written * (fem ? costs.fem_field_seconds : costs.field_seconds) * n;
+  }
+  add_contact(estimate, plan);
   return plan;
 }
 

@@ -246,112 +246,147 @@ ContactSystem without_parts(const ContactSystem& whole, const Structure& structu
   return system;
 }
 
-ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads) {
+namespace {
+
+std::vector<ContactSystem::Pair> pairs_of(const mesh::Mesh& mesh) {
   std::vector<ContactSystem::Pair> all;
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c)
     for (std::size_t i = 0; i < mesh.interfaces[c].pairs.size(); ++i)
       all.push_back({static_cast<int>(c), static_cast<int>(i), 0});
+  return all;
+}
 
+/// What a part has to do for its flexibility, roughly.
+double work_of(const BodySystem& part, const Eigen::SparseMatrix<double>& motion) {
+  if (!part.is_flexible()) return 0.0;
+  const auto entries = static_cast<double>(motion.nonZeros());
+  return 20.0 * static_cast<double>(motion.cols()) * entries + std::pow(entries, 3.0);
+}
+
+/// The flexibilities of all parts, and the diagonal of what each adds to W, on its rows. With `products` only the
+/// diagonals: W is not formed.
+struct Flexibilities {
+  std::vector<PartFlexibility> of_part;
+  std::vector<Vector> diagonals;
+};
+Flexibilities flexibilities_of(const std::vector<TouchedPart>& touched, const Structure& structure,
+                               const std::vector<Eigen::SparseMatrix<double>>& motion, const PairProducts* products,
+                               int threads) {
+  Flexibilities found{std::vector<PartFlexibility>(structure.parts.size()),
+                      std::vector<Vector>(structure.parts.size())};
+  std::vector<double> work;
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) work.push_back(work_of(*structure.parts[p], motion[p]));
+  linalg::parallel_for(work, threads, [&](int k) {
+    const auto p = static_cast<std::size_t>(k);
+    if (!structure.parts[p]->is_flexible()) return;
+    Vector& diagonal = found.diagonals[p];
+    if (products != nullptr) {
+      const Matrix blocks = products->diagonal_blocks_of(p);
+      diagonal.resize(static_cast<Eigen::Index>(touched[p].rows.size()));
+      for (std::size_t i = 0; i < touched[p].rows.size(); ++i)
+        diagonal[static_cast<Eigen::Index>(i)] = blocks(touched[p].rows[i] % 2, touched[p].rows[i]);
+    } else {
+      found.of_part[p] = flexibility_of(touched[p], *structure.parts[p]);
+      diagonal = found.of_part[p].block.diagonal();
+    }
+  });
+  return found;
+}
+
+/// G of all pairs; sets the first column of each part.
+Eigen::SparseMatrix<double> rigid_map_of(const Structure& structure,
+                                         const std::vector<Eigen::SparseMatrix<double>>& motion, Eigen::Index rows,
+                                         std::vector<int>& first_rigid) {
+  Triplets entries;
+  Eigen::Index columns = 0;
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+    first_rigid.push_back(static_cast<int>(columns));
+    const Matrix& rigid = structure.parts[p]->rigid_motions();
+    for (Eigen::Index column = 0; column < motion[p].cols(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(motion[p], column); it; ++it)
+        for (Eigen::Index k = 0; k < rigid.cols(); ++k)
+          if (rigid(column, k) != 0.0) entries.emplace_back(it.row(), columns + k, it.value() * rigid(column, k));
+    columns += rigid.cols();
+  }
+  Eigen::SparseMatrix<double> G(rows, columns);
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G;
+}
+
+/// Which pairs move. A pair whose gap is changed by no force and no rigid motion is held by supports on both sides.
+std::vector<char> moving_pairs(const std::vector<TouchedPart>& touched, const Structure& structure,
+                               const std::vector<Vector>& diagonals, const Eigen::SparseMatrix<double>& G) {
+  Vector diagonal = Vector::Zero(G.rows()), moved = Vector::Zero(G.rows());  // of W; by rigid motions, at most
+  double largest = 0.0, largest_on_springs = 0.0;  // of the diagonal; a soft spring says nothing of stiff bodies
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+    if (diagonals[p].size() == 0) continue;
+    diagonal(touched[p].rows) += diagonals[p];
+    double& of_kind = structure.parts[p]->has_springs() ? largest_on_springs : largest;
+    of_kind = std::max(of_kind, diagonals[p].maxCoeff());
+  }
+  if (largest == 0.0) largest = largest_on_springs;
+  for (Eigen::Index k = 0; k < G.cols(); ++k)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
+      moved[it.row()] = std::max(moved[it.row()], std::abs(it.value()));
+  std::vector<char> moves;
+  for (Eigen::Index row = 0; row < G.rows(); row += 2)
+    moves.push_back(diagonal[row] > 1e-13 * largest || moved[row] > 1e-12);
+  return moves;
+}
+
+/// Gaps of pairs whose laws do not keep them.
+Vector gaps_of(const ContactSystem& system, const mesh::Mesh& mesh) {
+  Vector gap(static_cast<Eigen::Index>(system.pairs.size()));
+  for (std::size_t i = 0; i < system.pairs.size(); ++i) {
+    const ContactSystem::Pair& at = system.pairs[i];
+    gap[static_cast<Eigen::Index>(i)] =
+        system.laws.of_pair[i]->keeps_gap()
+            ? 0.0
+            : mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].gap;
+  }
+  return gap;
+}
+
+}  // namespace
+
+ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads) {
+  const std::vector<ContactSystem::Pair> all = pairs_of(mesh);
   const auto motion = motion_of(all, structure, model, mesh);
   const auto rows = static_cast<Eigen::Index>(2 * all.size());
-  ContactSystem system;
-  Eigen::Index columns = 0;
-  Vector diagonal = Vector::Zero(rows);
-  double largest = 0.0, largest_on_springs = 0.0;  // of the diagonal; a soft spring says nothing of stiff bodies
   std::vector<TouchedPart> touched;
-  std::vector<double> work;  // of a part, roughly
-  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
-    touched.push_back(touched_part(motion[p]));
-    work.push_back(!structure.parts[p]->is_flexible()
-                       ? 0.0
-                       : 20.0 * static_cast<double>(motion[p].cols()) * static_cast<double>(motion[p].nonZeros()) +
-                             std::pow(static_cast<double>(motion[p].nonZeros()), 3.0));
-  }
+  for (const Eigen::SparseMatrix<double>& of_part : motion) touched.push_back(touched_part(of_part));
   const bool sparse = is_sparse(touched, structure, rows);
   std::shared_ptr<const JoinedBodies> joined;
   if (!sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion, joints_of(all));
   const bool by_products = joined && rows > most_formed;
   const auto products = by_products ? std::make_unique<const PairProducts>(structure, motion) : nullptr;
-  std::vector<PartFlexibility> flexibilities(structure.parts.size());
-  std::vector<Vector> diagonals(structure.parts.size());  // of what a part adds to W, on its rows
-  linalg::parallel_for(work, threads, [&](int k) {
-    const auto p = static_cast<std::size_t>(k);
-    if (!structure.parts[p]->is_flexible()) return;
-    if (by_products) {
-      const Matrix blocks = products->diagonal_blocks_of(p);
-      diagonals[p].resize(static_cast<Eigen::Index>(touched[p].rows.size()));
-      for (std::size_t i = 0; i < touched[p].rows.size(); ++i)
-        diagonals[p][static_cast<Eigen::Index>(i)] = blocks(touched[p].rows[i] % 2, touched[p].rows[i]);
-    } else {
-      flexibilities[p] = flexibility_of(touched[p], *structure.parts[p]);
-      diagonals[p] = flexibilities[p].block.diagonal();
-    }
-  });
-  Triplets of_G;
-  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
-    const BodySystem& part = *structure.parts[p];
-    system.first_rigid.push_back(static_cast<int>(columns));
-    if (diagonals[p].size() > 0) {
-      diagonal(touched[p].rows) += diagonals[p];
-      double& of_kind = part.has_springs() ? largest_on_springs : largest;
-      of_kind = std::max(of_kind, diagonals[p].maxCoeff());
-    }
-    const Matrix& rigid = part.rigid_motions();
-    for (Eigen::Index column = 0; column < motion[p].cols(); ++column)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(motion[p], column); it; ++it)
-        for (Eigen::Index k = 0; k < rigid.cols(); ++k)
-          if (rigid(column, k) != 0.0) of_G.emplace_back(it.row(), columns + k, it.value() * rigid(column, k));
-    columns += rigid.cols();
-  }
+  Flexibilities flexibilities = flexibilities_of(touched, structure, motion, products.get(), threads);
 
-  Eigen::SparseMatrix<double> G(rows, columns);
-  G.setFromTriplets(of_G.begin(), of_G.end());
-  Vector moved = Vector::Zero(rows);  // by rigid motions, at most
-  for (Eigen::Index k = 0; k < columns; ++k)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
-      moved[it.row()] = std::max(moved[it.row()], std::abs(it.value()));
-
-  // A pair whose gap is changed by no force and no rigid motion is held by supports on both sides.
-  if (largest == 0.0) largest = largest_on_springs;
+  ContactSystem system;
+  Eigen::SparseMatrix<double> G = rigid_map_of(structure, motion, rows, system.first_rigid);
+  const std::vector<char> moves = moving_pairs(touched, structure, flexibilities.diagonals, G);
   std::vector<int> moving, held, place(static_cast<std::size_t>(rows), -1);
-  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    const bool moves = diagonal[2 * i] > 1e-13 * largest || moved[2 * i] > 1e-12;
-    if (moves)
-      for (int k = 0; k < 2; ++k) place[static_cast<std::size_t>(2 * i + k)] = 2 * static_cast<int>(moving.size()) + k;
-    (moves ? moving : held).push_back(i);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; moves[i] && k < 2; ++k) place[2 * i + k] = static_cast<int>(2 * moving.size() + k);
+    (moves[i] ? moving : held).push_back(static_cast<int>(i));
   }
   system.pairs = selected(all, moving);
   system.held = selected(all, held);
   std::vector<int> numbers(model.contacts.size(), 0);
   for (ContactSystem::Pair& pair : system.pairs) pair.number = ++numbers[static_cast<std::size_t>(pair.contact)];
-  system.held_motion =
-      held.empty() ? std::vector<Eigen::SparseMatrix<double>>{} : motion_of(system.held, structure, model, mesh);
-  system.motion = held.empty() ? motion : motion_of(system.pairs, structure, model, mesh);
   const auto kept = static_cast<Eigen::Index>(2 * moving.size());
-  if (joined && !held.empty()) joined = JoinedBodies::of(structure, system.motion, joints_of(system.pairs));
-  system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion))
-                         : sum_of(std::move(flexibilities), place, kept, sparse);
-  if (joined) system.W = system.W.with_holder(joined);
+  system.motion = held.empty() ? motion : motion_of(system.pairs, structure, model, mesh);
   if (!held.empty()) {
-    Triplets entries;
-    for (Eigen::Index k = 0; k < columns; ++k)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
-        if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0)
-          entries.emplace_back(row, k, it.value());
-    G = Eigen::SparseMatrix<double>(kept, columns);
-    G.setFromTriplets(entries.begin(), entries.end());
+    system.held_motion = motion_of(system.held, structure, model, mesh);
+    if (joined) joined = JoinedBodies::of(structure, system.motion, joints_of(system.pairs));
+    G = block_of(G, place, {}, kept, G.cols());
   }
+  system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion))
+                         : sum_of(std::move(flexibilities.of_part), place, kept, sparse);
+  if (joined) system.W = system.W.with_holder(joined);
   system.G = contact::RigidMap(std::move(G));
-  const auto N = static_cast<Eigen::Index>(system.pairs.size());
-  system.gap.resize(N);
   system.laws = contact_laws(system.pairs, model, mesh);
-  for (Eigen::Index i = 0; i < N; ++i) {
-    const ContactSystem::Pair& at = system.pairs[static_cast<std::size_t>(i)];
-    system.gap[i] =
-        system.laws.of_pair[static_cast<std::size_t>(i)]->keeps_gap()
-            ? 0.0
-            : mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].gap;
-  }
+  system.gap = gaps_of(system, mesh);
   return system;
 }
 

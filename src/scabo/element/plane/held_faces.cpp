@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +10,7 @@
 #include "scabo/base/components.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/element/sbfem/ring_doubling.hpp"
+#include "scabo/linalg/schur_exponential.hpp"
 
 namespace scabo::element {
 
@@ -125,8 +126,8 @@ HeldSolution solve_held(const Ring& ring, const Elasticity& D, double thickness,
                         mean_with_transposed(T.transpose() * (matrices.E2 * T)), left);
   HeldSolution solution;
   for (int k = 0; k < found.zero_exponents; ++k) solution.exponents.emplace_back(0.0);
-  const Eigen::EigenSolver<Matrix> eigenvalues(found.S, false);
-  for (Eigen::Index k = 0; k < found.S.rows(); ++k) solution.exponents.push_back(eigenvalues.eigenvalues()[k]);
+  const linalg::SchurExponential modes(found.S);
+  solution.exponents.insert(solution.exponents.end(), modes.eigenvalues().begin(), modes.eigenvalues().end());
   std::stable_sort(solution.exponents.begin(), solution.exponents.end(),
                    [](const auto& a, const auto& b) { return a.real() < b.real(); });
   const std::optional<Matrix> a_of_u = translation_of(held, n);
