@@ -1,4 +1,4 @@
-"""Examples 17 to 21, 23 to 25 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21, 23 to 26 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
@@ -110,6 +110,10 @@ class Practice(support.InTemporaryDirectory):
         self.check("25_sled_test", page=readme)
         forces = [row["force"] for row in self.history("25_sled_test", [])]
         self.assertEqual((forces.index(max(forces)), forces.index(min(forces))), (6, 29))
+
+    def test_shaken_block(self):
+        self.check("26_shaken_block", page=ROOT / "examples" / "26_shaken_block" / "README.md")
+        self.assertLess(abs(self.history("26_shaken_block", ["parameters.friction=0.6"])[-1]["moved"]), 1e-8)
 
 
 class ClosedFormOfTheLining(support.unittest.TestCase):
