@@ -1,5 +1,3 @@
-#include "scabo/analysis/adaptive/goal.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "scabo/analysis/adaptive/error_bars.hpp"
 #include "scabo/analysis/adaptive/error_estimate.hpp"
 #include "scabo/analysis/adaptive/frozen_elements.hpp"
+#include "scabo/analysis/adaptive/goal.hpp"
 #include "scabo/analysis/adaptive/refinement.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
 #include "scabo/analysis/state/quantities.hpp"
@@ -38,8 +37,7 @@ Options with_dual(const Options& options, const model::Quantity& quantity, const
   with.on_state = [&quantity, &dual](const Prepared& prepared, const State& state, const StaticSolution& solution) {
     const IncrementResult& at = solution.increments.back();
     if (at.step == static_cast<int>(solution.model.steps.size()) && at.reached == 1.0)
-      dual =
-          of_bodies(prepared, dual_displacements(prepared, state, derivative_of(prepared, state, solution, quantity)));
+      dual = of_bodies(prepared, dual_displacements(prepared, state, derivative_of(prepared, state, quantity)));
   };
   return with;
 }

@@ -97,7 +97,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
     add(WarningKind::large_displacement, "", large);
   for (const Warning& turned : rotations_at_large_slip(prepared, reached.state))
     add(turned.kind, turned.subject, turned.text);
-  if (const std::string close = near_collapse(prepared, reached.state, solution, static_cast<std::size_t>(at.step) - 1);
+  if (const std::string close =
+          near_collapse(prepared, reached.state, solution.increments, static_cast<std::size_t>(at.step) - 1);
       !close.empty())
     add(WarningKind::near_collapse, "", close);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())

@@ -74,7 +74,7 @@ ModalResult solve_modal(model::Model model, const Options& options) {
   };
   model::require_valid(model);
   ModalResult result;
-  StaticSolution& structure = result.structure;
+  Discretisation& structure = result.structure;
   structure.model = std::move(model);
   structure.model.contacts.clear();
   result.warnings = structure.model.warnings;
