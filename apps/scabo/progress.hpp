@@ -24,7 +24,7 @@ class Progress {
   void stage(const std::string& name);
   /// Sizes, memory and time, before the work begins.
   void plan(const run::Plan& plan);
-  void meshed(const analysis::StaticSolution& solution);
+  void meshed(const analysis::Discretisation& discretisation);
   void resumed(int increments);  ///< so many were finished in earlier sessions
   void iteration(const contact::Iteration& iteration);
   void increment(const analysis::StaticSolution& solution, const analysis::IncrementResult& result);

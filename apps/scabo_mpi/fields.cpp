@@ -76,13 +76,13 @@ element::InteriorLoads interior_loads(Unpacker& unpacker) {
   return loads;
 }
 
-Bytes pack_state(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment,
+Bytes pack_state(const analysis::Discretisation& discretisation, const analysis::IncrementResult& increment,
                  const std::filesystem::path& directory, const std::string& stem, const Wanted& wanted) {
   const analysis::FieldState& state = increment.fields;
   Packer packer;
   packer.add(directory.string());
   packer.add(stem);
-  packer.add(solution.threads);
+  packer.add(discretisation.threads);
   packer.add_list(increment.absent);
   packer.add(state.reference_displacements.size());
   for (const Vec2& moved : state.reference_displacements) {
@@ -114,7 +114,7 @@ struct SharedSum {
 
 }  // namespace
 
-std::vector<std::string> Process::write_fields(const analysis::StaticSolution* solution,
+std::vector<std::string> Process::write_fields(const analysis::Discretisation* discretisation,
                                                const analysis::IncrementResult* increment,
                                                const std::filesystem::path* directory, const std::string* stem) {
   std::vector<std::pair<int, const Share*>> own;  // body, share
@@ -125,7 +125,7 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
   const bool made = agreed([&] {
     if (own_fields_) return;
     auto fields = std::make_unique<OwnFields>();
-    analysis::StaticSolution& of = fields->solution;
+    analysis::Discretisation& of = fields->discretisation;
     of.model = model();
     const std::size_t bodies = of.model.bodies.size();
     fields->divided.assign(bodies, 0);
@@ -143,10 +143,10 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
     }
     for (std::size_t b = 0; b < bodies; ++b) {
       if (fields->divided[b]) continue;
-      of.model.bodies[b].rigid = solution && of.model.bodies[b].rigid;  // rank 0 has what is not divided
-      if (!solution) continue;
-      of.mesh.bodies[b] = solution->mesh.bodies[b];
-      of.cells[b] = solution->cells[b];
+      of.model.bodies[b].rigid = discretisation && of.model.bodies[b].rigid;  // rank 0 has what is not divided
+      if (!discretisation) continue;
+      of.mesh.bodies[b] = discretisation->mesh.bodies[b];
+      of.cells[b] = discretisation->cells[b];
     }
     own_fields_ = std::move(fields);
   });
@@ -198,12 +198,13 @@ std::vector<std::string> Process::write_fields(const analysis::StaticSolution* s
   }
 
   const Bytes message = distributed([&](int rank) {
-    return pack_state(*solution, *increment, *directory, *stem, own_fields_->of_ranks[static_cast<std::size_t>(rank)]);
+    return pack_state(*discretisation, *increment, *directory, *stem,
+                      own_fields_->of_ranks[static_cast<std::size_t>(rank)]);
   });
   Unpacker unpacker(message);
   const std::filesystem::path to = unpacker.get_text();
   const std::string name = unpacker.get_text();
-  analysis::StaticSolution& of = own_fields_->solution;
+  analysis::Discretisation& of = own_fields_->discretisation;
   of.threads = unpacker.get<int>();
   const std::vector<int> absent = unpacker.get_list<int>();
   analysis::FieldState state;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "scabo/analysis/static_analysis.hpp"
+#include "scabo/analysis/state/discretisation.hpp"
 #include "scabo/result/recovery.hpp"
 
 namespace scabo::mpi {
@@ -15,9 +15,9 @@ struct Wanted {
   std::vector<std::vector<int>> cells, nodes;  // [place in bodies]: among those of the whole body
 };
 
-/// The cells of this rank as a solution of their own.
+/// The cells of this rank as a discretisation of their own.
 struct OwnFields {
-  analysis::StaticSolution solution;
+  analysis::Discretisation discretisation;
   std::vector<char> divided;  // [body]
   std::vector<std::vector<int>> numbers,
       node_numbers;                          // [body]: own nodes among all ranks and in the body, of divided ones

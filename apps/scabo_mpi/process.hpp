@@ -102,7 +102,7 @@ class Process {
   /// Whether this rank has cells whose fields it writes.
   bool has_shares() const { return !shares_.empty(); }
   /// Writes the fields of this rank's cells; rank 0 also those of bodies that are not divided. Names of the files.
-  std::vector<std::string> write_fields(const analysis::StaticSolution* solution,
+  std::vector<std::string> write_fields(const analysis::Discretisation* discretisation,
                                         const analysis::IncrementResult* increment,
                                         const std::filesystem::path* directory, const std::string* stem);
 

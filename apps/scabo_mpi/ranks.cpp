@@ -204,10 +204,11 @@ std::shared_ptr<const system::DividedStiffness> PetscRanks::stiffness(const mode
 
 bool PetscRanks::any() const { return process_.has_shares(); }
 
-std::vector<std::string> PetscRanks::write(const analysis::StaticSolution& solution,
+std::vector<std::string> PetscRanks::write(const analysis::Discretisation& discretisation,
                                            const analysis::IncrementResult& increment,
                                            const std::filesystem::path& directory, const std::string& stem) {
-  return all({Command::write_fields}, [&] { return process_.write_fields(&solution, &increment, &directory, &stem); });
+  return all({Command::write_fields},
+             [&] { return process_.write_fields(&discretisation, &increment, &directory, &stem); });
 }
 
 void PetscRanks::begin(const std::string& file, const std::vector<std::string>& settings,

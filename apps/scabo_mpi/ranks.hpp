@@ -41,8 +41,9 @@ class PetscRanks final : public system::Ranks, public result::FieldParts, public
                                                             int threads) override;
 
   bool any() const override;
-  std::vector<std::string> write(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment,
-                                 const std::filesystem::path& directory, const std::string& stem) override;
+  std::vector<std::string> write(const analysis::Discretisation& discretisation,
+                                 const analysis::IncrementResult& increment, const std::filesystem::path& directory,
+                                 const std::string& stem) override;
 
   system::Ranks& ranks() override { return *this; }
   result::FieldParts& fields() override { return *this; }

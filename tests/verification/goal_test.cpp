@@ -326,7 +326,7 @@ contacts:
         (raised ? after : before).push_back(*value);
         if (raised) continue;
         const auto z =
-            analysis::dual_displacements(prepared, state, analysis::derivative_of(prepared, state, solution, quantity));
+            analysis::dual_displacements(prepared, state, analysis::derivative_of(prepared, state, quantity));
         double rate = 0.0;
         for (std::size_t b = 0; b < z.size(); ++b)
           if (const Vector& force = prepared.structure.loads[1][b]; force.size() > 0) rate += z[b].dot(force);
@@ -374,7 +374,7 @@ output: {{error_of: [joint.tangential_force, joint.normal_force, drive.reaction_
       for (std::size_t k = 0; k < std::size(exact); ++k) {
         const model::Quantity& quantity = quantities.at(k);
         const auto z =
-            analysis::dual_displacements(prepared, state, analysis::derivative_of(prepared, state, solution, quantity));
+            analysis::dual_displacements(prepared, state, analysis::derivative_of(prepared, state, quantity));
         double rate = 0.0;
         for (std::size_t b = 0; b < z.size(); ++b)
           if (const Vector& force = prepared.structure.loads[0][b]; force.size() > 0) rate += z[b].dot(force);

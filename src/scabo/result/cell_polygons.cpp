@@ -4,12 +4,12 @@
 
 namespace scabo::result {
 
-CellPolygons cell_polygons(const analysis::StaticSolution& solution, const analysis::FieldState& state) {
+CellPolygons cell_polygons(const analysis::Discretisation& discretisation, const analysis::FieldState& state) {
   constexpr std::uint8_t vtk_line = 3, vtk_polygon = 7;
   CellPolygons polygons;
   std::int32_t first = 0;
-  for (std::size_t b = 0; b < solution.mesh.bodies.size(); ++b) {
-    const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
+  for (std::size_t b = 0; b < discretisation.mesh.bodies.size(); ++b) {
+    const mesh::BodyMesh& mesh = discretisation.mesh.bodies[b];
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
       const Vec2 u = state.displacements[b].segment<2>(place_of(i)) - state.reference_displacement(b);
       polygons.points.insert(polygons.points.end(), {mesh.nodes[i].x(), mesh.nodes[i].y(), 0.0});
@@ -24,7 +24,7 @@ CellPolygons cell_polygons(const analysis::StaticSolution& solution, const analy
       polygons.finite_element.push_back(cell.kind == mesh::CellKind::finite_element ? 1 : 0);
     };
     for (const mesh::Cell& cell : mesh.cells) {
-      if (!solution.model.bodies[b].outside) {
+      if (!discretisation.model.bodies[b].outside) {
         add(cell.nodes(), vtk_polygon, cell);
         continue;
       }

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scabo/analysis/state/solution.hpp"
+#include "scabo/analysis/state/discretisation.hpp"
+#include "scabo/analysis/state/results.hpp"
 
 namespace scabo::result {
 
@@ -23,6 +24,6 @@ struct CellPolygons {
 };
 
 /// `state`: of the same analysis; its displacements are shown relative to the reference point.
-CellPolygons cell_polygons(const analysis::StaticSolution& solution, const analysis::FieldState& state);
+CellPolygons cell_polygons(const analysis::Discretisation& discretisation, const analysis::FieldState& state);
 
 }  // namespace scabo::result

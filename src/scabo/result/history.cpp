@@ -194,14 +194,14 @@ void History::restore(std::string_view table) {
 }
 
 void check_sections(const model::Model& model, const mesh::Mesh& mesh) {
-  analysis::StaticSolution solution;
-  solution.model = model;
-  solution.mesh = mesh;
+  analysis::Discretisation discretisation;
+  discretisation.model = model;
+  discretisation.mesh = mesh;
   std::vector<Diagnostic> mistakes;
   for (const model::HistoryItem& item : model.output.history)
     if (const auto* section = std::get_if<model::Section>(&item.of)) {
       try {
-        points_of_section(solution, item, *section);
+        points_of_section(discretisation, item, *section);
       } catch (const InputError& error) {
         mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
       }

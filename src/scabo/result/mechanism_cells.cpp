@@ -14,11 +14,11 @@ constexpr std::uint8_t vertex_cell = 1, line_cell = 3, polygon_cell = 7;
 
 class MechanismDrawing {
  public:
-  MechanismDrawing(const analysis::StaticSolution& solution, const analysis::Mechanism& mechanism)
-      : solution_(solution), mechanism_(mechanism) {}
+  MechanismDrawing(const analysis::Discretisation& discretisation, const analysis::Mechanism& mechanism)
+      : discretisation_(discretisation), mechanism_(mechanism) {}
 
   MechanismCells drawn() && {
-    for (std::size_t b = 0; b < solution_.model.bodies.size(); ++b)
+    for (std::size_t b = 0; b < discretisation_.model.bodies.size(); ++b)
       if (mechanism_.bodies[b].present) add_body(b);
     for (std::size_t i = 0; i < mechanism_.pairs.size();) {
       std::size_t end = i + 1;
@@ -53,8 +53,8 @@ class MechanismDrawing {
   }
 
   void add_body(std::size_t b) {
-    const mesh::BodyMesh& mesh = solution_.mesh.bodies[b];
-    const model::Body& body = solution_.model.bodies[b];
+    const mesh::BodyMesh& mesh = discretisation_.mesh.bodies[b];
+    const model::Body& body = discretisation_.model.bodies[b];
     const double motion = mechanism_.bodies[b].largest;
     const auto number = static_cast<std::int32_t>(b) + 1, first = points();
     if (body.rigid) {
@@ -84,7 +84,7 @@ class MechanismDrawing {
   /// The pairs from `begin` to `end`.
   void add_contact(std::size_t begin, std::size_t end) {
     const int contact = mechanism_.pairs[begin].contact;
-    const auto a = static_cast<std::size_t>(solution_.model.contacts[static_cast<std::size_t>(contact)].a.body);
+    const auto a = static_cast<std::size_t>(discretisation_.model.contacts[static_cast<std::size_t>(contact)].a.body);
     double largest = 0.0;
     for (std::size_t i = begin; i < end; ++i)
       largest = std::max({largest, std::abs(mechanism_.pairs[i].slip), std::abs(mechanism_.pairs[i].opening)});
@@ -97,15 +97,15 @@ class MechanismDrawing {
     }
   }
 
-  const analysis::StaticSolution& solution_;
+  const analysis::Discretisation& discretisation_;
   const analysis::Mechanism& mechanism_;
   MechanismCells cells_;
 };
 
 }  // namespace
 
-MechanismCells mechanism_cells(const analysis::StaticSolution& solution, const analysis::Mechanism& mechanism) {
-  return MechanismDrawing(solution, mechanism).drawn();
+MechanismCells mechanism_cells(const analysis::Discretisation& discretisation, const analysis::Mechanism& mechanism) {
+  return MechanismDrawing(discretisation, mechanism).drawn();
 }
 
 }  // namespace scabo::result

@@ -27,6 +27,6 @@ struct MechanismCells {
   std::vector<std::int32_t> contact;  // number from 1, in the order of the model; 0 of bodies
 };
 
-MechanismCells mechanism_cells(const analysis::StaticSolution& solution, const analysis::Mechanism& mechanism);
+MechanismCells mechanism_cells(const analysis::Discretisation& discretisation, const analysis::Mechanism& mechanism);
 
 }  // namespace scabo::result

@@ -122,7 +122,7 @@ void write_shapes(const std::filesystem::path& directory, analysis::ModalResult&
 }
 
 void write_modal_summary(const std::filesystem::path& directory, const analysis::ModalResult& result) {
-  std::string log = report_header(result.structure);
+  std::string log = report_header(result.structure.model, sizes_of(result.structure));
   log += fmt::format("Natural modes; total mass {:.6g}\n\n", result.total_mass) + report_modes(result) + '\n';
   log += report_warnings(result);
   std::vector<std::vector<std::string>> rows = {{"stage", "seconds"}};

@@ -53,19 +53,19 @@ struct PointEvaluation::Group {
 PointEvaluation::~PointEvaluation() = default;
 PointEvaluation::PointEvaluation(PointEvaluation&&) noexcept = default;
 
-PointEvaluation::PointEvaluation(const analysis::StaticSolution& solution, std::vector<mesh::OutputPoint> points,
+PointEvaluation::PointEvaluation(const analysis::Discretisation& discretisation, std::vector<mesh::OutputPoint> points,
                                  int increments)
     : points_(std::move(points)) {
-  for (int b = 0; b < static_cast<int>(solution.model.bodies.size()); ++b) {
+  for (int b = 0; b < static_cast<int>(discretisation.model.bodies.size()); ++b) {
     std::map<std::size_t, Group> groups;  // by cell; all finite elements of a body are one group
     const auto index = static_cast<std::size_t>(b);
-    const element::SolvedCells& cells = solution.cells[index];
+    const element::SolvedCells& cells = discretisation.cells[index];
     std::optional<CellLocator> locator;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (points_[i].body != b) continue;
       CellPlace place;
-      if (!solution.model.bodies[index].rigid) {
-        if (!locator) locator.emplace(solution.mesh.bodies[index], cells);
+      if (!discretisation.model.bodies[index].rigid) {
+        if (!locator) locator.emplace(discretisation.mesh.bodies[index], cells);
         place = locator->nearest(points_[i].at);
       }
       const bool super_element = !cells.empty() && cells[place.cell];
@@ -76,16 +76,16 @@ PointEvaluation::PointEvaluation(const analysis::StaticSolution& solution, std::
       group.places.push_back(place);
     }
     for (auto& [cell, group] : groups) {
-      if (cell < cells.size()) prepare(solution, group, increments);
+      if (cell < cells.size()) prepare(discretisation, group, increments);
       groups_.push_back(std::move(group));
     }
   }
 }
 
-void PointEvaluation::prepare(const analysis::StaticSolution& solution, Group& group, int increments) {
+void PointEvaluation::prepare(const analysis::Discretisation& discretisation, Group& group, int increments) {
   const auto b = static_cast<std::size_t>(group.body);
-  const mesh::Cell& cell = solution.mesh.bodies[b].cells[group.cell];
-  const element::SolvedSuperElement& super_element = *solution.cells[b][group.cell];
+  const mesh::Cell& cell = discretisation.mesh.bodies[b].cells[group.cell];
+  const element::SolvedSuperElement& super_element = *discretisation.cells[b][group.cell];
   double size = 0.0;
   for (const Vec2& x : super_element.ring.nodes) size = std::max(size, x.norm());
   for (const std::size_t row : group.rows) {
@@ -96,7 +96,7 @@ void PointEvaluation::prepare(const analysis::StaticSolution& solution, Group& g
     if (infinite)
       warnings_.push_back(fmt::format(
           "stress of body '{}' is infinite at its scaling centre ({:.6g}, {:.6g}): '{}' has no stress there",
-          solution.model.bodies[b].name, point.at.x(), point.at.y(), point.name));
+          discretisation.model.bodies[b].name, point.at.x(), point.at.y(), point.name));
   }
   const double bytes = 40.0 * static_cast<double>(super_element.K().rows()) * static_cast<double>(group.rows.size());
   if (super_element.domain.unbounded || !worth_condensing(group.rows.size(), increments) ||
@@ -109,18 +109,18 @@ void PointEvaluation::prepare(const analysis::StaticSolution& solution, Group& g
   group.dofs = element::dofs_of(cell);
 }
 
-std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& solution,
+std::vector<PointResult> PointEvaluation::at(const analysis::Discretisation& discretisation,
                                              const analysis::IncrementResult& increment) const {
   std::vector<PointResult> results(points_.size());
   for (const Group& group : groups_) {
     const auto b = static_cast<std::size_t>(group.body);
-    const model::Body& named = solution.model.bodies[b];
+    const model::Body& named = discretisation.model.bodies[b];
     if (increment.is_absent(group.body)) {
       for (const std::size_t row : group.rows) results[row].absent = true;
       continue;
     }
     const element::SolvedSuperElement* super_element =
-        group.infinite.empty() ? nullptr : solution.cells[b][group.cell].get();
+        group.infinite.empty() ? nullptr : discretisation.cells[b][group.cell].get();
     const element::InteriorLoads& interior = element::loads_in(increment.fields.interior[b], group.cell);
     const bool condensed = !group.operators.empty() && !interior.acts();
     std::optional<Probe> probe;
@@ -128,7 +128,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
     if (condensed)
       u = increment.fields.displacements[b](group.dofs);
     else
-      probe.emplace(solution, increment.fields, group.body);
+      probe.emplace(discretisation, increment.fields, group.body);
     if (probe && super_element && group.rows.size() > many) probe->expect_many();
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const Vec2& x = points_[group.rows[i]].at;
@@ -149,25 +149,25 @@ std::vector<PointResult> PointEvaluation::at(const analysis::StaticSolution& sol
       result.has_stress = !named.rigid && !(super_element && group.infinite[i]);
       if (!result.has_stress) continue;
       const double temperature = element::loads_in(increment.fields.interior[b], place.cell).temperature_at(x);
-      int material = solution.mesh.bodies[b].cells[place.cell].materials.front();
+      int material = discretisation.mesh.bodies[b].cells[place.cell].materials.front();
       element::Vec3 elastic = result.values.strain;
       if (super_element) {
         const auto element = static_cast<std::size_t>(place.scaled.element);
         material = super_element->sectors.material_of(element);
         elastic -= super_element->sectors.unit_strain_of(element) * temperature;
       } else {
-        elastic -= element::thermal_strain(solution.model.materials[static_cast<std::size_t>(material)],
-                                           solution.model.analysis.plane) *
+        elastic -= element::thermal_strain(discretisation.model.materials[static_cast<std::size_t>(material)],
+                                           discretisation.model.analysis.plane) *
                    temperature;
       }
-      const model::Material& of_point = solution.model.materials[static_cast<std::size_t>(material)];
+      const model::Material& of_point = discretisation.model.materials[static_cast<std::size_t>(material)];
       const element::InitialStress& initial = increment.fields.initial_of(b);
       const element::Vec3 change = result.values.stress - initial.at(x);
-      result.stress_zz = element::stress_zz(change, of_point, solution.model.analysis.plane, temperature) +
-                         initial.zz_at(x, of_point, solution.model.analysis.plane);
+      result.stress_zz = element::stress_zz(change, of_point, discretisation.model.analysis.plane, temperature) +
+                         initial.zz_at(x, of_point, discretisation.model.analysis.plane);
       result.energy_density =
           0.5 * change.dot(elastic) +
-          0.5 * element::heat_across(of_point, solution.model.analysis.plane) * temperature * temperature;
+          0.5 * element::heat_across(of_point, discretisation.model.analysis.plane) * temperature * temperature;
     }
   }
   return results;
@@ -200,15 +200,16 @@ bool wanted(const model::Output& output, PointTable table) {
 }
 
 std::string point_table_rows(PointTable table, const PointEvaluation& evaluation,
-                             const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
-  const std::vector<PointResult> results = evaluation.at(solution, increment);
+                             const analysis::Discretisation& discretisation,
+                             const analysis::IncrementResult& increment) {
+  const std::vector<PointResult> results = evaluation.at(discretisation, increment);
   fmt::memory_buffer rows;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const mesh::OutputPoint& point = evaluation.points()[i];
     const PointResult& result = results[i];
     if (result.absent) continue;
     fmt::format_to(std::back_inserter(rows), "{},{},{},{}", increment.step, increment.increment, point.name,
-                   solution.model.bodies[static_cast<std::size_t>(point.body)].name);
+                   discretisation.model.bodies[static_cast<std::size_t>(point.body)].name);
     for (const double value :
          {point.at.x(), point.at.y(), result.values.displacement.x(), result.values.displacement.y()})
       append(rows, value);

@@ -9,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scabo/analysis/state/solution.hpp"
+#include "scabo/analysis/state/discretisation.hpp"
+#include "scabo/analysis/state/results.hpp"
 #include "scabo/element/plane/interior_field.hpp"
 #include "scabo/mesh/output_points.hpp"
 
@@ -34,20 +35,21 @@ struct PointResult {
 /// Evaluation of results at given points, for every increment of the analysis.
 class PointEvaluation {
  public:
-  /// `increments`: expected number of increments. Keeps references to the solution.
-  PointEvaluation(const analysis::StaticSolution& solution, std::vector<mesh::OutputPoint> points, int increments);
+  /// `increments`: expected number of increments. Keeps references to the discretisation.
+  PointEvaluation(const analysis::Discretisation& discretisation, std::vector<mesh::OutputPoint> points,
+                  int increments);
   ~PointEvaluation();
   PointEvaluation(PointEvaluation&&) noexcept;
 
   const std::vector<mesh::OutputPoint>& points() const { return points_; }
-  std::vector<PointResult> at(const analysis::StaticSolution& solution,
+  std::vector<PointResult> at(const analysis::Discretisation& discretisation,
                               const analysis::IncrementResult& increment) const;
   /// Warnings about points without stress because it is infinite there.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   struct Group;  // the points in one cell
-  void prepare(const analysis::StaticSolution& solution, Group& group, int increments);
+  void prepare(const analysis::Discretisation& discretisation, Group& group, int increments);
   std::vector<mesh::OutputPoint> points_;
   std::vector<Group> groups_;
   std::vector<std::string> warnings_;
@@ -55,6 +57,7 @@ class PointEvaluation {
 
 /// Lines of a table, with the shortest numbers that read back exactly; a field without a value is empty.
 std::string point_table_rows(PointTable table, const PointEvaluation& evaluation,
-                             const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
+                             const analysis::Discretisation& discretisation,
+                             const analysis::IncrementResult& increment);
 
 }  // namespace scabo::result

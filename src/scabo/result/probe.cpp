@@ -21,16 +21,16 @@ Vec2 rigid_displacement(const Vector& motion, const Vec2& arm) {
   return {motion[0] - motion[2] * arm.y(), motion[1] + motion[2] * arm.x()};
 }
 
-FiniteElementState::FiniteElementState(const analysis::StaticSolution& solution, const analysis::FieldState& state,
-                                       std::size_t body, std::size_t cell)
+FiniteElementState::FiniteElementState(const analysis::Discretisation& discretisation,
+                                       const analysis::FieldState& state, std::size_t body, std::size_t cell)
     : interior_(element::loads_in(state.interior[body], cell)) {
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
+  const mesh::BodyMesh& mesh = discretisation.mesh.bodies[body];
   element_ = element::finite_element_of(mesh.cells[cell], mesh.nodes);
   u_ = state.displacements[body](element::dofs_of(element_));
   const model::Material& material =
-      solution.model.materials[static_cast<std::size_t>(mesh.cells[cell].materials.front())];
-  D_ = element::elasticity_matrix(material, solution.model.analysis.plane);
-  unit_strain_ = element::thermal_strain(material, solution.model.analysis.plane);
+      discretisation.model.materials[static_cast<std::size_t>(mesh.cells[cell].materials.front())];
+  D_ = element::elasticity_matrix(material, discretisation.model.analysis.plane);
+  unit_strain_ = element::thermal_strain(material, discretisation.model.analysis.plane);
 }
 
 element::PointValues FiniteElementState::at(const Vec2& natural) const {
@@ -49,8 +49,8 @@ struct Probe::CellField {
   std::optional<element::RadialTable> table;
 };
 
-Probe::Probe(const analysis::StaticSolution& solution, const analysis::FieldState& state, int body)
-    : solution_(solution),
+Probe::Probe(const analysis::Discretisation& discretisation, const analysis::FieldState& state, int body)
+    : discretisation_(discretisation),
       state_(state),
       body_(static_cast<std::size_t>(body)),
       u_(state.displacements[body_]),
@@ -60,17 +60,17 @@ Probe::Probe(const analysis::StaticSolution& solution, const analysis::FieldStat
 Probe::~Probe() = default;
 
 const CellLocator& Probe::locator() const {
-  if (!locator_) locator_.emplace(solution_.mesh.bodies[body_], solution_.cells[body_]);
+  if (!locator_) locator_.emplace(discretisation_.mesh.bodies[body_], discretisation_.cells[body_]);
   return *locator_;
 }
 
 Probe::CellField& Probe::field_of(std::size_t cell) const {
   std::unique_ptr<CellField>& field = fields_[cell];
   if (!field) {
-    const element::SolvedSuperElement& super_element = *solution_.cells[body_][cell];
-    const std::vector<int> dofs = element::dofs_of(solution_.mesh.bodies[body_].cells[cell]);
+    const element::SolvedSuperElement& super_element = *discretisation_.cells[body_][cell];
+    const std::vector<int> dofs = element::dofs_of(discretisation_.mesh.bodies[body_].cells[cell]);
     const element::InteriorLoads& loads = element::loads_in(interior_, cell);
-    const Vec2& centre = solution_.mesh.bodies[body_].cells[cell].centre;
+    const Vec2& centre = discretisation_.mesh.bodies[body_].cells[cell].centre;
     field = std::make_unique<CellField>(super_element, loads.without_particular(super_element.ring, centre, u_(dofs)),
                                         loads.loads);
     if (many_) field->table.emplace(field->radial, element::fastest_of(super_element.modes()));
@@ -84,7 +84,7 @@ void Probe::expect_many() {
 }
 
 std::optional<element::PointValues> Probe::at(const Vec2& x) const {
-  const model::Body& body = solution_.model.bodies[body_];
+  const model::Body& body = discretisation_.model.bodies[body_];
   if (body.rigid) {
     if (!inside(body.outline, x)) return std::nullopt;
     element::PointValues values;
@@ -98,7 +98,7 @@ std::optional<element::PointValues> Probe::at(const Vec2& x) const {
 
 element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
   element::PointValues values;
-  if (const auto& super_element = solution_.cells[body_][place.cell]) {
+  if (const auto& super_element = discretisation_.cells[body_][place.cell]) {
     CellField& field = field_of(place.cell);
     const element::ScaledPoint& at = place.scaled;
     const element::InteriorLoads& loads = element::loads_in(interior_, place.cell);
@@ -110,16 +110,16 @@ element::PointValues Probe::at(const Vec2& x, const CellPlace& place) const {
     values.strain += particular;
     values.displacement += loads.particular_displacement(x);
   } else {
-    values = FiniteElementState(solution_, state_, body_, place.cell).at(place.natural);
+    values = FiniteElementState(discretisation_, state_, body_, place.cell).at(place.natural);
   }
   values.stress += state_.initial_of(body_).at(x);
   values.displacement -= reference_displacement_;
   return values;
 }
 
-std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
+std::optional<element::PointValues> value_at(const analysis::Discretisation& discretisation,
                                              const analysis::FieldState& state, int body, const Vec2& x) {
-  return Probe(solution, state, body).at(x);
+  return Probe(discretisation, state, body).at(x);
 }
 
 }  // namespace scabo::result

@@ -5,7 +5,8 @@
 #include <optional>
 #include <unordered_map>
 
-#include "scabo/analysis/state/solution.hpp"
+#include "scabo/analysis/state/discretisation.hpp"
+#include "scabo/analysis/state/results.hpp"
 #include "scabo/element/cell_locator.hpp"
 #include "scabo/element/plane/finite_element.hpp"
 #include "scabo/element/plane/interior_field.hpp"
@@ -16,11 +17,11 @@ namespace scabo::result {
 using element::CellLocator;
 using element::CellPlace;
 
-/// Values of one body in one state at any point (x, y) of its undeformed shape. Keeps references to the solution
+/// Values of one body in one state at any point (x, y) of its undeformed shape. Keeps references to the discretisation
 /// and the state.
 class Probe {
  public:
-  Probe(const analysis::StaticSolution& solution, const analysis::FieldState& state, int body);
+  Probe(const analysis::Discretisation& discretisation, const analysis::FieldState& state, int body);
 
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
@@ -41,7 +42,7 @@ class Probe {
   const CellLocator& locator() const;
   CellField& field_of(std::size_t cell) const;
 
-  const analysis::StaticSolution& solution_;
+  const analysis::Discretisation& discretisation_;
   const analysis::FieldState& state_;
   std::size_t body_;
   const Vector& u_;
@@ -54,14 +55,14 @@ class Probe {
 };
 
 /// The same for a single point.
-std::optional<element::PointValues> value_at(const analysis::StaticSolution& solution,
+std::optional<element::PointValues> value_at(const analysis::Discretisation& discretisation,
                                              const analysis::FieldState& state, int body, const Vec2& x);
 
 /// A finite element with its material and its values in one state.
 class FiniteElementState {
  public:
-  FiniteElementState(const analysis::StaticSolution& solution, const analysis::FieldState& state, std::size_t body,
-                     std::size_t cell);
+  FiniteElementState(const analysis::Discretisation& discretisation, const analysis::FieldState& state,
+                     std::size_t body, std::size_t cell);
   const element::FiniteElement& element() const { return element_; }
   /// Without the reference displacement; the change of temperature is taken out of the stress.
   element::PointValues at(const Vec2& natural) const;

@@ -11,7 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "scabo/analysis/state/solution.hpp"
+#include "scabo/analysis/state/discretisation.hpp"
+#include "scabo/analysis/state/results.hpp"
 #include "scabo/result/body_grid.hpp"
 
 namespace scabo::result {
@@ -30,11 +31,11 @@ using CompleteSums =
 class Recovery {
  public:
   /// `divided`: one for each body, or empty: it has cells here and in other processes.
-  explicit Recovery(const analysis::StaticSolution& solution, const std::vector<char>& divided = {});
+  explicit Recovery(const analysis::Discretisation& discretisation, const std::vector<char>& divided = {});
 
   const Grid& grid() const { return grid_; }
   /// Fields of a state of the same analysis.
-  Fields fields(const analysis::StaticSolution& solution, const analysis::FieldState& state,
+  Fields fields(const analysis::Discretisation& discretisation, const analysis::FieldState& state,
                 const CompleteSums& complete = {}) const;
 
  private:

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scabo/analysis/state/solution.hpp"
+#include "scabo/result/summary.hpp"
 
 namespace scabo::result {
 
@@ -12,7 +13,7 @@ namespace scabo::result {
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
 /// Version, title, sizes and the law of every contact.
-std::string report_header(const analysis::StaticSolution& solution);
+std::string report_header(const model::Model& model, const ModelSizes& sizes);
 
 /// Degrees of freedom and estimated error of every mesh of the refinement; empty without refinement.
 std::string report_passes(const analysis::StaticSolution& solution);

@@ -390,7 +390,7 @@ bool ResultsDirectory::is_last(const analysis::IncrementResult& increment) const
 
 void ResultsDirectory::begin_log(const analysis::StaticSolution& solution) {
   if (log_begun_) return;
-  log_->append(report_header(solution));
+  log_->append(report_header(solution.model, sizes_of(solution)) + report_passes(solution));
   log_begun_ = true;
 }
 

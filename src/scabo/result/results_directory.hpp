@@ -37,7 +37,7 @@ class FieldParts {
   /// Whether they have any.
   virtual bool any() const = 0;
   /// Writes `stem_0.vtu`, `stem_1.vtu` ... into a directory; their names. Throws WriteError.
-  virtual std::vector<std::string> write(const analysis::StaticSolution& solution,
+  virtual std::vector<std::string> write(const analysis::Discretisation& discretisation,
                                          const analysis::IncrementResult& increment,
                                          const std::filesystem::path& directory, const std::string& stem) = 0;
 };

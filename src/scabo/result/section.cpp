@@ -68,12 +68,12 @@ void add_cell(const mesh::BodyMesh& mesh, const mesh::Cell& cell, Cuts& cuts) {
 }
 
 /// Parts of the line in the body: the crossings with the sides and rays of its cells between which it runs.
-std::vector<std::pair<double, double>> parts_in(const analysis::StaticSolution& solution, std::size_t body,
+std::vector<std::pair<double, double>> parts_in(const analysis::Discretisation& discretisation, std::size_t body,
                                                 const model::Section& section) {
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[body];
+  const mesh::BodyMesh& mesh = discretisation.mesh.bodies[body];
   Cuts cuts(section.from, section.to);
   for (const mesh::Cell& cell : mesh.cells) add_cell(mesh, cell, cuts);
-  for (const model::Load& load : solution.model.loads) {  // the stress bends where a table of temperatures does
+  for (const model::Load& load : discretisation.model.loads) {  // the stress bends where a table of temperatures does
     const auto* temperature = std::get_if<model::Temperature>(&load.kind);
     if (!temperature || !temperature->table || (load.on && load.on->body != static_cast<int>(body))) continue;
     for (const auto& point : temperature->table->points) cuts.add(temperature->table->along, point.at);
@@ -82,7 +82,7 @@ std::vector<std::pair<double, double>> parts_in(const analysis::StaticSolution& 
   std::vector<std::pair<double, double>> parts;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     const double middle = 0.5 * (at[i] + at[i + 1]);
-    if (mesh::holds(solution.model.bodies[body], section.from + middle * (section.to - section.from)))
+    if (mesh::holds(discretisation.model.bodies[body], section.from + middle * (section.to - section.from)))
       parts.emplace_back(at[i], at[i + 1]);
   }
   return parts;
@@ -90,10 +90,10 @@ std::vector<std::pair<double, double>> parts_in(const analysis::StaticSolution& 
 
 }  // namespace
 
-std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solution, const model::HistoryItem& item,
-                                            const model::Section& section) {
+std::vector<SectionPoint> points_of_section(const analysis::Discretisation& discretisation,
+                                            const model::HistoryItem& item, const model::Section& section) {
   static const geometry::GaussRule rule = geometry::gauss_rule(gauss_points);
-  const model::Model& model = solution.model;
+  const model::Model& model = discretisation.model;
   const Vec2 along = section.to - section.from;
   const double length = along.norm();
   const Vec2 n(-along.y() / length, along.x() / length);
@@ -101,7 +101,7 @@ std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solu
   std::vector<std::pair<std::pair<double, double>, std::size_t>> taken;  // parts of the line with their bodies
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].rigid || (section.body >= 0 && static_cast<std::size_t>(section.body) != b)) continue;
-    for (const auto& part : parts_in(solution, b, section)) {
+    for (const auto& part : parts_in(discretisation, b, section)) {
       for (const auto& [other, other_body] : taken)
         if (std::min(part.second, other.second) - std::max(part.first, other.first) >
             most_overlap * std::min(part.second - part.first, other.second - other.first))
@@ -121,7 +121,7 @@ std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solu
         points.push_back(std::move(point));
       }
     }
-    for (const auto& part : parts_in(solution, b, section)) taken.emplace_back(part, b);
+    for (const auto& part : parts_in(discretisation, b, section)) taken.emplace_back(part, b);
   }
   if (points.empty())
     throw InputError(

@@ -9,7 +9,8 @@
 
 #include <vector>
 
-#include "scabo/analysis/state/solution.hpp"
+#include "scabo/analysis/state/discretisation.hpp"
+#include "scabo/analysis/state/results.hpp"
 #include "scabo/mesh/output_points.hpp"
 
 namespace scabo::result {
@@ -24,7 +25,7 @@ struct SectionPoint {
 
 /// Points on a line, in the elastic bodies that it cuts or in one of them. Throws InputError if it cuts none, or if it
 /// lies along the border of two bodies.
-std::vector<SectionPoint> points_of_section(const analysis::StaticSolution& solution, const model::HistoryItem& item,
-                                            const model::Section& section);
+std::vector<SectionPoint> points_of_section(const analysis::Discretisation& discretisation,
+                                            const model::HistoryItem& item, const model::Section& section);
 
 }  // namespace scabo::result

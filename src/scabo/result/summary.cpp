@@ -274,24 +274,29 @@ std::string_view name_of(element::CornerKind kind) {
   throw BrokenInvariant("a corner without a name");
 }
 
-ModelSizes sizes_of(const analysis::StaticSolution& solution) {
+ModelSizes sizes_of(const analysis::Discretisation& discretisation) {
   ModelSizes sizes;
-  sizes.nodes = solution.mesh.nodes();
-  sizes.dofs = solution.mesh.dofs();
-  for (const mesh::BodyMesh& body : solution.mesh.bodies) {
+  sizes.nodes = discretisation.mesh.nodes();
+  sizes.dofs = discretisation.mesh.dofs();
+  for (const mesh::BodyMesh& body : discretisation.mesh.bodies) {
     sizes.super_elements += body.count(mesh::CellKind::superelement);
     sizes.finite_elements += body.count(mesh::CellKind::finite_element);
   }
+  for (const mesh::Interface& interface : discretisation.mesh.interfaces)
+    sizes.contact_pairs += static_cast<int>(interface.pairs.size());
+  return sizes;
+}
+
+ModelSizes sizes_of(const analysis::StaticSolution& solution) {
+  const analysis::Discretisation& discretisation = solution;
+  ModelSizes sizes = sizes_of(discretisation);
   // Only an increment shows which pairs can move; of all but the last one, the totals remain. Bodies that are added
   // later have none in it.
-  if (!model::has_stages(solution.model.bodies) && !solution.increments.empty() &&
-      solution.increments.front().converged) {
-    for (const analysis::ContactResult& contact : solution.increments.front().contacts)
-      sizes.contact_pairs += contact.open + contact.stick + contact.slip;
-  } else {
-    for (const mesh::Interface& interface : solution.mesh.interfaces)
-      sizes.contact_pairs += static_cast<int>(interface.pairs.size());
-  }
+  if (model::has_stages(solution.model.bodies) || solution.increments.empty() || !solution.increments.front().converged)
+    return sizes;
+  sizes.contact_pairs = 0;
+  for (const analysis::ContactResult& contact : solution.increments.front().contacts)
+    sizes.contact_pairs += contact.open + contact.stick + contact.slip;
   return sizes;
 }
 

@@ -18,7 +18,8 @@ struct ModelSizes {
   int finite_elements = 0;
   int contact_pairs = 0;  ///< pairs that can move; pairs held by supports on both sides do not count
 };
-ModelSizes sizes_of(const analysis::StaticSolution& solution);
+ModelSizes sizes_of(const analysis::Discretisation& discretisation);  ///< with all pairs
+ModelSizes sizes_of(const analysis::StaticSolution& solution);        ///< with the pairs that can move
 
 /// Peak memory of this process in bytes; nothing if the system does not report it.
 std::optional<long long> peak_memory();

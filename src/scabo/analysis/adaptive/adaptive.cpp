@@ -8,7 +8,6 @@
 
 #include "scabo/analysis/adaptive/error_estimate.hpp"
 #include "scabo/analysis/adaptive/frozen_elements.hpp"
-#include "scabo/analysis/adaptive/refinement.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
 #include "scabo/mesh/matched_side.hpp"
 
@@ -59,6 +58,20 @@ void replay(StaticSolution& solution, const Options& options) {
   }
 }
 
+std::optional<StaticSolution> solve_wider(const StaticSolution& solution, bool frozen_at_singular_places,
+                                          const Options& options, std::string& why) {
+  try {
+    mesh::Mesh mesh =
+        mesh::enriched(solution.model, solution.mesh, frozen_elements(solution, frozen_at_singular_places));
+    StaticSolution wider = solve_on_mesh(solution.model, std::move(mesh), options);
+    if (wider.outcome == Outcome::solved) return wider;
+    why = wider.reason;
+  } catch (const InputError& error) {
+    why = error.diagnostics().empty() ? error.what() : error.diagnostics().front().message;
+  }
+  return std::nullopt;
+}
+
 namespace {
 
 /// Elements of refined bodies of one super-element that end at the corner of a point force.
@@ -75,21 +88,6 @@ std::vector<mesh::EdgeElement> elements_at_forces(const model::Model& model, con
     elements.push_back({b, before, static_cast<int>(body[static_cast<std::size_t>(before)].orders.size()) - 1});
   }
   return elements;
-}
-
-/// The analysis on the mesh of higher order; nothing, with the reason in `why`, if it does not have the same
-/// increments.
-std::optional<StaticSolution> solve_wider(const StaticSolution& solution, const Options& options,
-                                          const std::string& what, std::string& why) {
-  try {
-    mesh::Mesh mesh = mesh::enriched(solution.model, solution.mesh, frozen_elements(solution, true));
-    StaticSolution wider = solve_on_mesh(solution.model, std::move(mesh), quiet(options, what));
-    if (wider.outcome == Outcome::solved) return wider;
-    why = wider.reason;
-  } catch (const InputError& error) {
-    why = error.diagnostics().empty() ? error.what() : error.diagnostics().front().message;
-  }
-  return std::nullopt;
 }
 
 void warn_of_point_forces(StaticSolution& solution) {
@@ -145,12 +143,59 @@ MeshErrors errors_of(const StaticSolution& solution, const StaticSolution& wider
   return errors;
 }
 
-StaticSolution not_reached(StaticSolution solution, const std::string& why) {
-  if (solution.outcome != Outcome::solved) return solution;
+StaticSolution without_tolerance(StaticSolution solution, const std::string& why) {
   solution.outcome = Outcome::not_converged;
   solution.reason = fmt::format("mesh.tolerance was not reached: {}", why);
   return solution;
 }
+
+/// Eq. (1).
+class TolerancesOfBodies : public Aim {
+ public:
+  TolerancesOfBodies(const model::Model& model, const Options& options) : model_(model), options_(options) {}
+
+  StaticSolution solve(mesh::Mesh mesh, const std::string& name) override {
+    wider_.reset();
+    StaticSolution solution = solve_on_mesh(model_, std::move(mesh), quiet(options_, name));
+    if (solution.outcome == Outcome::solved)
+      wider_ = solve_wider(solution, true, quiet(options_, name + ", error"), why_);
+    return solution;
+  }
+
+  std::optional<Estimate> estimate(StaticSolution& solution, const ModelRefinement&) override {
+    if (solution.outcome != Outcome::solved) return std::nullopt;
+    if (wider_) {
+      estimate_all(solution, *wider_);
+      judgement_ = judge(solution);
+      return Estimate{judgement_.error, judgement_.sum, judgement_.sum <= aim * aim};
+    }
+    if (options_.stop && *options_.stop) {
+      solution.outcome = Outcome::interrupted;
+      solution.reason = "interrupted: the results are those of a mesh whose error is not known";
+    } else {
+      solution = without_tolerance(std::move(solution), "no error was estimated: on the mesh of higher order, " + why_);
+    }
+    return std::nullopt;
+  }
+
+  MeshErrors errors(const StaticSolution& solution) override { return errors_of(solution, *wider_, judgement_.worst); }
+
+  /// An estimate between the aim and the tolerance is accepted.
+  StaticSolution not_reached(StaticSolution solution, const ModelRefinement&, const std::string& why) override {
+    if (judgement_.sum <= 1.0) return solution;
+    const std::string at =
+        fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement_.error, solution.mesh.dofs());
+    return without_tolerance(std::move(solution), at + ", and " + why);
+  }
+
+ private:
+  const model::Model& model_;
+  const Options& options_;
+  // Of the solution that was solved last:
+  std::optional<StaticSolution> wider_;
+  std::string why_;  // it is not there
+  Judgement judgement_;
+};
 
 }  // namespace
 
@@ -189,7 +234,7 @@ StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Optio
   StaticSolution solution = solve_on_mesh(std::move(model), std::move(mesh), quiet(options, "mesh"));
   std::string why;
   if (solution.outcome == Outcome::solved) {
-    if (const auto wider = solve_wider(solution, options, "error", why))
+    if (const auto wider = solve_wider(solution, true, quiet(options, "error"), why))
       estimate_all(solution, *wider);
     else
       solution.warnings.push_back(
@@ -200,114 +245,19 @@ StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Optio
   return solution;
 }
 
-namespace {
-
-/// Solution and estimate of one pass; without `wider` the loop ends with `solution`.
-struct SolvedPass {
-  StaticSolution solution;
-  std::optional<StaticSolution> wider;
-};
-
-/// Solve and estimate.
-SolvedPass solve_pass(const model::Model& model, mesh::Mesh mesh, const Options& options, const std::string& name) {
-  SolvedPass pass{solve_on_mesh(model, std::move(mesh), quiet(options, name)), {}};
-  if (pass.solution.outcome != Outcome::solved) return pass;
-  std::string why;
-  pass.wider = solve_wider(pass.solution, options, name + ", error", why);
-  if (pass.wider) {
-    estimate_all(pass.solution, *pass.wider);
-  } else if (options.stop && *options.stop) {
-    pass.solution.outcome = Outcome::interrupted;
-    pass.solution.reason = "interrupted: the results are those of a mesh whose error is not known";
-  } else {
-    pass.solution =
-        not_reached(std::move(pass.solution), "no error was estimated: on the mesh of higher order, " + why);
-  }
-  return pass;
-}
-
-/// Why no further pass is made after those of which `sums` are those of eq. (1); empty if one is.
-std::string obstacle_after(const std::vector<double>& sums, const RefinementLimits& limits, const std::string& at) {
-  const auto back = static_cast<std::size_t>(limits.without_progress);
-  if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
-    return at + ", and further refinement does not reduce it";
-  if (static_cast<int>(sums.size()) == limits.passes) return fmt::format("after {} passes {}", limits.passes, at);
-  return {};
-}
-
-/// Why the next mesh is not made; empty if it is.
-std::string too_fine(const ModelRefinement& next, const mesh::Mesh& mesh, const RefinementLimits& limits,
-                     const std::string& at) {
-  int present = 0;
-  for (const mesh::BodyMesh& body : mesh.bodies)
-    if (body.cells.size() == 1)
-      present = std::max(present, static_cast<int>(mesh.components().count(body.nodes.size())));
-  const int dofs = next.boundaries.largest_body(), of_cells = next.cells.largest_body();
-  const auto text = [&](const char* about, int would, int most) {
-    return fmt::format("{}; a finer mesh would have {}{} in one body, more than {}", at, about, would, most);
-  };
-  if (dofs > std::max(limits.dofs, present)) return text("", dofs, limits.dofs);
-  if (of_cells > limits.dofs_of_cells) return text("about ", of_cells, limits.dofs_of_cells);
-  return {};
-}
-
-}  // namespace
-
 StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits) {
   ModelRefinement refinement(model);
-  mesh::Mesh mesh = refinement.mesh();
+  const mesh::Mesh mesh = refinement.mesh();
   hold_near_places(model, mesh);
   refinement.boundaries.divide_at_corners(mesh, elements_at_forces(model, refinement.boundaries.division()));
   for (const model::Load& load : model.loads)
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind))
       refinement.cells.divide_at(mesh, *load.on, spread_of_force);
-  mesh = refinement.mesh();
-  std::vector<RefinementPass> passes;
-  std::vector<double> sums;
-  const auto end = [&](StaticSolution solution) {
-    solution.passes = passes;
-    if (solution.outcome != Outcome::interrupted) warn_of_point_forces(solution);
-    replay(solution, options);
-    return solution;
-  };
-  std::optional<StaticSolution> last;
-  while (true) {
-    SolvedPass pass;
-    try {
-      if (last) mesh = refinement.mesh();
-      pass = solve_pass(model, std::move(mesh), options, fmt::format("pass {}", passes.size() + 1));
-    } catch (const InputError& error) {
-      if (!last) throw;
-      return end(not_reached(std::move(*last), error.diagnostics().front().message));
-    }
-    auto& [solution, wider] = pass;
-    if (!wider && last && solution.outcome == Outcome::interrupted && solution.increments.empty()) {
-      last->outcome = Outcome::interrupted;
-      last->reason = "interrupted: the tolerance is not reached";
-      return end(std::move(*last));
-    }
-    if (!wider) return end(std::move(solution));
-    const Judgement judgement = judge(solution);
-    passes.push_back({solution.mesh.dofs(), judgement.error, 0, 0});
-    sums.push_back(judgement.sum);
-    if (judgement.sum <= aim * aim) return end(std::move(solution));
-
-    const std::string at =
-        fmt::format("the estimated error is {:.3g} with {} degrees of freedom", judgement.error, passes.back().dofs);
-    std::string obstacle = obstacle_after(sums, limits, at);
-    if (obstacle.empty()) {
-      const MeshErrors errors = errors_of(solution, *wider, judgement.worst);
-      const RefinementPass refined = refinement.refine(errors, mark(refinement.parts(errors)));
-      passes.back().raised = refined.raised;
-      passes.back().divided = refined.divided;
-      obstacle = refined.raised + refined.divided == 0 ? at + ", and no element can be refined further"
-                                                       : too_fine(refinement, solution.mesh, limits, at);
-    }
-    // Where refinement cannot continue, an estimate between the aim and the tolerance is accepted.
-    if (!obstacle.empty())
-      return end(judgement.sum <= 1.0 ? std::move(solution) : not_reached(std::move(solution), obstacle));
-    last = std::move(solution);
-  }
+  TolerancesOfBodies tolerances(model, options);
+  StaticSolution solution = refine(tolerances, refinement, limits);
+  if (solution.outcome != Outcome::interrupted) warn_of_point_forces(solution);
+  replay(solution, options);
+  return solution;
 }
 
 }  // namespace scabo::analysis

@@ -8,8 +8,8 @@
 //
 //     sum of (eta_b / tau_b)^2 <= 0.7^2     over the bodies with a tolerance, in every increment             (1)
 //
-// (the estimate is smaller than the error; if no mesh reaches this bound, 1 is accepted). A pass solves, estimates,
-// marks the parts with the largest share of that sum and refines them (refinement.hpp):
+// (the estimate is smaller than the error; if no mesh reaches this bound, 1 is accepted). Of every mesh the parts with
+// the largest share of that sum are marked and refined (refinement_loop.hpp, refinement.hpp):
 //  - Elements of a body that is one super-element are raised by one order if their error decreased as for smooth
 //    solutions; otherwise they are divided: next to a corner of the outline in the ratio 0.15 : 0.85 with the small
 //    part at the corner, elsewhere in the middle (Melenk and Wohlmuth 2001: every element carries a predicted error).
@@ -25,7 +25,7 @@
 // mesh; cells at a force have this size from the beginning.
 #pragma once
 
-#include "scabo/analysis/march/options.hpp"
+#include "scabo/analysis/adaptive/refinement_loop.hpp"
 
 namespace scabo::analysis {
 
@@ -38,19 +38,16 @@ void check_refinable(const model::Model& model, const mesh::Mesh& mesh);
 /// solve_static() with the error of every increment estimated.
 StaticSolution solve_with_error(model::Model model, mesh::Mesh mesh, const Options& options);
 
-struct RefinementLimits {
-  int dofs = 5000;              ///< in a body that is one super-element
-  int dofs_of_cells = 100'000;  ///< in a body of many cells
-  int passes = 40;
-  int without_progress = 4;  ///< number of passes that together reduce eq. (1) by less than a fifth
-};
-
 /// solve_static() on the first mesh that satisfies eq. (1); its increments are reported when it is found. If no mesh
 /// within the limits does, the outcome is not_converged, with the results of the last mesh.
 StaticSolution solve_refined(model::Model model, const Options& options, const RefinementLimits& limits = {});
 
 // Steps that goal.hpp shares.
 
+/// The analysis with `options` on the mesh of a solution with boundary elements one order higher, except the frozen
+/// ones (frozen_elements.hpp); nothing, with the reason in `why`, if that has no solution.
+std::optional<StaticSolution> solve_wider(const StaticSolution& solution, bool frozen_at_singular_places,
+                                          const Options& options, std::string& why);
 /// Replaces `near` places by the position of their nodes on this mesh, so that they refer to the same point on the next
 /// mesh.
 void hold_near_places(model::Model& model, const mesh::Mesh& mesh);

@@ -18,9 +18,9 @@ struct CellStiffness {
   std::vector<mesh::LineElement> elements;
   Matrix k;
 };
-CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::size_t c) {
-  if (const auto& cell = solution.cells[b][c]) return {cell->ring.elements, cell->K()};
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
+CellStiffness stiffness_of(const Discretisation& discretisation, std::size_t b, std::size_t c) {
+  if (const auto& cell = discretisation.cells[b][c]) return {cell->ring.elements, cell->K()};
+  const mesh::BodyMesh& mesh = discretisation.mesh.bodies[b];
   const mesh::Cell& cell = mesh.cells[c];
   std::map<int, int> own;
   for (const int node : cell.nodes()) own.emplace(node, static_cast<int>(own.size()));
@@ -28,8 +28,8 @@ CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::s
   for (mesh::LineElement& element : made.elements)
     for (int& node : element.nodes) node = own.at(node);
   const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
-  const model::Material& material = solution.model.materials[static_cast<std::size_t>(cell.materials.front())];
-  const auto& analysis = solution.model.analysis;
+  const model::Material& material = discretisation.model.materials[static_cast<std::size_t>(cell.materials.front())];
+  const auto& analysis = discretisation.model.analysis;
   const element::ElementMatrix k = element::finite_element_stiffness(
       finite, element::elasticity_matrix(material, analysis.plane), analysis.thickness);
   std::vector<int> dofs;
@@ -40,18 +40,18 @@ CellStiffness stiffness_of(const StaticSolution& solution, std::size_t b, std::s
 }
 
 /// Squared errors of the cells of a body, force times length; 0 for those left out.
-std::vector<double> squared_errors(const StaticSolution& solution, const IncrementResult& increment,
-                                   const StaticSolution& wider, const IncrementResult& wider_increment, std::size_t b,
+std::vector<double> squared_errors(const Discretisation& discretisation, const IncrementResult& increment,
+                                   const Discretisation& wider, const IncrementResult& wider_increment, std::size_t b,
                                    const std::vector<bool>& left_out) {
   std::vector<double> squared;
-  for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
+  for (std::size_t c = 0; c < discretisation.cells[b].size(); ++c) {
     if (left_out[c]) {
       squared.push_back(0.0);
       continue;
     }
     // Loads inside a cell are not among the forces on its boundary.
     const bool relaxed = !element::loads_in(increment.fields.interior[b], c).acts();
-    squared.push_back(squared_difference(solution, increment.fields.displacements[b], wider,
+    squared.push_back(squared_difference(discretisation, increment.fields.displacements[b], wider,
                                          wider_increment.fields.displacements[b], b, c, relaxed));
   }
   return squared;
@@ -84,9 +84,9 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
 
 }  // namespace
 
-Vector displacement_of(const StaticSolution& solution, const IncrementResult& increment, std::size_t body,
+Vector displacement_of(const Discretisation& discretisation, const IncrementResult& increment, std::size_t body,
                        std::size_t cell) {
-  return increment.fields.displacements[body](element::dofs_of(solution.mesh.bodies[body].cells[cell]));
+  return increment.fields.displacements[body](element::dofs_of(discretisation.mesh.bodies[body].cells[cell]));
 }
 
 void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
@@ -96,13 +96,13 @@ void estimate_all(StaticSolution& solution, const StaticSolution& wider) {
       solution.increments[i].error = estimate(solution, solution.increments[i], wider, wider.increments[i], left_out);
 }
 
-double squared_difference(const StaticSolution& solution, const Vector& u, const StaticSolution& wider, const Vector& U,
-                          std::size_t body, std::size_t cell, bool relaxed) {
-  const CellStiffness narrow = stiffness_of(solution, body, cell);
+double squared_difference(const Discretisation& discretisation, const Vector& u, const Discretisation& wider,
+                          const Vector& U, std::size_t body, std::size_t cell, bool relaxed) {
+  const CellStiffness narrow = stiffness_of(discretisation, body, cell);
   const element::SolvedSuperElement& wide = *wider.cells[body][cell];
-  return element::squared_difference({narrow.elements, narrow.k,
-                                      u(element::dofs_of(solution.mesh.bodies[body].cells[cell])), wide.ring.elements,
-                                      wide.K(), U(element::dofs_of(wider.mesh.bodies[body].cells[cell])), relaxed});
+  return element::squared_difference(
+      {narrow.elements, narrow.k, u(element::dofs_of(discretisation.mesh.bodies[body].cells[cell])), wide.ring.elements,
+       wide.K(), U(element::dofs_of(wider.mesh.bodies[body].cells[cell])), relaxed});
 }
 
 ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& increment, const StaticSolution& wider,
@@ -110,13 +110,13 @@ ErrorEstimate estimate(const StaticSolution& solution, const IncrementResult& in
   return estimate(solution, increment, wider, wider_increment, left_out_cells(solution));
 }
 
-std::vector<double> element_errors(const StaticSolution& solution, const IncrementResult& increment,
-                                   const StaticSolution& wider, const IncrementResult& wider_increment,
+std::vector<double> element_errors(const Discretisation& discretisation, const IncrementResult& increment,
+                                   const Discretisation& wider, const IncrementResult& wider_increment,
                                    std::size_t body) {
   std::vector<double> errors;
-  for (std::size_t c = 0; c < solution.cells[body].size(); ++c) {
-    const element::SolvedSuperElement &narrow = *solution.cells[body][c], &wide = *wider.cells[body][c];
-    const Vector u = displacement_of(solution, increment, body, c),
+  for (std::size_t c = 0; c < discretisation.cells[body].size(); ++c) {
+    const element::SolvedSuperElement &narrow = *discretisation.cells[body][c], &wide = *wider.cells[body][c];
+    const Vector u = displacement_of(discretisation, increment, body, c),
                  U = displacement_of(wider, wider_increment, body, c);
     for (const double error :
          element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), u},

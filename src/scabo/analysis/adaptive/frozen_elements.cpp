@@ -121,7 +121,9 @@ bool is_point(const model::Place& place) {
   return place.kind == model::Place::Kind::corner || place.kind == model::Place::Kind::near;
 }
 
-bool has_estimate(const StaticSolution& solution, std::size_t body) { return !solution.cells[body].empty(); }
+bool has_estimate(const Discretisation& discretisation, std::size_t body) {
+  return !discretisation.cells[body].empty();
+}
 
 Flags left_out_cells(const StaticSolution& solution) {
   const mesh::Mesh& mesh = solution.mesh;

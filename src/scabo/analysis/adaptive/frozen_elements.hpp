@@ -18,7 +18,7 @@ bool is_point(const model::Place& place);
 
 /// Whether the error of the body is estimated: it is elastic. The wider displacement of finite elements is that of
 /// super-elements of the next order in their place.
-bool has_estimate(const StaticSolution& solution, std::size_t body);
+bool has_estimate(const Discretisation& discretisation, std::size_t body);
 
 /// Cells beside point forces, and similar places with infinite stress, in bodies of many cells.
 Flags left_out_cells(const StaticSolution& solution);

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <numeric>
 
 #include "scabo/analysis/adaptive/error_bars.hpp"
 #include "scabo/analysis/adaptive/error_estimate.hpp"
 #include "scabo/analysis/adaptive/frozen_elements.hpp"
-#include "scabo/analysis/adaptive/refinement.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
 #include "scabo/analysis/state/quantities.hpp"
 #include "scabo/element/plane/two_orders.hpp"
@@ -38,37 +35,17 @@ Options with_dual(const Options& options, const model::Quantity& quantity, const
   with.on_state = [&quantity, &dual](const Prepared& prepared, const State& state, const StaticSolution& solution) {
     const IncrementResult& at = solution.increments.back();
     if (at.step == static_cast<int>(solution.model.steps.size()) && at.reached == 1.0)
-      dual =
-          of_bodies(prepared, dual_displacements(prepared, state, derivative_of(prepared, state, solution, quantity)));
+      dual = of_bodies(prepared, dual_displacements(prepared, state, derivative_of(prepared, state, quantity)));
   };
   return with;
 }
 
-/// One pass: solutions, primal and dual, on the mesh and on the same elements with one order more.
+/// Solutions, primal and dual, on the mesh and on the same elements with one order more.
 struct GoalPass {
-  StaticSolution solution;
-  std::optional<StaticSolution> wider;
-  std::vector<Vector> dual, wider_dual;
-  std::string why;  ///< why there is no `wider`
+  const StaticSolution& solution;
+  const StaticSolution& wider;
+  const std::vector<Vector>&dual, &wider_dual;
 };
-GoalPass solve_goal_pass(const model::Model& model, mesh::Mesh mesh, const Options& options, const std::string& name) {
-  GoalPass pass;
-  const model::Quantity& quantity = model.tolerance->of;
-  pass.solution = solve_on_mesh(model, std::move(mesh), with_dual(options, quantity, name, pass.dual));
-  if (pass.solution.outcome != Outcome::solved) return pass;
-  try {
-    mesh::Mesh wider = mesh::enriched(model, pass.solution.mesh, frozen_elements(pass.solution, false));
-    StaticSolution solution =
-        solve_on_mesh(model, std::move(wider), with_dual(options, quantity, name + ", error", pass.wider_dual));
-    if (solution.outcome == Outcome::solved)
-      pass.wider = std::move(solution);
-    else
-      pass.why = solution.reason;
-  } catch (const InputError& error) {
-    pass.why = error.diagnostics().empty() ? error.what() : error.diagnostics().front().message;
-  }
-  return pass;
-}
 
 /// Squared errors of the parts of a body (boundary elements or cells), force times length, of displacements `u` on the
 /// mesh and `U` on that of one order more.
@@ -79,14 +56,14 @@ std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b,
   std::vector<double> squared;
   for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
     const bool relaxed = !loaded || !element::loads_in(solution.increments.back().fields.interior[b], c).acts();
-    const double whole = squared_difference(solution, u, *pass.wider, U, b, c, relaxed);
+    const double whole = squared_difference(solution, u, pass.wider, U, b, c, relaxed);
     if (in_cells) {
       squared.push_back(whole);
       continue;
     }
-    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *pass.wider->cells[b][c];
+    const element::SolvedSuperElement &narrow = *solution.cells[b][c], &wide = *pass.wider.cells[b][c];
     const Vector of_narrow = u(element::dofs_of(solution.mesh.bodies[b].cells[c])),
-                 of_wide = U(element::dofs_of(pass.wider->mesh.bodies[b].cells[c]));
+                 of_wide = U(element::dofs_of(pass.wider.mesh.bodies[b].cells[c]));
     const std::vector<double> sectors =
         element::sector_differences({narrow.ring, narrow.solution(), narrow.modes(), of_narrow},
                                     {wide.ring, wide.solution(), wide.modes(), of_wide}, wide.sectors.D);
@@ -96,25 +73,28 @@ std::vector<double> squared_errors_of_parts(const GoalPass& pass, std::size_t b,
   return squared;
 }
 
-/// Products of the primal and dual errors of all parts; `sum`: their sum, force times length.
-MeshErrors goal_errors(const GoalPass& pass, double& sum) {
+/// Products of the primal and dual errors of all parts, force times length.
+struct Products {
+  std::vector<std::vector<double>> of_parts;  ///< MeshErrors::shares
+  double sum = 0.0;                           ///< also of bodies that are not refined
+};
+Products products_of(const GoalPass& pass) {
   const StaticSolution& solution = pass.solution;
-  MeshErrors errors{solution.mesh, {}, frozen_elements(solution, false)};
-  errors.shares.resize(solution.model.bodies.size());
-  sum = 0.0;
-  for (std::size_t b = 0; b < errors.shares.size(); ++b) {
+  Products products;
+  products.of_parts.resize(solution.model.bodies.size());
+  for (std::size_t b = 0; b < products.of_parts.size(); ++b) {
     if (!has_estimate(solution, b)) continue;
     const std::vector<double> primal =
                                   squared_errors_of_parts(pass, b, solution.increments.back().fields.displacements[b],
-                                                          pass.wider->increments.back().fields.displacements[b], true),
+                                                          pass.wider.increments.back().fields.displacements[b], true),
                               dual = squared_errors_of_parts(pass, b, pass.dual[b], pass.wider_dual[b], false);
     for (std::size_t k = 0; k < primal.size(); ++k) {
       const double product = std::sqrt(primal[k] * dual[k]);
-      sum += product;
-      if (solution.model.bodies[b].mesh.tolerance) errors.shares[b].push_back(product);
+      products.sum += product;
+      if (solution.model.bodies[b].mesh.tolerance) products.of_parts[b].push_back(product);
     }
   }
-  return errors;
+  return products;
 }
 
 /// Bodies that are refined get a tolerance, by which meshers and refinement recognise them. Where sides of contacts
@@ -159,27 +139,6 @@ void warn_of_infinite_values(StaticSolution& solution) {
   }
 }
 
-/// Why no further mesh is made; empty if one is.
-std::string obstacle_of(const std::vector<double>& sums, const ModelRefinement& next, const RefinementPass& refined,
-                        const mesh::Mesh& mesh, const RefinementLimits& limits) {
-  const auto back = static_cast<std::size_t>(limits.without_progress);
-  if (refined.raised + refined.divided == 0) return "no element can be refined further";
-  if (sums.size() > back && sums.back() > 0.8 * sums[sums.size() - 1 - back])
-    return "further refinement does not reduce it";
-  if (static_cast<int>(sums.size()) >= limits.passes) return fmt::format("{} passes were made", limits.passes);
-  int present = 0;
-  for (const mesh::BodyMesh& body : mesh.bodies)
-    if (body.cells.size() == 1)
-      present = std::max(present, static_cast<int>(mesh.components().count(body.nodes.size())));
-  if (next.boundaries.largest_body() > std::max(limits.dofs, present))
-    return fmt::format("a finer mesh would have {} degrees of freedom in one body, more than {}",
-                       next.boundaries.largest_body(), limits.dofs);
-  if (next.cells.largest_body() > limits.dofs_of_cells)
-    return fmt::format("a finer mesh would have about {} degrees of freedom in one body, more than {}",
-                       next.cells.largest_body(), limits.dofs_of_cells);
-  return {};
-}
-
 StaticSolution without_goal(StaticSolution solution, const model::Model& model, const std::string& why) {
   const QuantityResult* found = nullptr;
   if (!solution.increments.empty() && !solution.increments.back().quantities.empty())
@@ -194,87 +153,114 @@ StaticSolution without_goal(StaticSolution solution, const model::Model& model, 
   return solution;
 }
 
-/// Solve, estimate, mark and refine until the bar of Model::tolerance is small enough.
+/// The bar of Model::tolerance.
+class ToleranceOfNumber : public Aim {
+ public:
+  /// Of a model with_tolerances().
+  ToleranceOfNumber(const model::Model& model, const Options& options) : model_(model), options_(options) {}
+
+  StaticSolution solve(mesh::Mesh mesh, const std::string& name) override {
+    wider_.reset();
+    const model::Quantity& quantity = model_.tolerance->of;
+    StaticSolution solution = solve_on_mesh(model_, std::move(mesh), with_dual(options_, quantity, name, dual_));
+    if (solution.outcome == Outcome::solved)
+      wider_ = solve_wider(solution, false, with_dual(options_, quantity, name + ", error", wider_dual_), why_);
+    return solution;
+  }
+
+  std::optional<Estimate> estimate(StaticSolution& solution, const ModelRefinement& of) override {
+    if (solution.outcome != Outcome::solved) return std::nullopt;
+    if (!wider_) {
+      solution = without_goal(std::move(solution), model_, "on the mesh of higher order, " + why_);
+      return std::nullopt;
+    }
+    if (model_.output.error) estimate_errors(solution);
+    const model::Quantity& quantity = model_.tolerance->of;
+    const double J = value_of(solution, solution.increments.back(), quantity).value_or(0.0),
+                 wider = value_of(*wider_, wider_->increments.back(), quantity).value_or(0.0);
+    wanted_ = model_.tolerance->relative * std::abs(J);
+    const double quick = bar_factor * std::abs(wider - J);
+    Estimate estimate{J != 0.0 ? quick / std::abs(J) : 0.0, 0.0, false};
+    const double rounding = rounding_of(solution, solution.increments.back(), quantity, model_.solver.tolerance);
+    if (wanted_ < rounding) {
+      solution = not_reached(std::move(solution), of, below_rounding(std::max(std::abs(J), std::abs(wider)), rounding));
+      estimate.ends = true;
+      return estimate;
+    }
+    products_ = products_of({solution, *wider_, dual_, wider_dual_});
+    estimate.sum = products_.sum;
+    if (quick <= wanted_) compare_bar(solution, of, estimate);
+    return estimate;
+  }
+
+  /// Shares sum to about 1 when the bar is reached, which decides how much smaller polygons become.
+  MeshErrors errors(const StaticSolution& solution) override {
+    MeshErrors errors{solution.mesh, products_.of_parts, frozen_elements(solution, false)};
+    for (std::vector<double>& of_body : errors.shares)
+      for (double& share : of_body) share *= wanted_ > 0.0 ? bar_factor / wanted_ : 1.0;
+    return errors;
+  }
+
+  StaticSolution not_reached(StaticSolution solution, const ModelRefinement& of, const std::string& why) override {
+    add_own_bars(solution, of);
+    return without_goal(std::move(solution), model_, why);
+  }
+
+ private:
+  void estimate_errors(StaticSolution& solution) const {
+    for (std::size_t i = 0; i < solution.increments.size(); ++i)
+      solution.increments[i].error =
+          analysis::estimate(solution, solution.increments[i], *wider_, wider_->increments[i]);
+  }
+
+  void add_own_bars(StaticSolution& solution, const ModelRefinement& of) const {
+    if (solution.increments.back().quantities.empty())
+      add_bars(solution, model_, richer_values({model_, &of, nullptr}, solution, options_));
+  }
+
+  /// The quick bar is as small as wanted: whether the one of several meshes is.
+  void compare_bar(StaticSolution& solution, const ModelRefinement& of, Estimate& estimate) {
+    add_own_bars(solution, of);
+    const auto& quantities = solution.increments.back().quantities;
+    if (!quantities.empty()) {
+      estimate.error = quantities.front().relative();
+      estimate.ends = quantities.front().reached();
+    } else if (++without_bars_ == most_without_bars) {
+      solution = without_goal(std::move(solution), model_, "no error bar could be computed on two meshes");
+      estimate.ends = true;
+    }
+  }
+
+  static std::string below_rounding(double value, double rounding) {
+    if (value <= rounding)
+      return "the value is zero but for rounding errors, so that no bar is small relative to it: ask for another "
+             "number";
+    return fmt::format(
+        "the tolerance of the certificate and rounding do not allow a bar below {:.2g}: ask for a larger tolerance",
+        rounding);
+  }
+
+  /// Where no richer mesh can be made, finer ones rarely help.
+  static constexpr int most_without_bars = 2;
+
+  const model::Model& model_;
+  const Options& options_;
+  int without_bars_ = 0;
+  // Of the solution that was solved last:
+  std::optional<StaticSolution> wider_;
+  std::string why_;  // it is not there
+  std::vector<Vector> dual_, wider_dual_;
+  double wanted_ = 0.0;  // bar
+  Products products_;
+};
+
 StaticSolution refine_for_goal(const model::Model& given, const Options& options, const RefinementLimits& limits) {
   const model::Model model = with_tolerances(given);
-  const model::Quantity& quantity = model.tolerance->of;
   ModelRefinement refinement(model);
-  std::vector<RefinementPass> passes;
-  std::vector<double> sums;
-  constexpr int most_without_bars = 2;
-  int without_bars = 0;
-  std::optional<StaticSolution> last;
-  std::unique_ptr<const ModelRefinement> of_last;  // from which its mesh was made
-  const auto add_own_bars = [&](StaticSolution& solution, const ModelRefinement& from) {
-    if (solution.increments.back().quantities.empty())
-      add_bars(solution, model, richer_values({model, &from, nullptr}, solution, options));
-  };
-  const auto end = [&](StaticSolution solution) {
-    solution.model = given;
-    solution.passes = passes;
-    return solution;
-  };
-  while (true) {
-    GoalPass pass;
-    const std::string name = fmt::format("pass {}", passes.size() + 1);
-    try {
-      pass = solve_goal_pass(model, refinement.mesh(), options, name);
-    } catch (const InputError& error) {
-      if (!last) throw;
-      add_own_bars(*last, *of_last);
-      return end(without_goal(std::move(*last), model, error.diagnostics().front().message));
-    }
-    StaticSolution& solution = pass.solution;
-    if (solution.outcome != Outcome::solved) return end(std::move(solution));
-    if (!pass.wider) return end(without_goal(std::move(solution), model, "on the mesh of higher order, " + pass.why));
-    if (model.output.error)
-      for (std::size_t i = 0; i < solution.increments.size(); ++i)
-        solution.increments[i].error =
-            estimate(solution, solution.increments[i], *pass.wider, pass.wider->increments[i]);
-
-    const double J = value_of(solution, solution.increments.back(), quantity).value_or(0.0),
-                 wider = value_of(*pass.wider, pass.wider->increments.back(), quantity).value_or(0.0);
-    const double wanted = model.tolerance->relative * std::abs(J), quick = bar_factor * std::abs(wider - J);
-    const double rounding = rounding_of(solution, solution.increments.back(), quantity, model.solver.tolerance);
-    if (wanted < rounding) {
-      passes.push_back({solution.mesh.dofs(), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
-      add_own_bars(solution, refinement);
-      return end(without_goal(
-          std::move(solution), model,
-          std::max(std::abs(J), std::abs(wider)) <= rounding
-              ? "the value is zero but for rounding errors, so that no bar is small relative to it: ask for another "
-                "number"
-              : fmt::format("the tolerance of the certificate and rounding do not allow a bar below {:.2g}: ask for a "
-                            "larger tolerance",
-                            rounding)));
-    }
-    double sum = 0.0;
-    MeshErrors errors = goal_errors(pass, sum);
-    sums.push_back(sum);
-    passes.push_back({solution.mesh.dofs(), J != 0.0 ? quick / std::abs(J) : 0.0, 0, 0});
-    if (quick <= wanted) {
-      add_own_bars(solution, refinement);
-      const auto& quantities = solution.increments.back().quantities;
-      if (!quantities.empty()) passes.back().error = quantities.front().relative();
-      if (!quantities.empty() && quantities.front().reached()) return end(std::move(solution));
-      // Where no richer mesh can be made, finer ones rarely help.
-      if (quantities.empty() && ++without_bars == most_without_bars)
-        return end(without_goal(std::move(solution), model, "no error bar could be computed on two meshes"));
-    }
-
-    // Shares sum to about 1 when the bar is reached, which decides how much smaller polygons become.
-    for (std::vector<double>& of_body : errors.shares)
-      for (double& share : of_body) share *= wanted > 0.0 ? bar_factor / wanted : 1.0;
-    of_last = std::make_unique<const ModelRefinement>(refinement);
-    const RefinementPass refined = refinement.refine(errors, mark(refinement.parts(errors)));
-    passes.back().raised = refined.raised;
-    passes.back().divided = refined.divided;
-    if (const std::string obstacle = obstacle_of(sums, refinement, refined, solution.mesh, limits); !obstacle.empty()) {
-      add_own_bars(solution, *of_last);
-      return end(without_goal(std::move(solution), model, obstacle));
-    }
-    last = std::move(solution);
-  }
+  ToleranceOfNumber number(model, options);
+  StaticSolution solution = refine(number, refinement, limits);
+  solution.model = given;
+  return solution;
 }
 
 }  // namespace

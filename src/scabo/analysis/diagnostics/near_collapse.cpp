@@ -18,8 +18,8 @@ namespace {
 constexpr double worth_telling = 3.0;
 
 /// Energy that friction has dissipated before a step.
-double friction_before(const Prepared& prepared, const StaticSolution& solution, std::size_t step) {
-  for (auto increment = solution.increments.rbegin(); increment != solution.increments.rend(); ++increment)
+double friction_before(const Prepared& prepared, const std::vector<IncrementResult>& before, std::size_t step) {
+  for (auto increment = before.rbegin(); increment != before.rend(); ++increment)
     if (increment->step <= static_cast<int>(step)) return increment->energy.friction;
   return prepared.model.restart ? state_of_restart(prepared).energy.friction : 0.0;
 }
@@ -79,12 +79,12 @@ std::string farthest(const Prepared& prepared, const State& state) {
 
 }  // namespace
 
-std::string near_collapse(const Prepared& prepared, const State& state, const StaticSolution& solution,
+std::string near_collapse(const Prepared& prepared, const State& state, const std::vector<IncrementResult>& before,
                           std::size_t step) {
   if (prepared.contact.rigid_motions() == 0 || !only_loads_grow(prepared, state, step)) return {};
   double stored = std::max(state.energy.elastic, energy_at_one_node(prepared, state));
-  for (const IncrementResult& increment : solution.increments) stored = std::max(stored, increment.energy.elastic);
-  const double slid = state.energy.friction - friction_before(prepared, solution, step);
+  for (const IncrementResult& increment : before) stored = std::max(stored, increment.energy.elastic);
+  const double slid = state.energy.friction - friction_before(prepared, before, step);
   if (!(stored > 0.0) || !(slid > worth_telling * stored) || gaps_closed(prepared, state)) return {};
   return fmt::format(
       "friction has dissipated {:.2g} times the energy that the bodies store while the loads of this step grew ({}): "

@@ -16,8 +16,8 @@ namespace scabo::analysis {
 /// A sentence if, in step `step` (an index) so far, friction has dissipated several times the largest elastic energy of
 /// the run; otherwise empty. It is also empty where slips have other reasons than loads that grow on bodies at rest:
 /// prescribed displacements, temperatures or curves in this step, large slip, springs, gaps that have closed, and where
-/// supports hold every body. `solution`: the increments before this state.
-std::string near_collapse(const Prepared& prepared, const State& state, const StaticSolution& solution,
+/// supports hold every body. `before`: the increments before this state.
+std::string near_collapse(const Prepared& prepared, const State& state, const std::vector<IncrementResult>& before,
                           std::size_t step);
 
 }  // namespace scabo::analysis

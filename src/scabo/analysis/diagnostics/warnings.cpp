@@ -28,12 +28,12 @@ struct Finding {
 };
 
 /// `contact 'joint'`, or `contacts 'a', 'b' and 7 more`.
-std::string contacts_of(const StaticSolution& solution, const std::vector<Finding>& findings) {
+std::string contacts_of(const Discretisation& discretisation, const std::vector<Finding>& findings) {
   std::string text = findings.size() == 1 ? "contact " : "contacts ";
   const std::size_t named = findings.size() <= most_names + 1 ? findings.size() : most_names;
   for (std::size_t i = 0; i < named; ++i) {
     if (i > 0) text += i + 1 == findings.size() ? " and " : ", ";
-    text += fmt::format("'{}'", solution.model.contacts[findings[i].contact].name);
+    text += fmt::format("'{}'", discretisation.model.contacts[findings[i].contact].name);
   }
   return named == findings.size() ? text : text + fmt::format(" and {} more", findings.size() - named);
 }
@@ -43,9 +43,9 @@ const Finding& worst_of(const std::vector<Finding>& findings) {
                            [](const Finding& a, const Finding& b) { return a.figure < b.figure; });
 }
 
-std::string in_worst(const StaticSolution& solution, const std::vector<Finding>& findings) {
+std::string in_worst(const Discretisation& discretisation, const std::vector<Finding>& findings) {
   if (findings.size() == 1) return "";
-  return fmt::format(" in '{}'", solution.model.contacts[worst_of(findings).contact].name);
+  return fmt::format(" in '{}'", discretisation.model.contacts[worst_of(findings).contact].name);
 }
 
 /// Smallest stiffness of a material against compression.
@@ -58,11 +58,12 @@ double stiffness_of(const model::Material& material) {
 }
 
 /// The elastic bodies of a contact.
-std::vector<std::size_t> elastic_bodies(const StaticSolution& solution, std::size_t contact) {
+std::vector<std::size_t> elastic_bodies(const Discretisation& discretisation, std::size_t contact) {
   std::vector<std::size_t> bodies;
-  for (const model::Place* side : {&solution.model.contacts[contact].a, &solution.model.contacts[contact].b}) {
+  for (const model::Place* side :
+       {&discretisation.model.contacts[contact].a, &discretisation.model.contacts[contact].b}) {
     const auto body = static_cast<std::size_t>(side->body);
-    if (!solution.model.bodies[body].rigid) bodies.push_back(body);
+    if (!discretisation.model.bodies[body].rigid) bodies.push_back(body);
   }
   return bodies;
 }
@@ -71,15 +72,15 @@ std::vector<std::size_t> elastic_bodies(const StaticSolution& solution, std::siz
 struct Overlap {
   double strain = 0.0, depth = 0.0;
 };
-Overlap overlap_of(const StaticSolution& solution, std::size_t contact) {
+Overlap overlap_of(const Discretisation& discretisation, std::size_t contact) {
   Overlap overlap;
-  for (const mesh::ContactPair& pair : solution.mesh.interfaces[contact].pairs) {
+  for (const mesh::ContactPair& pair : discretisation.mesh.interfaces[contact].pairs) {
     if (pair.gap >= 0.0) continue;
     double size = std::numeric_limits<double>::infinity();
-    for (const std::size_t body : elastic_bodies(solution, contact)) {
-      if (solution.model.bodies[body].outside) continue;
+    for (const std::size_t body : elastic_bodies(discretisation, contact)) {
+      if (discretisation.model.bodies[body].outside) continue;
       double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (const Vec2& x : solution.mesh.bodies[body].nodes) {
+      for (const Vec2& x : discretisation.mesh.bodies[body].nodes) {
         low = std::min(low, x.dot(pair.normal));
         high = std::max(high, x.dot(pair.normal));
       }
@@ -137,16 +138,17 @@ void warn_of_large_strains(const StaticSolution& solution, std::vector<Warning>&
 }
 
 /// Whether the two sides of a contact touch at this gap but for rounding, or overlap.
-bool touches(const StaticSolution& solution, std::size_t contact, double gap) {
+bool touches(const Discretisation& discretisation, std::size_t contact, double gap) {
   constexpr double rounding = 1e-9;  // of the size of a body
-  const auto body = static_cast<std::size_t>(solution.model.contacts[contact].a.body);
-  return gap <= rounding * geometry::outline_size(solution.model.bodies[body].outline);
+  const auto body = static_cast<std::size_t>(discretisation.model.contacts[contact].a.body);
+  return gap <= rounding * geometry::outline_size(discretisation.model.bodies[body].outline);
 }
 
 /// Smallest gap before the first increment.
-double gap_as_drawn(const StaticSolution& solution, std::size_t contact) {
+double gap_as_drawn(const Discretisation& discretisation, std::size_t contact) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const mesh::ContactPair& pair : solution.mesh.interfaces[contact].pairs) smallest = std::min(smallest, pair.gap);
+  for (const mesh::ContactPair& pair : discretisation.mesh.interfaces[contact].pairs)
+    smallest = std::min(smallest, pair.gap);
   return smallest;
 }
 

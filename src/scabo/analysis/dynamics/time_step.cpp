@@ -180,8 +180,7 @@ StepSystem::StepSystem(const Prepared& at_rest, const std::vector<system::PartIn
       structure(
           system::structure_in_time(at_rest.structure, at_rest.model, inertia, at_rest.contact.motion, h, threads)),
       contact(condensed(at_rest, structure, threads)),
-      prepared{at_rest.model,        at_rest.mesh,  structure, contact, at_rest.force_scale, {},
-               at_rest.on_iteration, at_rest.absent} {}
+      prepared(at_rest, structure, contact) {}
 
 double kinetic_energy(const Prepared& prepared, const std::vector<system::PartInertia>& inertia,
                       const std::vector<Vector>& velocity) {

@@ -98,7 +98,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
   for (const Warning& turned : rotations_at_large_slip(prepared, reached.state))
     add(turned.kind, turned.subject, turned.text);
   const bool in_time = at.time.has_value();  // bodies may move
-  if (const std::string close = near_collapse(prepared, reached.state, solution, static_cast<std::size_t>(at.step) - 1);
+  if (const std::string close =
+          near_collapse(prepared, reached.state, solution.increments, static_cast<std::size_t>(at.step) - 1);
       !in_time && !close.empty())
     add(WarningKind::near_collapse, "", close);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())

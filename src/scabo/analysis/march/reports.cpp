@@ -69,7 +69,7 @@ IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolu
     result = timed(solution.timing.recover, [&] {
       IncrementResult of_state = described(prepared, reached.state);
       of_state.cracks = crack_results(solution, of_state);
-      of_state.edges = edge_forces(prepared, reached.state, solution);
+      of_state.edges = edge_forces(prepared, reached.state);
       return of_state;
     });
   if (reached.reason.empty() && !std::isfinite(result.energy.elastic))

@@ -56,57 +56,56 @@ NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, con
   return mode;
 }
 
-}  // namespace
-
-ModalResult solve_modal(model::Model model, const Options& options) {
-  const auto stage = [&](const std::string& what) {
-    if (options.on_stage) options.on_stage(what);
-  };
-  model::require_valid(model);
-  ModalResult result;
-  StaticSolution& structure = result.structure;
-  structure.model = std::move(model);
-  structure.model.contacts.clear();
-  result.warnings = structure.model.warnings;
-  const int count = structure.model.analysis.modes;
-
-  stage("mesh");
+/// The parts of a model, and what holds them.
+struct Parts {
+  system::Dofs dofs;
   std::vector<std::vector<system::Constraint>> constraints;
   system::ModelSprings springs;
-  system::Dofs dofs;
+};
+
+/// Meshes the model of `on` and solves its super-elements.
+Parts discretise(Discretisation& on, const Options& options, const OnStage& stage, ModalTiming& timing) {
+  stage("mesh");
+  Parts parts;
   {
-    const Stopwatch stopwatch(result.timing.mesh);
-    structure.mesh = mesh::make_mesh(structure.model);
-    dofs = system::Dofs(structure.model, structure.mesh);
-    constraints = system::constraints_of(structure.model, structure.mesh, dofs);
-    springs = system::springs_of(structure.model, structure.mesh, dofs);
+    const Stopwatch stopwatch(timing.mesh);
+    on.mesh = mesh::make_mesh(on.model);
+    parts.dofs = system::Dofs(on.model, on.mesh);
+    parts.constraints = system::constraints_of(on.model, on.mesh, parts.dofs);
+    parts.springs = system::springs_of(on.model, on.mesh, parts.dofs);
   }
-  const int threads = system::worthwhile_threads(structure.model, structure.mesh, options.threads);
-  linalg::set_blas_threads(threads);
+  on.threads = system::worthwhile_threads(on.model, on.mesh, options.threads);
+  linalg::set_blas_threads(on.threads);
   stage("super-elements");
+  const Stopwatch stopwatch(timing.super_elements);
+  on.cells = element::solve_cells(on.model, on.mesh, on.threads);
+  return parts;
+}
+
+/// Adds the modes of an elastic part, and its mass.
+void add_modes(const Parts& parts, std::size_t part, system::MassLibrary& masses, const OnStage& stage,
+               ModalResult& result) {
+  const Discretisation& on = result.structure;
+  system::Stiffness K, M;
+  stage("mass of " + parts.dofs.name_of(part, on.model));
   {
-    const Stopwatch stopwatch(result.timing.super_elements);
-    structure.cells = element::solve_cells(structure.model, structure.mesh, threads);
+    const Stopwatch stopwatch(result.timing.mass);
+    K = system::part_stiffness(on.model, on.mesh, on.cells, parts.dofs, part);
+    K.springs = parts.springs.of_part[part];
+    M = system::part_mass(on.model, on.mesh, on.cells, parts.dofs, part, masses);
   }
-  system::MassLibrary masses = system::masses_of(structure.model, threads);
-  for (std::size_t p = 0; p < dofs.parts(); ++p) {
-    if (dofs.is_rigid(p)) continue;
-    system::Stiffness K, M;
-    stage("mass of " + dofs.name_of(p, structure.model));
-    {
-      const Stopwatch stopwatch(result.timing.mass);
-      K = system::part_stiffness(structure.model, structure.mesh, structure.cells, dofs, p);
-      K.springs = springs.of_part[p];
-      M = system::part_mass(structure.model, structure.mesh, structure.cells, dofs, p, masses);
-    }
-    stage("modes of " + dofs.name_of(p, structure.model));
-    const Stopwatch stopwatch(result.timing.eigenvalues);
-    const auto translations = mass_of_translations(M);
-    for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
-    const system::NaturalModes modes = system::natural_modes(K, M, dofs.nodes(p), constraints[p], count);
-    for (Eigen::Index k = 0; k < modes.eigenvalues.size(); ++k)
-      result.modes.push_back(describe_mode(modes, k, dofs, p, translations));
-  }
+  stage("modes of " + parts.dofs.name_of(part, on.model));
+  const Stopwatch stopwatch(result.timing.eigenvalues);
+  const auto translations = mass_of_translations(M);
+  for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
+  const system::NaturalModes modes =
+      system::natural_modes(K, M, parts.dofs.nodes(part), parts.constraints[part], on.model.analysis.modes);
+  for (Eigen::Index k = 0; k < modes.eigenvalues.size(); ++k)
+    result.modes.push_back(describe_mode(modes, k, parts.dofs, part, translations));
+}
+
+/// The lowest modes of all parts.
+void keep_lowest(int count, ModalResult& result) {
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const NaturalMode& a, const NaturalMode& b) { return a.frequency < b.frequency; });
   if (static_cast<int>(result.modes.size()) > count) result.modes.resize(static_cast<std::size_t>(count));
@@ -114,6 +113,25 @@ ModalResult solve_modal(model::Model model, const Options& options) {
     result.warnings.push_back({WarningKind::few_modes, "",
                                fmt::format("the model has {} modes only, not the {} asked for: use a smaller mesh size",
                                            result.modes.size(), count)});
+}
+
+}  // namespace
+
+ModalResult solve_modal(model::Model model, const Options& options) {
+  const OnStage stage = [&](const std::string& what) {
+    if (options.on_stage) options.on_stage(what);
+  };
+  model::require_valid(model);
+  ModalResult result;
+  Discretisation& on = result.structure;
+  on.model = std::move(model);
+  on.model.contacts.clear();
+  result.warnings = on.model.warnings;
+  const Parts parts = discretise(on, options, stage, result.timing);
+  system::MassLibrary masses = system::masses_of(on.model, on.threads);
+  for (std::size_t part = 0; part < parts.dofs.parts(); ++part)
+    if (!parts.dofs.is_rigid(part)) add_modes(parts, part, masses, stage, result);
+  keep_lowest(on.model.analysis.modes, result);
   for (const NaturalMode& mode : result.modes)
     ensure(mode.residual < 1e-10, "a natural mode does not satisfy its equation");
   return result;

@@ -24,8 +24,8 @@ struct ModalTiming {
 };
 
 struct ModalResult {
-  /// Model (without contacts), mesh and super-elements, from which fields are recovered; without increments.
-  StaticSolution structure;
+  /// Model (without contacts), mesh and super-elements, from which fields are recovered.
+  Discretisation structure;
   std::vector<NaturalMode> modes;  ///< ascending frequency
   double total_mass = 0.0;         ///< of all elastic bodies
   std::vector<Warning> warnings;

@@ -298,33 +298,6 @@ void count_falling_forces(const std::vector<Vec2>& slid, const std::vector<Vec2>
   }
 }
 
-/// Another mesh with its cells in a solution, and the one before back again unless it is kept, also if the analysis is
-/// ended meanwhile.
-class OtherMesh {
- public:
-  OtherMesh(StaticSolution& solution, mesh::Mesh mesh) : solution_(solution), mesh_(std::move(mesh)) {
-    cells_ = timed(solution.timing.super_elements, [&] { return solved_cells(solution, mesh_); });
-    swap();
-  }
-  OtherMesh(const OtherMesh&) = delete;
-  OtherMesh& operator=(const OtherMesh&) = delete;
-  ~OtherMesh() {
-    if (!kept_) swap();
-  }
-  void keep() { kept_ = true; }
-
- private:
-  void swap() {
-    std::swap(solution_.mesh, mesh_);
-    std::swap(solution_.cells, cells_);
-  }
-
-  StaticSolution& solution_;
-  mesh::Mesh mesh_;
-  std::vector<element::SolvedCells> cells_;
-  bool kept_ = false;
-};
-
 /// Contact on new pairs under the same loads, with the direction of slip that is carried over and, where that is not
 /// accepted, without.
 Attempt solved_on(const Prepared& prepared, const State& start, const std::vector<CarriedPair>& carried, double astray,
@@ -446,30 +419,29 @@ std::vector<std::pair<std::size_t, std::string>> LargeSlip::slid_off(const model
   return sentences;
 }
 
-FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
-                          const State& since, State& state) {
+FoundAnew find_pairs_anew(const LargeSlip& large, const Prepared& at, const State& since, State& state,
+                          Timing& timing) {
   FoundAnew found;
-  const bool slides_off = large.overlap_changed(assembly->prepared, state);
-  const std::vector<Vec2> slid = large.motions(assembly->prepared, since, state);
+  const bool slides_off = large.overlap_changed(at, state);
+  const std::vector<Vec2> slid = large.motions(at, since, state);
   Replacing replaced;
-  replaced.placement = large.placement_of(assembly->prepared, state);
-  replaced.moved = translations(assembly->prepared, state, replaced.placement);
-  const CarriedPairs before = pairs_to_carry(assembly->prepared, state);
-  const std::vector<Vec2> forces = resultants(assembly->prepared, state), sums = sums_of(assembly->prepared, state);
+  replaced.placement = large.placement_of(at, state);
+  replaced.moved = translations(at, state, replaced.placement);
+  const CarriedPairs before = pairs_to_carry(at, state);
+  const std::vector<Vec2> forces = resultants(at, state), sums = sums_of(at, state);
 
-  auto divided = timed(solution.timing.mesh, [&] { return large.mesh_in(solution.model, replaced.placement); });
+  auto divided = timed(timing.mesh, [&] { return large.mesh_in(at.model, replaced.placement); });
   if (const auto* wrong = std::get_if<std::vector<Diagnostic>>(&divided)) {
     found.reason = "pairs were not found where the sides have moved: " + wrong->front().message;
     return found;
   }
-  OtherMesh other(solution, std::get<mesh::Mesh>(std::move(divided)));
-  std::unique_ptr<const Assembly> made = assemble(solution, {}, assembly->prepared.on_iteration);
-  const Prepared& prepared = made->prepared;
+  found.discretisation = remesh(at.discretisation, std::get<mesh::Mesh>(std::move(divided)), timing);
+  const Prepared prepared(found.discretisation, at.on_iteration);
 
   const std::vector<CarriedPair> carried = carried_to(prepared, before);
   double astray = 0.0;
   const State start = start_on(prepared, carried, state, sums, std::move(replaced), astray);
-  Attempt tried = timed(solution.timing.newton, [&] { return solved_on(prepared, start, carried, astray, found); });
+  Attempt tried = timed(timing.newton, [&] { return solved_on(prepared, start, carried, astray, found); });
   if (!found.reason.empty()) return found;
 
   State now = settled(prepared, std::move(tried.state), start, state.energy);
@@ -479,9 +451,6 @@ FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std:
     if (forces[c].norm() > 1e-9 * state.largest_force)
       found.jump = std::max(found.jump, (after[c] - forces[c]).norm() / forces[c].norm());
   state = std::move(now);
-  assembly = std::move(made);
-  other.keep();
-  ++solution.pairings;
   return found;
 }
 

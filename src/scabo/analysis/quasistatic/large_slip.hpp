@@ -22,12 +22,10 @@
 // were found is that of the mean of the forces before and after.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "scabo/analysis/quasistatic/attempt.hpp"
-#include "scabo/analysis/state/assembly.hpp"
 
 namespace scabo::analysis {
 
@@ -69,16 +67,16 @@ class LargeSlip {
 
 /// Pairs found anew in a state.
 struct FoundAnew {
-  std::string reason;  ///< why they were not; empty if they were
-  double jump = 0.0;   ///< largest change of the force of a contact, relative to it
-  int iterations = 0;  ///< of the contact solver
+  std::string reason;             ///< why they were not; empty if they were
+  Discretisation discretisation;  ///< with them
+  double jump = 0.0;              ///< largest change of the force of a contact, relative to it
+  int iterations = 0;             ///< of the contact solver
   contact::Certificate certificate;
   double residual = 0.0;
 };
 
-/// Replaces mesh, super-elements and systems of the solution, and the state by that on the new pairs; `since`: the
-/// state in which the present pairs began to slide off each other. Nothing changes if it fails.
-FoundAnew find_pairs_anew(const LargeSlip& large, StaticSolution& solution, std::unique_ptr<const Assembly>& assembly,
-                          const State& since, State& state);
+/// Replaces the state by that on new pairs; `since`: the state in which the present pairs began to slide off each
+/// other. Nothing changes if it fails.
+FoundAnew find_pairs_anew(const LargeSlip& large, const Prepared& at, const State& since, State& state, Timing& timing);
 
 }  // namespace scabo::analysis

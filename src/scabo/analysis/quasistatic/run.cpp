@@ -32,9 +32,6 @@ std::optional<LargeSlip> large_slip_of(StaticSolution& solution, const Options& 
 }  // namespace
 
 StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options& options, const GoThrough& go_through) {
-  const auto stage = [&](const char* what) {
-    if (options.on_stage) options.on_stage(what);
-  };
   const int threads = system::worthwhile_threads(model, mesh, options.threads);
   linalg::set_blas_threads(threads);
   StaticSolution solution;
@@ -42,32 +39,32 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
   solution.mesh = std::move(mesh);
   solution.threads = threads;
   solution.ranks = options.ranks;
-  Timing& timing = solution.timing;
-  if (options.from) timing = options.from->timing;
+  if (options.from) solution.timing = options.from->timing;
 
   std::optional<LargeSlip> large = large_slip_of(solution, options);
-  std::unique_ptr<const Assembly> assembly;
   try {
-    stage("super-elements");
-    solution.cells = timed(timing.super_elements, [&] { return solved_cells(solution, solution.mesh); });
-    assembly = assemble(solution, options.on_stage, options.on_iteration);
+    discretise(solution, {}, options.on_stage, solution.timing);
     if (options.on_mesh) options.on_mesh(solution);
   } catch (const EndAtOnce&) {
     if (options.from) solution.increments = options.from->increments;
     solution.warnings = options.from ? options.from->warnings : solution.model.warnings;
     interrupt(solution);
+    drop_systems(solution);
     return solution;
   }
   solution.warnings = solution.model.warnings;
   for (Warning& warning : slender_warnings(solution.model, solution.mesh))
     solution.warnings.push_back(std::move(warning));
-  for (Warning& warning : load_warnings(solution.model, assembly->structure))
+  for (Warning& warning : load_warnings(solution.model, *solution.structure))
     solution.warnings.push_back(std::move(warning));
-  Quasistatic scheme(std::move(assembly), std::move(large), options.from ? options.from->at.step : 0, solution);
-  if (go_through)
-    go_through(scheme, solution, options);
-  else
-    march(scheme, solution, options);
+  {
+    Quasistatic scheme(solution, std::move(large), options.from ? options.from->at.step : 0, options.on_iteration);
+    if (go_through)
+      go_through(scheme, solution, options);
+    else
+      march(scheme, solution, options);
+  }
+  drop_systems(solution);
   for (Warning& warning : contact_warnings(solution)) solution.warnings.push_back(std::move(warning));
   return solution;
 }

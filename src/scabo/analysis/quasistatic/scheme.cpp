@@ -27,10 +27,11 @@ void add_slid_off(const LargeSlip& large, const State& state, const IncrementRes
 
 }  // namespace
 
-Quasistatic::Quasistatic(std::unique_ptr<const Assembly> assembly, std::optional<LargeSlip> large, std::size_t step,
-                         StaticSolution& solution)
-    : solution_(solution), assembly_(std::move(assembly)), large_(std::move(large)) {
-  if (!large_) stages_.emplace(assembly_->prepared, step);
+Quasistatic::Quasistatic(StaticSolution& solution, std::optional<LargeSlip> large, std::size_t step,
+                         OnIteration on_iteration)
+    : solution_(solution), large_(std::move(large)) {
+  whole_.emplace(solution, std::move(on_iteration));
+  if (!large_) stages_.emplace(*whole_, step);
 }
 
 State Quasistatic::start() const { return solution_.model.restart ? state_of_restart(now()) : initial_state(now()); }
@@ -73,11 +74,14 @@ bool Quasistatic::mesh_is_due_at_end(const State& state) const {
 }
 
 bool Quasistatic::remesh(Reached& reached) {
-  const FoundAnew anew = find_pairs_anew(*large_, solution_, assembly_, since_, reached.state);
+  FoundAnew anew = find_pairs_anew(*large_, *whole_, since_, reached.state, solution_.timing);
   reached.iterations += anew.iterations;
   reached.reason = anew.reason;
   since_ = reached.state;
   if (!reached.reason.empty()) return false;
+  replace(solution_, std::move(anew.discretisation));
+  whole_.emplace(solution_, OnIteration(whole_->on_iteration));
+  ++solution_.pairings;
   reached.certificate = anew.certificate;
   reached.residual = anew.residual;
   ++found_->times;

@@ -2,7 +2,6 @@
 // the loads at its end, from the pairs of the accepted state at its begin.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "scabo/analysis/march/reached.hpp"
@@ -13,12 +12,11 @@ namespace scabo::analysis {
 
 class Quasistatic {
  public:
-  /// On the systems of `solution`, from step `step` on. `large`: nothing without large slip. Bodies come and go, or
-  /// pairs are found anew, which replaces the systems: not both in one model.
-  Quasistatic(std::unique_ptr<const Assembly> assembly, std::optional<LargeSlip> large, std::size_t step,
-              StaticSolution& solution);
+  /// On the discretisation of `solution`, with its systems, from step `step` on. `large`: nothing without large slip.
+  /// Bodies come and go, or pairs are found anew, which replaces the discretisation: not both in one model.
+  Quasistatic(StaticSolution& solution, std::optional<LargeSlip> large, std::size_t step, OnIteration on_iteration);
 
-  const Prepared& now() const { return stages_ ? stages_->now() : assembly_->prepared; }
+  const Prepared& now() const { return stages_ ? stages_->now() : *whole_; }
   State start() const;
   void enter(std::size_t step, State& state);
   void begin(std::size_t step, double begin, double end, const State& from);
@@ -43,7 +41,7 @@ class Quasistatic {
   };
 
   StaticSolution& solution_;
-  std::unique_ptr<const Assembly> assembly_;
+  std::optional<Prepared> whole_;  // all that is there with large slip
   std::optional<LargeSlip> large_;
   std::optional<Stages> stages_;  // without large slip
   Increment increment_;

@@ -92,7 +92,7 @@ void refer_new_parts(const Prepared& whole, const std::vector<char>& before, con
                      State& state) {
   if (whole.references.empty() || before.empty()) return;
   state.referred.resize(whole.structure.parts.size(), Vec2::Zero());
-  for (const Prepared::Reference& reference : whole.references)
+  for (const Reference& reference : whole.references)
     for (const int number : reference.parts) {
       const auto p = static_cast<std::size_t>(number);
       if (before[p] && (absent.empty() || !absent[p])) state.referred[p] = displacement_of(reference, whole, state.u);
@@ -108,8 +108,7 @@ void Stages::set(std::vector<char> absent) {
   contact_.reset();
   if (absent.empty()) return;
   contact_ = system::without_parts(whole_.contact, whole_.structure, whole_.model, absent);
-  now_.emplace(Prepared{whole_.model, whole_.mesh, whole_.structure, *contact_, whole_.force_scale, whole_.references,
-                        whole_.on_iteration, std::move(absent)});
+  now_.emplace(whole_.discretisation, *contact_, whole_.on_iteration, std::move(absent));
 }
 
 void Stages::enter(std::size_t step, State& state) {

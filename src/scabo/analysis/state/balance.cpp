@@ -36,7 +36,7 @@ Eigen::Vector3d resultant(const system::BodySystem& part, const std::vector<Vec2
 /// 1/2 R'w: half the resultant of the loads on all bodies that share a reference point, times its displacement (7.6).
 double work_on_references(const Prepared& prepared, const State& state) {
   double work = 0.0;
-  for (const Prepared::Reference& reference : prepared.references) {
+  for (const Reference& reference : prepared.references) {
     Vec2 resultant = Vec2::Zero();
     for (const int number : reference.parts) {
       const Vector& forces = state.forces[static_cast<std::size_t>(number)];
@@ -98,7 +98,7 @@ std::vector<Vector> displacements_without_motions(const Prepared& prepared, cons
   return u;
 }
 
-Vec2 displacement_of(const Prepared::Reference& reference, const Prepared& prepared, const std::vector<Vector>& u) {
+Vec2 displacement_of(const Reference& reference, const Prepared& prepared, const std::vector<Vector>& u) {
   const system::Dofs& dofs = prepared.structure.dofs;
   return reference.N * dofs.of_body(reference.body, u[dofs.part_of(reference.body)]);
 }

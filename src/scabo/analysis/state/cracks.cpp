@@ -35,11 +35,11 @@ bool in_resonance(const element::StressIntensity& factors, const std::vector<ele
 /// Cells at the tips of cracks whose faces are in contact or held, and the cracks. They are the innermost of many
 /// rings, so small that T is lost in the discretised singular field, and without the contact's tractions on their own
 /// faces.
-std::map<std::size_t, int> tips_in_rings(const StaticSolution& solution, std::size_t body) {
+std::map<std::size_t, int> tips_in_rings(const Discretisation& discretisation, std::size_t body) {
   std::map<std::size_t, int> cells;
-  const std::vector<int> cracks = mesh::cracks_with_tractions(solution.model, static_cast<int>(body));
+  const std::vector<int> cracks = mesh::cracks_with_tractions(discretisation.model, static_cast<int>(body));
   if (cracks.empty()) return cells;
-  for (const mesh::TipFace& tip : mesh::tip_faces(solution.model.bodies[body], solution.mesh.bodies[body]))
+  for (const mesh::TipFace& tip : mesh::tip_faces(discretisation.model.bodies[body], discretisation.mesh.bodies[body]))
     if (std::find(cracks.begin(), cracks.end(), tip.crack) != cracks.end()) cells[tip.cell] = tip.crack;
   return cells;
 }
@@ -49,12 +49,12 @@ struct TipTraction {
   double pressure = 0.0, shear = 0.0;                         ///< of the pairs nearest to it, in the mean; magnitudes
   contact::ContactState state = contact::ContactState::open;  ///< of the nearest one
 };
-TipTraction traction_at(const StaticSolution& solution, const IncrementResult& increment, std::size_t body, int crack,
-                        const Vec2& tip) {
+TipTraction traction_at(const Discretisation& discretisation, const IncrementResult& increment, std::size_t body,
+                        int crack, const Vec2& tip) {
   constexpr std::size_t several = 5;  // because they swing by a few per cent about their mean
   std::vector<std::pair<double, const PairResult*>> pairs;
   for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
-    const model::Place& side = solution.model.contacts[c].a;
+    const model::Place& side = discretisation.model.contacts[c].a;
     if (side.kind != model::Place::Kind::face || side.body != static_cast<int>(body) || side.index / 2 != crack)
       continue;
     for (const PairResult& pair : increment.contacts[c].pairs) pairs.emplace_back((pair.position - tip).norm(), &pair);
@@ -151,26 +151,27 @@ std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
   return warnings;
 }
 
-std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment) {
+std::vector<CrackResult> crack_results(const Discretisation& discretisation, const IncrementResult& increment) {
   std::vector<CrackResult> results;
-  for (std::size_t b = 0; b < solution.cells.size(); ++b) {
+  for (std::size_t b = 0; b < discretisation.cells.size(); ++b) {
     if (increment.is_absent(static_cast<int>(b))) continue;
-    const std::map<std::size_t, int> touching = tips_in_rings(solution, b);
-    const std::vector<int> held = mesh::cracks_held(solution.model, static_cast<int>(b));
-    for (std::size_t c = 0; c < solution.cells[b].size(); ++c) {
-      const auto& super_element = solution.cells[b][c];
+    const std::map<std::size_t, int> touching = tips_in_rings(discretisation, b);
+    const std::vector<int> held = mesh::cracks_held(discretisation.model, static_cast<int>(b));
+    for (std::size_t c = 0; c < discretisation.cells[b].size(); ++c) {
+      const auto& super_element = discretisation.cells[b][c];
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
       const std::vector<element::RadialLoad>& loads = element::loads_in(increment.fields.interior[b], c).loads;
-      const Vector u = increment.fields.displacements[b](element::dofs_of(solution.mesh.bodies[b].cells[c]));
-      results.push_back({name_of_tip(solution.model.bodies[b], solution.mesh.bodies[b].cells[c].centre),
+      const Vector u = increment.fields.displacements[b](element::dofs_of(discretisation.mesh.bodies[b].cells[c]));
+      results.push_back({name_of_tip(discretisation.model.bodies[b], discretisation.mesh.bodies[b].cells[c].centre),
                          super_element->factors(u, loads)});
       element::StressIntensity& factors = results.back().factors;
       if (!increment.fields.initial_of(b).is_zero()) factors.T_left.reset(), factors.T_right.reset();
       if (const auto tip = touching.find(c); tip != touching.end()) {
         factors.T_left.reset(), factors.T_right.reset();
-        const mesh::Cell& cell = solution.mesh.bodies[b].cells[c];
-        const Vec2& end = solution.mesh.bodies[b].nodes[static_cast<std::size_t>(cell.boundary.back().nodes.back())];
-        add_innermost_tractions(factors, traction_at(solution, increment, b, tip->second, cell.centre),
+        const mesh::Cell& cell = discretisation.mesh.bodies[b].cells[c];
+        const Vec2& end =
+            discretisation.mesh.bodies[b].nodes[static_cast<std::size_t>(cell.boundary.back().nodes.back())];
+        add_innermost_tractions(factors, traction_at(discretisation, increment, b, tip->second, cell.centre),
                                 (end - cell.centre).norm());
         const bool symmetric = super_element->held && super_element->held->mirror >= 0;
         results.back().held = !symmetric && std::find(held.begin(), held.end(), tip->second) != held.end();

@@ -2,13 +2,14 @@
 // (element/plane/stress_intensity.hpp).
 #pragma once
 
-#include "scabo/analysis/state/solution.hpp"
+#include "scabo/analysis/state/discretisation.hpp"
+#include "scabo/analysis/state/results.hpp"
 
 namespace scabo::analysis {
 
 /// One result for each bounded open super-element, from its boundary displacements and the loads inside it. Factors are
 /// not a number if a load has the exponent of a singular mode.
-std::vector<CrackResult> crack_results(const StaticSolution& solution, const IncrementResult& increment);
+std::vector<CrackResult> crack_results(const Discretisation& discretisation, const IncrementResult& increment);
 
 /// `plate.crack`; of a crack given as a path `plate.crack.start` or `plate.crack.end`.
 std::string name_of_tip(const model::Body& body, const Vec2& tip);

@@ -26,7 +26,7 @@ class SumOverEdge {
     find_other_ties();
   }
 
-  void add_stiffness(const StaticSolution& solution) {
+  void add_stiffness() {
     const system::Dofs& dofs = prepared_.structure.dofs;
     const Vector u = dofs.of_body(edge_.on.body, state_.u[dofs.part_of(edge_.on.body)]);
     for (std::size_t c = 0; c < body_.cells.size(); ++c) {
@@ -36,7 +36,7 @@ class SumOverEdge {
                            [&](int node) { return on_edge_[static_cast<std::size_t>(node)]; });
       };
       if (std::none_of(cell.boundary.begin(), cell.boundary.end(), has_node)) continue;
-      if (const auto& super_element = solution.cells[body_index()][c]) {
+      if (const auto& super_element = prepared_.discretisation.cells[body_index()][c]) {
         add_cell(element::dofs_of(cell), super_element->K(), u);
         continue;
       }
@@ -217,7 +217,7 @@ class SumOverEdge {
 
 }  // namespace
 
-std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state, const StaticSolution& solution) {
+std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state) {
   std::vector<EdgeForces> results;
   for (const model::HistoryItem& item : prepared.model.output.history) {
     const auto* edge = std::get_if<model::EdgeResultant>(&item.of);
@@ -227,7 +227,7 @@ std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state
       continue;
     }
     SumOverEdge sum(prepared, state, *edge);
-    sum.add_stiffness(solution);
+    sum.add_stiffness();
     sum.apply_loads();
     sum.apply_contacts();
     sum.apply_reactions();

@@ -12,12 +12,11 @@
 // balance with all other forces on the body to rounding, whatever the mesh.
 #pragma once
 
-#include "scabo/analysis/state/solution.hpp"
 #include "scabo/analysis/state/state.hpp"
 
 namespace scabo::analysis {
 
 /// One for each model::EdgeResultant of the history; zero where the body is absent.
-std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state, const StaticSolution& solution);
+std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state);
 
 }  // namespace scabo::analysis

@@ -80,13 +80,13 @@ DisjointSets joined_groups(const model::Model& model) {
 }
 
 /// The point of one unbounded body.
-Prepared::Reference reference_at(const model::Body& body, int number, const mesh::Mesh& mesh,
-                                 const element::SolvedSuperElement& cell) {
+Reference reference_at(const model::Body& body, int number, const mesh::Mesh& mesh,
+                       const element::SolvedSuperElement& cell) {
   const Vec2& centre = unbounded_cell(mesh.bodies[static_cast<std::size_t>(number)]).centre;
   const auto at = element::locate(cell.ring, *body.reference - centre, true);
   ensure(at.has_value(), "the reference point of an outside body lies in it");
   const Eigen::Index n = cell.K().rows();
-  Prepared::Reference reference{number, Matrix(2, n), {}};
+  Reference reference{number, Matrix(2, n), {}};
   for (Eigen::Index k = 0; k < n; ++k) {
     const Vector unit = Vector::Unit(n, k);
     const element::RadialField field(cell.solution(), cell.modes(), unit);
@@ -114,10 +114,9 @@ void take_off_pairs(const Prepared& prepared, const FieldState& fields, std::vec
 
 }  // namespace
 
-std::vector<Prepared::Reference> references_of(const model::Model& model, const mesh::Mesh& mesh,
-                                               const std::vector<element::SolvedCells>& cells,
-                                               const system::Dofs& dofs) {
-  std::vector<Prepared::Reference> references;
+std::vector<Reference> references_of(const model::Model& model, const mesh::Mesh& mesh,
+                                     const std::vector<element::SolvedCells>& cells, const system::Dofs& dofs) {
+  std::vector<Reference> references;
   const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
                                [](const model::Body& body) { return body.outside && body.reference; });
   if (!any) return references;
@@ -129,8 +128,7 @@ std::vector<Prepared::Reference> references_of(const model::Model& model, const 
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
     if (!body.outside || !body.reference || !held.insert(groups.root(b)).second) continue;
-    Prepared::Reference& made =
-        references.emplace_back(reference_at(body, static_cast<int>(b), mesh, *cells[b].front()));
+    Reference& made = references.emplace_back(reference_at(body, static_cast<int>(b), mesh, *cells[b].front()));
     std::set<int> parts;
     for (std::size_t other = 0; other < model.bodies.size(); ++other)
       if (groups.root(other) == groups.root(b)) parts.insert(static_cast<int>(dofs.part_of(static_cast<int>(other))));
@@ -142,7 +140,7 @@ std::vector<Prepared::Reference> references_of(const model::Model& model, const 
 void refer_displacements(const Prepared& prepared, const State& state, IncrementResult& result) {
   if (prepared.references.empty()) return;
   result.fields.reference_displacements.assign(prepared.model.bodies.size(), Vec2::Zero());
-  for (const Prepared::Reference& reference : prepared.references) {
+  for (const Reference& reference : prepared.references) {
     const Vec2 moved = displacement_of(reference, prepared, state.u);
     for (const int part : reference.parts) {
       const auto p = static_cast<std::size_t>(part);

@@ -15,9 +15,8 @@ std::string without_reference(const Prepared& prepared, const State& state);
 
 /// The reference points of unbounded bodies that no support and no spring holds, nor any body that contacts and ties
 /// join to them. Of several that are joined, the first in the model counts.
-std::vector<Prepared::Reference> references_of(const model::Model& model, const mesh::Mesh& mesh,
-                                               const std::vector<element::SolvedCells>& cells,
-                                               const system::Dofs& dofs);
+std::vector<Reference> references_of(const model::Model& model, const mesh::Mesh& mesh,
+                                     const std::vector<element::SolvedCells>& cells, const system::Dofs& dofs);
 
 /// Sets FieldState::reference_displacements and subtracts them from the displacements of the pairs. The nodal
 /// displacements, from which fields are recovered, are not changed. Of a body that was put in place later (stages.hpp)

@@ -34,10 +34,10 @@ bool is_named(const std::string& tip, const model::Model& model, const model::Qu
 }
 
 /// Displacement of a place in a cell, for displacements of the nodes of the cell.
-Vec2 displacement_at(const StaticSolution& solution, std::size_t b, const element::CellPlace& place, const Vector& u,
-                     const element::InteriorLoads& interior) {
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
-  if (const auto& cell = solution.cells[b][place.cell]) {
+Vec2 displacement_at(const Discretisation& discretisation, std::size_t b, const element::CellPlace& place,
+                     const Vector& u, const element::InteriorLoads& interior) {
+  const mesh::BodyMesh& mesh = discretisation.mesh.bodies[b];
+  if (const auto& cell = discretisation.cells[b][place.cell]) {
     const Vec2& centre = mesh.cells[place.cell].centre;
     const element::RadialField field(cell->solution(), cell->modes(),
                                      interior.without_particular(cell->ring, centre, u), interior.loads);
@@ -53,16 +53,16 @@ Vec2 displacement_at(const StaticSolution& solution, std::size_t b, const elemen
   return element::finite_element_values(of, u, element::Mat3::Identity(), place.natural).displacement;
 }
 
-std::vector<int> dofs_at(const StaticSolution& solution, std::size_t b, std::size_t cell) {
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
-  return solution.cells[b][cell] ? element::dofs_of(mesh.cells[cell])
-                                 : element::dofs_of(element::finite_element_of(mesh.cells[cell], mesh.nodes));
+std::vector<int> dofs_at(const Discretisation& discretisation, std::size_t b, std::size_t cell) {
+  const mesh::BodyMesh& mesh = discretisation.mesh.bodies[b];
+  return discretisation.cells[b][cell] ? element::dofs_of(mesh.cells[cell])
+                                       : element::dofs_of(element::finite_element_of(mesh.cells[cell], mesh.nodes));
 }
 
-std::optional<double> displacement_of_point(const StaticSolution& solution, const IncrementResult& increment,
+std::optional<double> displacement_of_point(const Discretisation& discretisation, const IncrementResult& increment,
                                             const model::Quantity& quantity) {
-  const auto b = static_cast<std::size_t>(bodies_of(solution.model, quantity).front());
-  const model::Body& body = solution.model.bodies[b];
+  const auto b = static_cast<std::size_t>(bodies_of(discretisation.model, quantity).front());
+  const model::Body& body = discretisation.model.bodies[b];
   if (increment.is_absent(static_cast<int>(b))) return std::nullopt;
   const Vector& u = increment.fields.displacements[b];
   Vec2 at = Vec2::Zero();
@@ -70,8 +70,9 @@ std::optional<double> displacement_of_point(const StaticSolution& solution, cons
     const Vec2 arm = quantity.at - body.outline.centroid();
     at = Vec2(u[0] - u[2] * arm.y(), u[1] + u[2] * arm.x());
   } else {
-    const auto place = element::CellLocator(solution.mesh.bodies[b], solution.cells[b]).nearest(quantity.at);
-    at = displacement_at(solution, b, place, u(dofs_at(solution, b, place.cell)),
+    const auto place =
+        element::CellLocator(discretisation.mesh.bodies[b], discretisation.cells[b]).nearest(quantity.at);
+    at = displacement_at(discretisation, b, place, u(dofs_at(discretisation, b, place.cell)),
                          element::loads_in(increment.fields.interior[b], place.cell));
   }
   return (at - increment.fields.reference_displacement(b))[quantity.component];
@@ -113,7 +114,7 @@ std::optional<double> figure_of(const element::StressIntensity& factors, const m
 
 }  // namespace
 
-std::optional<double> value_of(const StaticSolution& solution, const IncrementResult& increment,
+std::optional<double> value_of(const Discretisation& discretisation, const IncrementResult& increment,
                                const model::Quantity& quantity) {
   const auto index = static_cast<std::size_t>(std::max(quantity.index, 0));
   switch (quantity.kind) {
@@ -128,12 +129,12 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
     case Kind::spring_force:
       return increment.springs[index][quantity.component];
     case Kind::displacement:
-      return displacement_of_point(solution, increment, quantity);
+      return displacement_of_point(discretisation, increment, quantity);
     case Kind::stress_intensity:
     case Kind::t_stress:
     case Kind::energy_release:
     case Kind::corner_stress:
-      if (const CrackResult* tip = tip_of(solution.model, increment, quantity))
+      if (const CrackResult* tip = tip_of(discretisation.model, increment, quantity))
         return figure_of(tip->factors, quantity);
       return std::nullopt;
     case Kind::elastic_energy:
@@ -177,8 +178,8 @@ std::optional<double> value_of(const StaticSolution& solution, const IncrementRe
   return std::nullopt;
 }
 
-double rounding_of(const StaticSolution& solution, const IncrementResult& increment, const model::Quantity& quantity,
-                   double tolerance) {
+double rounding_of(const Discretisation& discretisation, const IncrementResult& increment,
+                   const model::Quantity& quantity, double tolerance) {
   double largest = 0.0;
   const auto take = [&](double value) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
@@ -194,12 +195,12 @@ double rounding_of(const StaticSolution& solution, const IncrementResult& increm
     case Kind::max_gap:
     case Kind::displacement:
       for (std::size_t b = 0; b < increment.fields.displacements.size(); ++b)
-        if (!solution.model.bodies[b].rigid && increment.fields.displacements[b].size() > 0)
+        if (!discretisation.model.bodies[b].rigid && increment.fields.displacements[b].size() > 0)
           take(increment.fields.displacements[b].lpNorm<Eigen::Infinity>());
       break;
     case Kind::stress_intensity:
       for (const CrackResult& crack : increment.cracks)
-        if (is_named(crack.name, solution.model, quantity)) take(crack.factors.K_I), take(crack.factors.K_II);
+        if (is_named(crack.name, discretisation.model, quantity)) take(crack.factors.K_I), take(crack.factors.K_II);
       break;
     case Kind::elastic_energy:
       take(increment.energy.elastic);
@@ -253,35 +254,35 @@ std::vector<int> in_part(const system::Dofs& dofs, int body, std::vector<int> of
   return of_body;
 }
 
-void add_displacement(const Prepared& prepared, const StaticSolution& solution, const model::Quantity& quantity,
-                      Functional& of) {
-  const int body = bodies_of(solution.model, quantity).front();
+void add_displacement(const Prepared& prepared, const model::Quantity& quantity, Functional& of) {
+  const int body = bodies_of(prepared.model, quantity).front();
   const auto b = static_cast<std::size_t>(body);
   const system::Dofs& dofs_of = prepared.structure.dofs;
   Vector& c = of.c[dofs_of.part_of(body)];
-  if (solution.model.bodies[b].rigid) {
+  if (prepared.model.bodies[b].rigid) {
     const system::BodySystem& part = *prepared.structure.parts[dofs_of.part_of(body)];
     c += system::rigid_point(quantity.at, part.reference(), part.lever()).row(quantity.component).transpose();
     return;
   }
-  const auto place = element::CellLocator(solution.mesh.bodies[b], solution.cells[b]).nearest(quantity.at);
-  const std::vector<int> dofs = in_part(dofs_of, body, dofs_at(solution, b, place.cell));
+  const auto place =
+      element::CellLocator(prepared.mesh.bodies[b], prepared.discretisation.cells[b]).nearest(quantity.at);
+  const std::vector<int> dofs = in_part(dofs_of, body, dofs_at(prepared.discretisation, b, place.cell));
   Vector unit = Vector::Zero(static_cast<Eigen::Index>(dofs.size()));
   for (Eigen::Index k = 0; k < unit.size(); ++k) {
     unit[k] = 1.0;
-    c[dofs[static_cast<std::size_t>(k)]] += displacement_at(solution, b, place, unit, {})[quantity.component];
+    c[dofs[static_cast<std::size_t>(k)]] +=
+        displacement_at(prepared.discretisation, b, place, unit, {})[quantity.component];
     unit[k] = 0.0;
   }
 }
 
-void add_stress_intensity(const Prepared& prepared, const StaticSolution& solution, const model::Quantity& quantity,
-                          Functional& of) {
+void add_stress_intensity(const Prepared& prepared, const model::Quantity& quantity, Functional& of) {
   const auto b = static_cast<std::size_t>(quantity.index);
-  const mesh::BodyMesh& mesh = solution.mesh.bodies[b];
+  const mesh::BodyMesh& mesh = prepared.mesh.bodies[b];
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto& cell = solution.cells[b][c];
+    const auto& cell = prepared.discretisation.cells[b][c];
     if (!cell || !cell->ring.is_open()) continue;
-    if (!is_named(name_of_tip(solution.model.bodies[b], mesh.cells[c].centre), solution.model, quantity)) continue;
+    if (!is_named(name_of_tip(prepared.model.bodies[b], mesh.cells[c].centre), prepared.model, quantity)) continue;
     const system::Dofs& dofs_of = prepared.structure.dofs;
     const std::vector<int> dofs = in_part(dofs_of, quantity.index, element::dofs_of(mesh.cells[c]));
     Vector& c_part = of.c[dofs_of.part_of(quantity.index)];
@@ -339,8 +340,7 @@ HeldPairs held_pairs(const Prepared& prepared, const State& state) {
 
 }  // namespace
 
-Functional derivative_of(const Prepared& prepared, const State& state, const StaticSolution& solution,
-                         const model::Quantity& quantity) {
+Functional derivative_of(const Prepared& prepared, const State& state, const model::Quantity& quantity) {
   Functional of;
   for (const auto& part : prepared.structure.parts) of.c.push_back(Vector::Zero(part->size()));
   of.r = of.c;
@@ -355,10 +355,10 @@ Functional derivative_of(const Prepared& prepared, const State& state, const Sta
       add_reaction(prepared, quantity, of);
       break;
     case Kind::displacement:
-      add_displacement(prepared, solution, quantity, of);
+      add_displacement(prepared, quantity, of);
       break;
     case Kind::stress_intensity:
-      add_stress_intensity(prepared, solution, quantity, of);
+      add_stress_intensity(prepared, quantity, of);
       break;
     case Kind::elastic_energy:
       add_energy(prepared, state, of);

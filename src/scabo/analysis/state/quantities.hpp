@@ -1,20 +1,19 @@
 // Numbers that users ask for by name (model/quantity.hpp): their values, and how they depend on the state.
 #pragma once
 
-#include "scabo/analysis/state/solution.hpp"
 #include "scabo/analysis/state/state.hpp"
 
 namespace scabo::analysis {
 
 /// The value in a converged increment with its displacements; nothing if there is none, as for a crack tip whose
 /// factors are undefined.
-std::optional<double> value_of(const StaticSolution& solution, const IncrementResult& increment,
+std::optional<double> value_of(const Discretisation& discretisation, const IncrementResult& increment,
                                const model::Quantity& quantity);
 
 /// What rounding and the tolerance of the certificate leave uncertain of the number, in its unit: `tolerance` times the
 /// largest force, displacement or stress intensity factor of the increment. Zero by symmetry is not found more exactly.
-double rounding_of(const StaticSolution& solution, const IncrementResult& increment, const model::Quantity& quantity,
-                   double tolerance);
+double rounding_of(const Discretisation& discretisation, const IncrementResult& increment,
+                   const model::Quantity& quantity, double tolerance);
 
 /// A warning for every column of the history that stays empty, because its tip is of a kind that has other figures.
 std::vector<Warning> quantity_warnings(const model::Model& model, const IncrementResult& increment);
@@ -31,8 +30,7 @@ struct Functional {
   std::vector<Vector> r;  ///< [body]; of a reaction, whose force is what the loads and contact forces leave over
   Vector c_p;             ///< 2N
 };
-Functional derivative_of(const Prepared& prepared, const State& state, const StaticSolution& solution,
-                         const model::Quantity& quantity);
+Functional derivative_of(const Prepared& prepared, const State& state, const model::Quantity& quantity);
 
 /// Displacements of the dual problem, one vector for each body: the z for which dJ = sum of z . df for all nodal forces
 /// df, while every pair keeps its accepted state: open, p = 0; stick, no relative motion; slip, no normal motion and

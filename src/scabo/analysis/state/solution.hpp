@@ -5,13 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scabo/analysis/state/discretisation.hpp"
 #include "scabo/analysis/state/results.hpp"
-#include "scabo/mesh/mesh.hpp"
-#include "scabo/model/model.hpp"
-
-namespace scabo::system {
-class Ranks;  // ranks.hpp
-}
 
 namespace scabo::analysis {
 
@@ -24,12 +19,6 @@ struct DiscreteProblem {
   double force_scale = 0.0;          ///< contact::SolverOptions::force_scale
   std::vector<int> contact_of_pair;  ///< index into Model::contacts, one for each pair of the problem
   std::vector<int> number_of_pair;   ///< PairResult::pair
-};
-
-/// Seconds.
-struct Timing {
-  double read = 0.0, mesh = 0.0, super_elements = 0.0, assemble = 0.0, factorise = 0.0, condense = 0.0, newton = 0.0,
-         recover = 0.0, write = 0.0, total = 0.0;
 };
 
 /// One pass of refinement (adaptive.hpp).
@@ -93,12 +82,10 @@ struct Mechanism {
   std::size_t most() const;
 };
 
-struct StaticSolution {
-  model::Model model;
-  mesh::Mesh mesh;
-  std::vector<element::SolvedCells> cells;  ///< [body][cell]; null for finite elements
-  /// Number of times that mesh and cells were replaced because pairs were found anew. Fields of increments before the
-  /// last time are not kept.
+/// A discretisation, and the increments on it.
+struct StaticSolution : Discretisation {
+  /// Number of times that the discretisation was replaced because pairs were found anew. Fields of increments before
+  /// the last time are not kept.
   int pairings = 0;
   std::vector<IncrementResult> increments;  ///< converged increments, then at most one that is not
   std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
@@ -106,8 +93,6 @@ struct StaticSolution {
   Outcome outcome = Outcome::solved;
   std::string reason;                  ///< if not solved
   std::optional<Mechanism> mechanism;  ///< of outcomes mechanism and collapse
-  int threads = 1;                     ///< of the analysis; worthwhile for its fields as well
-  system::Ranks* ranks = nullptr;      ///< processes among which large bodies are divided; null: this one alone
   Timing timing;
 };
 

@@ -1,4 +1,4 @@
-// What increments on one mesh have in common, and the state between two of them.
+// What increments on one mesh see of it, and the state between two of them.
 #pragma once
 
 #include <functional>
@@ -6,31 +6,40 @@
 #include <string>
 #include <vector>
 
+#include "scabo/analysis/state/discretisation.hpp"
 #include "scabo/analysis/state/results.hpp"
-#include "scabo/mesh/mesh.hpp"
-#include "scabo/model/model.hpp"
 #include "scabo/system/contact_system.hpp"
 
 namespace scabo::analysis {
 
-/// Data needed by all increments, computed once.
+using OnIteration = std::function<void(const contact::Iteration&)>;
+
+/// What increments see: a discretisation, and what of it is there at a stage of construction (stages.hpp).
 struct Prepared {
-  const model::Model& model;
-  const mesh::Mesh& mesh;
-  const system::Structure& structure;
+  /// All parts of a discretisation with its systems, which outlives this.
+  explicit Prepared(const Discretisation& of, OnIteration told = {}) : Prepared(of, *of.pairs, std::move(told), {}) {}
+  /// The parts that are there, and the pairs between them.
+  Prepared(const Discretisation& of, const system::ContactSystem& pairs, OnIteration told, std::vector<char> missing)
+      : discretisation(of), contact(pairs), on_iteration(std::move(told)), absent(std::move(missing)) {}
+  /// The same parts and pairs by other systems, without reference points (dynamics/time_step.hpp).
+  Prepared(const Prepared& of, const system::Structure& by, const system::ContactSystem& pairs)
+      : discretisation(of.discretisation),
+        structure(by),
+        contact(pairs),
+        references(none),
+        on_iteration(of.on_iteration),
+        absent(of.absent) {}
+
+  const Discretisation& discretisation;
+  const model::Model& model = discretisation.model;
+  const mesh::Mesh& mesh = discretisation.mesh;
+  const system::Structure& structure = *discretisation.structure;
   const system::ContactSystem& contact;
-  /// Largest nodal force of any load at factor 1: the scale for judging forces, also while all loads are zero.
-  double force_scale = 0.0;
-  /// Of bodies that contacts and ties join, one of them unbounded with a reference point, if no support determines
-  /// where they are.
-  struct Reference {
-    int body = 0;            ///< the unbounded one
-    Matrix N;                ///< 2 x n: displacement of the point by those of the nodes of the body
-    std::vector<int> parts;  ///< of all these bodies
-  };
-  std::vector<Reference> references;
-  std::function<void(const contact::Iteration&)> on_iteration = {};  ///< Options::on_iteration
-  std::vector<char> absent;  ///< per part: not there at this stage of construction (stages.hpp); empty: all are there
+  double force_scale = discretisation.force_scale;
+  const std::vector<Reference>& references = discretisation.references;
+  OnIteration on_iteration;  ///< Options::on_iteration
+  std::vector<char> absent;  ///< per part: not there at this stage; empty: all are there
+  static inline const std::vector<Reference> none;
 
   bool is_absent(std::size_t part) const { return !absent.empty() && absent[part] != 0; }
 };
@@ -41,7 +50,7 @@ const system::BodySystem& part_of(const Prepared& prepared, int body);
 
 /// Displacement of a reference point: the results of its bodies are relative to it, and so are the work of their loads
 /// and the elastic energy. `u`: per part.
-Vec2 displacement_of(const Prepared::Reference& reference, const Prepared& prepared, const std::vector<Vector>& u);
+Vec2 displacement_of(const Reference& reference, const Prepared& prepared, const std::vector<Vector>& u);
 
 /// Factors of loads and supports at one time, and coefficients of friction.
 struct Factors {
