@@ -8,8 +8,9 @@
 
 namespace scabo::mesh {
 
-/// Break points nearer than this fraction of the adjacent elements become opposite each other.
-constexpr double snapping = 0.1;
+/// Break points nearer than this fraction of the adjacent elements become opposite each other: 1/10, less what rounding
+/// makes of it, as beside 10 elements and 11.
+constexpr double snapping = 0.1 * (1.0 - 1e-6);
 /// Those nearer than this fraction are opposite each other already.
 constexpr double coincidence = matching_tolerance;
 
