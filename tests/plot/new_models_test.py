@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import support
 
-KINDS = ["beam", "dam", "wall", "hertz", "crack"]
+KINDS = ["beam", "dam", "wall", "hertz", "crack", "earthquake"]
 
 
 class NewModels(support.InTemporaryDirectory):
@@ -58,6 +58,18 @@ class NewModels(support.InTemporaryDirectory):
         factors = self.solve("crack")[-1]["cracks"]["plate.flaw"]
         self.assertAlmostEqual(factors["K_I"] / (2.8255 * 1e6 * math.sqrt(math.pi * 0.5)), 1.0, delta=1e-4)
         self.assertLess(abs(factors["K_II"]), 1e-6 * factors["K_I"])
+
+    def test_earthquake_leaves_the_block_at_rest_on_its_weight(self):
+        increments = self.solve("earthquake")
+        end, weight = increments[-1], 6 * 8 * 2400 * 9.81
+        self.assertAlmostEqual(end["time"], 1.5, delta=1e-12)
+        self.assertAlmostEqual(end["contacts"]["joint"]["normal_force"] / weight, 1.0, delta=1e-5)
+        energy = end["energy"]
+        spent = sum(energy[kind] for kind in
+                    ("kinetic", "elastic", "friction", "damping", "impact", "projection", "massless"))
+        self.assertAlmostEqual(spent / energy["external"], 1.0, delta=1e-9)
+        self.assertGreater(energy["friction"], 0.9 * energy["external"])
+        self.assertLess(energy["kinetic"], 1e-6 * energy["external"])
 
     def test_a_file_that_exists_is_kept(self):
         file = self.directory / "beam.yaml"
