@@ -94,7 +94,10 @@ class Results:
         return name
 
     def times(self):
-        """Time of every increment: 0 to 1 in the first step, 1 to 2 in the second."""
+        """Time of every increment: 0 to 1 in the first step, 1 to 2 in the second; of a run with steps in time its time, 0
+        before them."""
+        if any("time" in entry for entry in self.increments):
+            return np.array([entry.get("time", 0.0) for entry in self.increments])
         return np.array([entry["step"] - 1 + entry["reached"] for entry in self.increments])
 
     def table(self, name):
