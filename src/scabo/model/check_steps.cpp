@@ -101,10 +101,12 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
       const auto* table = std::get_if<CurveTable>(&curve.kind);
       if (table != nullptr && table->points.empty()) return;
       const auto together = [](const CurveTable::Point& a, const CurveTable::Point& b) { return a.at == b.at; };
-      if (table != nullptr &&
-          std::adjacent_find(table->points.begin(), table->points.end(), together) != table->points.end())
+      const bool jumps = table != nullptr && std::adjacent_find(table->points.begin(), table->points.end(), together) !=
+                                                 table->points.end();
+      if (jumps && is_dynamic(model))  // otherwise it is the curve that is wrong
         checking.error(path, "loads",
                        fmt::format("curve '{}' jumps, which a factor can only in a step in time", curve.name));
+      if (jumps) return;
       const double here = before ? (before->*factors)[i] : 0.0, begin = value_of(curve, 0.0),
                    end = value_of(curve, 1.0);
       const std::string& name = support ? model.supports[i].name : model.loads[i].name;

@@ -22,7 +22,12 @@ State full_state() {
   state.released = {Vector(), Vector::LinSpaced(4, 3.0, 4.0)};
   state.referred = {Vec2(0.1, 0.2), Vec2(0.3, 0.4)};
   state.largest_force = 11.0;
-  state.energy = {1.0, 2.0, 3.0, 4.0};
+  state.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+  state.time = 12.0;
+  state.largest_energy = 13.0;
+  state.velocity = {Vector::LinSpaced(2, 1.0, 2.0), Vector::LinSpaced(4, 3.0, 5.0)};
+  state.u = {Vector::LinSpaced(2, 0.1, 0.2), Vector::LinSpaced(4, 0.3, 0.5)};
+  state.reactions = {Vector(), Vector::LinSpaced(1, 4.0, 4.0)};
   state.replaced = {{{Vec2(1.0, 2.0), Vec2(3.0, 4.0)}, {Vec2(5.0, 6.0), Vec2(7.0, 8.0)}},
                     {Vec2(0.5, 0.6), Vec2(0.7, 0.8)},
                     Vector::LinSpaced(6, -1.0, -2.0),
@@ -47,6 +52,9 @@ TEST(FieldsOfAState, AreReadBackAsTheyWere) {
   EXPECT_EQ(other.replaced.moved, state.replaced.moved);
   EXPECT_EQ(other.factors.release, 0.25);
   EXPECT_EQ(other.energy.friction_error, 4.0);
+  EXPECT_EQ(other.energy.massless, 9.0);
+  EXPECT_EQ(other.velocity, state.velocity);
+  EXPECT_EQ(other.u, state.u);
   for (const Field& field : fields_of_state()) EXPECT_EQ(field.get(other), field.get(state)) << field.name;
 }
 

@@ -98,9 +98,10 @@ TEST(Overrides, MistakesNameTheOverride) {
   EXPECT_EQ(mistake("loads.push.force", "[0, x]"), "model.yaml: --set loads.push.force.1: must be a number, not 'x'");
   EXPECT_EQ(mistake("materials.stel.young", "1"),
             "model.yaml: --set materials.stel.young: materials has no 'stel' (did you mean 'steel'?)");
-  EXPECT_EQ(mistake("materials.steel.yuong", "1"),
-            "model.yaml: --set materials.steel.yuong: unknown key 'yuong' (available: young, poisson, density, "
-            "orthotropic, anisotropic, expansion)");
+  EXPECT_EQ(
+      mistake("materials.steel.yuong", "1"),
+      "model.yaml: --set materials.steel.yuong: unknown key 'yuong' (available: young, poisson, density, damping, "
+      "orthotropic, anisotropic, expansion)");
   EXPECT_EQ(mistake("supports.1.fix", "x"),
             "model.yaml: --set supports.1.fix: supports is a list of one entry: write 0, not '1'");
   EXPECT_EQ(
