@@ -46,6 +46,14 @@ Eigen::SparseMatrix<double> rows_in(const Eigen::SparseMatrix<double>& matrix, c
 
 }  // namespace
 
+bool has_massless_side(const InTime& in, Eigen::Index pair) {
+  const auto number = static_cast<std::size_t>(in.at_rest.contact.pairs[static_cast<std::size_t>(pair)].contact);
+  const model::Contact& contact = in.at_rest.model.contacts[number];
+  const system::Dofs& dofs = in.at_rest.structure.dofs;
+  return in.inertia[dofs.part_of(contact.a.body)].is_massless() ||
+         in.inertia[dofs.part_of(contact.b.body)].is_massless();
+}
+
 double rounding_of_gaps(const Prepared& prepared) {
   constexpr double part = 1e-10;
   double size = 0.0;
@@ -75,7 +83,7 @@ ActingPairs acting_pairs(const InTime& in, const State& from, const Factors& at_
     const auto k = static_cast<Eigen::Index>(i);
     const double gap = from.gap[k];
     const bool closes = gap + 0.5 * h * velocity[2 * k] <= none;
-    const bool carried = from.p[2 * k] != 0.0 && std::abs(gap) <= none;
+    const bool carried = from.p[2 * k] != 0.0 && (std::abs(gap) <= none || has_massless_side(in, k));
     if (closes || carried || laws.of_pair[i]->limits(from.history[i]).tension > 0.0)
       acting.places.push_back(static_cast<int>(i));
   }

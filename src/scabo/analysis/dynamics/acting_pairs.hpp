@@ -12,6 +12,11 @@ struct ActingPairs {
 /// `at_end`: the coefficients of friction.
 ActingPairs acting_pairs(const InTime& in, const State& from, const Factors& at_end);
 
+/// Whether a side of a pair has no mass. As its theta is another one, such a pair keeps a gap or an overlap below half
+/// of the way that it closes in one step while it carries a force: the gap does not tell whether it is closed, and a
+/// projection would give it energy.
+bool has_massless_side(const InTime& in, Eigen::Index pair);
+
 /// What numbers of a length may be without being a gap.
 double rounding_of_gaps(const Prepared& prepared);
 

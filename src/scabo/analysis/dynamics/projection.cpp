@@ -52,17 +52,6 @@ std::vector<Vector> drift_of(const Prepared& at_rest, const State& to, double no
   return drift;
 }
 
-/// Whether a side of a pair has no mass. Its force would gain energy from a projection, and without one the overlap of
-/// a pair stays below half of the way that it closes in one step.
-bool is_massless(const InTime& in, Eigen::Index i) {
-  const model::Contact& contact =
-      in.at_rest.model
-          .contacts[static_cast<std::size_t>(in.at_rest.contact.pairs[static_cast<std::size_t>(i)].contact)];
-  const system::Dofs& dofs = in.at_rest.structure.dofs;
-  return in.inertia[dofs.part_of(contact.a.body)].is_massless() ||
-         in.inertia[dofs.part_of(contact.b.body)].is_massless();
-}
-
 }  // namespace
 
 Vector support_values(const system::BodySystem& part, const Vector& u) {
@@ -88,10 +77,10 @@ Projection project(const InTime& in, const State& t, State& to) {
   const std::vector<Vector> drift = drift_of(in.at_rest, to, none, moves);
   std::vector<int> places;
   for (Eigen::Index i = 0; i < to.gap.size(); ++i)
-    if (to.gap[i] < -none && !is_massless(in, i)) places.push_back(static_cast<int>(i));
+    if (to.gap[i] < -none && !has_massless_side(in, i)) places.push_back(static_cast<int>(i));
   if (places.empty() && !moves) return {};
   for (Eigen::Index i = 0; i < to.gap.size(); ++i)  // closed ones as well
-    if (to.gap[i] >= -none && t.p[2 * i] > 0.0 && !is_massless(in, i)) places.push_back(static_cast<int>(i));
+    if (to.gap[i] >= -none && t.p[2 * i] > 0.0 && !has_massless_side(in, i)) places.push_back(static_cast<int>(i));
   std::sort(places.begin(), places.end());
   Projection projection;
   constexpr int rounds = 8;  // more pairs overlap once the first ones do no more
@@ -116,7 +105,7 @@ Projection project(const InTime& in, const State& t, State& to) {
     const Vector after = gaps_after(prepared, to.gap, projection.displacement);
     const std::size_t before = places.size();
     for (Eigen::Index i = 0; i < after.size(); ++i)
-      if (after[i] < -none && !is_massless(in, i) &&
+      if (after[i] < -none && !has_massless_side(in, i) &&
           !std::binary_search(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(before),
                               static_cast<int>(i)))
         places.push_back(static_cast<int>(i));

@@ -2,7 +2,8 @@
 // (docs/methods/23_dynamics.md). Its equations are those of a structure at rest whose displacements are w = h v+
 // (system/inertia.hpp), so that contact, balance and certificate are those of the static analysis:
 //
-//     a pair acts     if g + h V_n/2 <= 0, or if it carried force before and g is rounding, or if it is bonded
+//     a pair acts     if g + h V_n/2 <= 0, or if it carried force before and g is rounding, or if it is bonded; where a
+//                     side has no mass, if it carried force before
 //     of those        0 <= p_n, h V_n+ >= 0, p_n V_n+ = 0 and friction against h V_t+: contact/problem.hpp
 //     of the others   p = 0
 //
