@@ -277,6 +277,14 @@ steps: %s
         self.assertEqual(run.returncode, 1)
         self.assertIn("has no state at its end to start from", run.stderr)
 
+    def test_runs_with_steps_in_time_are_refused(self):
+        one = self.write("one.yaml", "[{name: a, loads: {weight: 1}}, {name: b, dynamic: {duration: 2e-3, step: 1e-3}}]")
+        run = scabo("run", one, "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run = scabo("check", self.write("two.yaml", "[{name: c, loads: {push: 1}}]", "restart: one.results"))
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("without steps in time, error bars and tolerances, leaves one", run.stderr)
+
 
 if __name__ == "__main__":
     support.main()

@@ -53,6 +53,25 @@ output:
 """.replace("LONG", "20" if SANITIZED else "80")
 
 
+IN_TIME = """
+scabo: 1
+title: A block on rock that the ground shakes
+analysis: {plane: strain}
+materials: {stone: {young: 2e9, poisson: 0.2, density: 2400, damping: {ratio: 0.05, between: [20, 200]}}}
+bodies:
+  rock: {material: stone, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}, mesh: {kind: fem, size: 0.25}}
+  block: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1.5]}}, mesh: {kind: fem, size: 0.25}}
+supports: [{on: rock.bottom, fix: [x, y]}]
+loads: {weight: {gravity: [0, -9.81], on: block}}
+contacts: {base: {between: [rock.top, block.bottom], friction: 0.4}}
+curves: {quake: {sine: {amplitude: 8, periods: 4}}}
+steps:
+  - {name: rest}
+  - {name: shake, dynamic: {duration: 0.5, step: 1e-3, ground: {x: quake}}, increments: LONG}
+output: {every: 10, history: {tip: block.top_left.ux, kinetic: kinetic_energy}}
+""".replace("LONG", "20" if SANITIZED else "100")
+
+
 def content(directory):
     """All files by name; of summary.json and log.txt what does not depend on the machine's speed."""
     files = {}
@@ -145,6 +164,15 @@ class Resume(unittest.TestCase):
                     process = self.start("resume", self.results, "--quiet")
             self.assert_same(whole)
         self.assertGreaterEqual(kills, KILLS)
+
+    def test_killed_between_time_steps(self):
+        self.model.write_text(IN_TIME, encoding="utf-8")
+        run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertTrue(self.killed(after_checkpoints=5))
+        run = scabo("resume", self.results, "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assert_same(content(self.directory / "whole"))
 
     def test_half_written_files_are_cut_off(self):
         whole, _ = self.unbroken()

@@ -90,6 +90,77 @@ TEST(Dynamics, IsTheSameInOtherUnitsAndTurned) {
   }
 }
 
+// A block that slides on rock under a push of the ground along x and y: sides of the contact swapped, bodies and loads
+// in another order, and mirrored, x to -x.
+TEST(Dynamics, IsTheSameSwappedMirroredAndInAnotherOrder) {
+  const auto model = [](bool swapped, bool mirrored, bool in_another_order) {
+    const std::string
+        block = fmt::format(
+            "  block: {{material: stone, shape: {{rectangle: {{corner: [{}, 0], size: [2, 1.5]}}}}, mesh: "
+            "{{kind: fem, size: 0.5, order: 2}}}}\n",
+            mirrored ? -2 : 0),
+        rock = fmt::format(
+            "  rock: {{material: stone, shape: {{rectangle: {{corner: [{}, -1], size: [4, 1]}}}}, mesh: "
+            "{{kind: fem, size: 0.5, order: 2}}}}\n",
+            mirrored ? -3 : -1);
+    return fmt::format(R"(
+scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 2e9, poisson: 0.2, density: 2400, damping: {{ratio: 0.05, between: [20, 200]}}}}}}
+bodies:
+{}{}
+supports: [{{on: rock.bottom, fix: [x, y]}}]
+loads: {{weight: {{gravity: [0, -9.81], on: block}}}}
+contacts: {{base: {{between: {}, friction: 0.4}}}}
+curves: {{along: {{sine: {{amplitude: {}, periods: 2}}}}, up: {{sine: {{amplitude: 2, periods: 3}}}}}}
+steps:
+  - {{name: rest}}
+  - {{name: shake, dynamic: {{duration: 0.3, step: 1e-3, ground: {{x: along, y: up}}}}, increments: 15}}
+solver: {{halvings: 1}}
+)",
+                       in_another_order ? rock : block, in_another_order ? block : rock,
+                       swapped ? "[block.bottom, rock.top]" : "[rock.top, block.bottom]", mirrored ? -8 : 8);
+  };
+  const StaticSolution one = run(model(false, false, false));
+  expect_balanced(one);
+  ASSERT_GT(one.increments.back().energy.friction, 100.0);
+  for (int twin = 0; twin < 3; ++twin) {
+    const StaticSolution other = run(model(twin == 0, twin == 1, twin == 2));
+    ASSERT_EQ(other.increments.size(), one.increments.size()) << other.reason;
+    const double scale = one.increments[0].contacts[0].normal_force, sign = twin == 1 ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < one.increments.size(); ++i) {
+      const IncrementResult &a = one.increments[i], &b = other.increments[i];
+      EXPECT_NEAR(b.contacts[0].normal_force, a.contacts[0].normal_force, 1e-8 * scale) << twin;
+      EXPECT_NEAR(sign * b.reactions[0].x(), a.reactions[0].x(), 1e-8 * scale) << twin;
+      EXPECT_NEAR(b.energy.friction, a.energy.friction, 1e-8 * scale) << twin;
+    }
+  }
+}
+
+// Supports on both sides of a pair move apart, which is a gap; towards each other they would press the bodies into each
+// other.
+TEST(Dynamics, SupportsDoNotPressPointsIntoEachOther) {
+  const auto model = [](double towards) {
+    return fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic}}
+materials: {{stone: {{young: 1e9, poisson: 0.2, density: 2000}}}}
+bodies:
+  low: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [1, 1]}}}}, mesh: {{size: 0.5}}}}
+  high: {{material: stone, shape: {{rectangle: {{corner: [0, 1], size: [1, 1]}}}}, mesh: {{size: 0.5}}}}
+supports:
+  - {{on: low.top, fix: [x, y]}}
+  - {{name: moving, on: high.bottom, displacement: [0, {}]}}
+contacts: {{joint: {{between: [low.top, high.bottom], friction: 0.5}}}}
+curves: {{slowly: {{table: [[0, 0], [1, 1]]}}}}
+steps: [{{dynamic: {{duration: 1, step: 0.05}}, loads: {{moving: slowly}}, increments: 2}}]
+)",
+                       towards);
+  };
+  EXPECT_EQ(run(model(0.01)).outcome, analysis::Outcome::solved);
+  EXPECT_THROW(run(model(-0.01)), InputError);
+}
+
 // A rigid block on a bed without mass, stiff enough to be rigid too, under a ground acceleration.
 std::string block_on_ground(const std::string& curve, double shaken, double step) {
   return fmt::format(R"(

@@ -11,7 +11,7 @@ from .units import Units
 LEAST = 1e-17      # drawn for a residual of zero
 MOST_CURVES = 6    # in one panel
 MOST_NAMED = 4     # increments with a mark and a name
-TIME, PAIRS = ("time, in steps", "number"), ("pairs", "number")
+PAIRS = ("pairs", "number")
 MOST_ATTEMPTS = 150  # whose residuals are drawn
 MOST_FILES = 400   # files of fields that are read for a displacement
 
@@ -121,7 +121,7 @@ def forces(results):
     title = "forces of contacts" if count <= 3 else f"forces of contacts (3 of {count}, the largest)"
     curves = [Curve(f"{short_name(name)}, {short}" if count > 1 else long, results.times(), of_contacts(results, name, key)) for name in names
               for key, short, long in (("normal_force", "n", "normal"), ("tangential_force", "t", "tangential"))]
-    return Panel(title if count else "", TIME, ("force", "force"), curves)
+    return Panel(title if count else "", (results.time_axis, "number"), ("force", "force"), curves)
 
 
 def states(results):
@@ -130,7 +130,7 @@ def states(results):
         return None
     totals = {state: np.array([sum(contact[state] for contact in entry["contacts"].values()) for entry in results.increments], dtype=float)
               for state in style.STATES}
-    return Panel("pairs of nodes", TIME, PAIRS,
+    return Panel("pairs of nodes", (results.time_axis, "number"), PAIRS,
                  [Curve(state, results.times(), total) for state, total in totals.items()])
 
 
@@ -240,14 +240,14 @@ def reactions(results):
     kept = [key for key in kept if key in sorted(kept, key=sizes.get, reverse=True)[:4]]
     curves = [Curve(f"{short_name(name)}, {'xy'[k]}", results.times(),
                     np.array([entry["reactions"][name][k] for entry in results.increments], dtype=float)) for name, k in kept]
-    return Panel("reactions", TIME, ("force", "force"), curves)
+    return Panel("reactions", (results.time_axis, "number"), ("force", "force"), curves)
 
 
 def energies(results):
     """Of summary.json."""
     curves = [Curve(name, results.times(), np.array([entry["energy"][key] for entry in results.increments], dtype=float))
               for key, name in (("external", "work of loads"), ("elastic", "elastic"), ("friction", "friction"))]
-    return Panel("energy", TIME, ("energy", "energy"), curves)
+    return Panel("energy", (results.time_axis, "number"), ("energy", "energy"), curves)
 
 
 PANELS = {"forces": forces, "states": states, "load": load_displacement, "hysteresis": hysteresis, "reactions": reactions,

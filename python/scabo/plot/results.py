@@ -93,10 +93,20 @@ class Results:
             name += f" (the last one; the run ended as {self.summary['status'].replace('_', ' ')})"
         return name
 
+    @property
+    def in_time(self):
+        """Whether the run has steps in time."""
+        return any("time" in entry for entry in self.increments)
+
+    @property
+    def time_axis(self):
+        """What the axis of times() is called."""
+        return "time" if self.in_time else "time, in steps"
+
     def times(self):
         """Time of every increment: 0 to 1 in the first step, 1 to 2 in the second; of a run with steps in time its time, 0
         before them."""
-        if any("time" in entry for entry in self.increments):
+        if self.in_time:
             return np.array([entry.get("time", 0.0) for entry in self.increments])
         return np.array([entry["step"] - 1 + entry["reached"] for entry in self.increments])
 

@@ -26,7 +26,8 @@ def content_of(results):
         "verdict": words.verdict(summary, increments), "warnings": summary.get("warnings", []), "model": model, "modal": results.modal,
         "passes": summary.get("passes", []), "timing": summary.get("timing", {}), "memory": summary.get("peak_memory_bytes"),
         "modes": summary.get("modes", []) if results.modal else [], "total_mass": summary.get("total_mass"),
-        "certificate": words.certificate(increments), "increments": [row_of(entry, number, model) for number, entry in enumerate(increments, start=1)],
+        "certificate": words.certificate(increments), "time_axis": results.time_axis,
+        "increments": [row_of(entry, number, model, results.in_time) for number, entry in enumerate(increments, start=1)],
         "failed": [{key: entry.get(key) for key in ("step", "increment", "reached", "newton_iterations", "residual")} for entry in failed],
         "cracks": cracks_of(increments), "quantities": increments[-1].get("quantities", []) if increments else [],
         "totals": totals_of(increments), "reactions": reactions_of(increments), "history": history_of(results),
@@ -38,14 +39,14 @@ def shortened(entries):
     return {"count": len(entries), "listed": entries[:MOST_LISTED]}
 
 
-def row_of(entry, number, model):
-    """One row of the table of increments."""
+def row_of(entry, number, model, in_time):
+    """One row of the table of increments; `in_time`: of a run with steps in time."""
     contacts = entry["contacts"].values()
     figures = [abs(value) for value in (entry.get("certificate") or {}).values() if isinstance(value, (int, float))]
     steps = model.get("steps", [])
     return {"number": number, "step": entry["step"], "increment": entry["increment"], "reached": entry["reached"],
             "step_name": steps[entry["step"] - 1] if entry["step"] <= len(steps) else str(entry["step"]),
-            "time": entry["step"] - 1 + entry["reached"], "factors": entry["factors"], "iterations": entry["newton_iterations"],
+            "time": entry.get("time", 0.0) if in_time else entry["step"] - 1 + entry["reached"], "factors": entry["factors"], "iterations": entry["newton_iterations"],
             "coarse": entry.get("coarse_iterations", 0), "residual": entry["residual"], "certificate": max(figures, default=None),
             "open": sum(contact["open"] for contact in contacts), "stick": sum(contact["stick"] for contact in contacts),
             "slip": sum(contact["slip"] for contact in contacts), "energy": entry.get("energy"),

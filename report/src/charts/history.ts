@@ -30,7 +30,7 @@ export class HistoryPanel {
     const times = state.content.increments.map((row) => row.time);
     const nearest = (x: number) => times.reduce((best, time, i) => (Math.abs(time - x) < Math.abs(times[best] - x) ? i : best), 0);
     this.chart = new Chart({
-      height: 300, x: "time, in steps", y: "", zero: true, legend: true, label: "Values over the increments",
+      height: 300, x: state.content.time_axis, y: "", zero: true, legend: true, label: "Values over the increments",
       press: (index) => state.set({ increment: nearest((this.group.time ?? times)[index]) + 1 }), draw: (plot) => markIncrement(plot, times[state.shown.increment - 1]),
     });
     const chooser = select("history-group", this.groups.map((group, k) => [String(k), group.name]), "0", (k) => { this.group = this.groups[Number(k)]; this.show(); });

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
+#include <string_view>
+
+#include "scabo/files/text_cursor.hpp"
 
 namespace scabo::files {
 
@@ -16,57 +18,50 @@ struct Line {
   std::string text;
 };
 
-[[noreturn]] void refuse(const std::string& file, int line, std::string message) {
-  throw InputError(file, {{{line, 0, ""}, std::move(message)}});
-}
-
 std::vector<Line> lines_of(const std::string& file) {
   std::ifstream stream(file);
-  if (!stream) refuse(file, 0, "the file of the record cannot be read");
+  if (!stream) fail_in_file(file, 0, 0, "the file of the record cannot be read");
   std::vector<Line> lines;
   constexpr int most = 10'000'000;
   for (std::string text; std::getline(stream, text);) {
-    if (static_cast<int>(lines.size()) == most) refuse(file, most, "the record has more than ten million lines");
+    if (static_cast<int>(lines.size()) == most)
+      fail_in_file(file, most, 0, "the record has more than ten million lines");
     lines.push_back({static_cast<int>(lines.size()) + 1, std::move(text)});
   }
   return lines;
 }
 
 /// Numbers of a line; nothing if something else is in it.
-std::optional<std::vector<double>> numbers_of(const std::string& text) {
+std::optional<std::vector<double>> numbers_of(std::string_view text) {
+  constexpr std::string_view separators = " \t,;\r";
   std::vector<double> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const auto separates = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r'; };
   while (true) {
-    while (at < end && separates(*at)) ++at;
-    if (at == end) return numbers;
-    if (*at == '+') ++at;
-    double value = 0.0;
-    const auto [next, code] = std::from_chars(at, end, value);
-    if (code != std::errc() || (next < end && !separates(*next)) || !std::isfinite(value)) return {};
-    numbers.push_back(value);
-    at = next;
+    const auto begin = text.find_first_not_of(separators);
+    if (begin == std::string_view::npos) return numbers;
+    text.remove_prefix(begin);
+    const std::string_view word = text.substr(0, text.find_first_of(separators));
+    if (!parse_number(word, numbers.emplace_back()) || !std::isfinite(numbers.back())) return {};
+    text.remove_prefix(word.size());
   }
 }
 
-/// The number after `key` and what of `between` follows it.
-std::optional<double> number_after(const std::string& text, const std::string& key) {
+/// The number after `key`.
+std::optional<double> number_after(std::string_view text, std::string_view key) {
   const auto found = text.find(key);
-  if (found == std::string::npos) return {};
+  if (found == std::string_view::npos) return {};
   const auto begin = text.find_first_not_of(" =\t:", found + key.size());
-  if (begin == std::string::npos) return {};
+  if (begin == std::string_view::npos) return {};
+  const std::string_view rest = text.substr(begin);
   double value = 0.0;
-  const char* const first = text.data() + begin;
-  const auto [next, code] = std::from_chars(first, text.data() + text.size(), value);
-  return code == std::errc() ? std::optional(value) : std::nullopt;
+  return parse_number(rest.substr(0, rest.find_first_not_of("+-.0123456789eEdD")), value) ? std::optional(value)
+                                                                                          : std::nullopt;
 }
 
 /// All numbers from line `first` on.
 void add_values(const std::string& file, const std::vector<Line>& lines, std::size_t first, Record& record) {
   for (std::size_t i = first; i < lines.size(); ++i) {
     const auto numbers = numbers_of(lines[i].text);
-    if (!numbers) refuse(file, lines[i].number, "must be numbers: values of the record");
+    if (!numbers) fail_in_file(file, lines[i].number, 0, "must be numbers: values of the record");
     record.values.insert(record.values.end(), numbers->begin(), numbers->end());
   }
 }
@@ -78,13 +73,15 @@ Record read_peer(const std::string& file, const std::vector<Line>& lines) {
   if (!count || !step) {
     const auto numbers = numbers_of(header.text.substr(0, header.text.find("NPTS")));
     if (!numbers || numbers->size() < 2)
-      refuse(file, header.number, "must have the number of values and their time step, as in NPTS= 4000, DT= .005 SEC");
+      fail_in_file(file, header.number, 0,
+                   "must have the number of values and their time step, as in NPTS= 4000, DT= .005 SEC");
     count = (*numbers)[0], step = (*numbers)[1];
   }
   Record record{0.0, *step, {}, "g"};
   add_values(file, lines, 4, record);
   if (static_cast<double>(record.values.size()) != *count)
-    refuse(file, header.number, fmt::format("says that {} values follow, but {} do", *count, record.values.size()));
+    fail_in_file(file, header.number, 0,
+                 fmt::format("says that {} values follow, but {} do", *count, record.values.size()));
   return record;
 }
 
@@ -100,7 +97,7 @@ Record read_k_net(const std::string& file, const std::vector<Line>& lines) {
     if (text.starts_with("Memo")) break;
   }
   if (!frequency || !(*frequency > 0.0) || !scale)
-    refuse(file, 0, "looks like a record of K-NET, but has no 'Sampling Freq(Hz)' or no 'Scale Factor'");
+    fail_in_file(file, 0, 0, "looks like a record of K-NET, but has no 'Sampling Freq(Hz)' or no 'Scale Factor'");
   Record record{0.0, 1.0 / *frequency, {}, "cm/s2"};
   add_values(file, lines, first + 1, record);
   for (double& value : record.values) value *= *scale;
@@ -117,20 +114,20 @@ Record read_table(const std::string& file, const std::vector<Line>& lines, int c
     const auto numbers = numbers_of(line.text);
     if (!numbers && times.empty()) continue;  // titles of the columns
     if (!numbers || static_cast<int>(numbers->size()) < column)
-      refuse(file, line.number,
-             fmt::format("must have {} numbers or more: the time and, in column {}, the value", std::max(2, column),
-                         column));
+      fail_in_file(file, line.number, 0,
+                   fmt::format("must have {} numbers or more: the time and, in column {}, the value",
+                               std::max(2, column), column));
     times.push_back((*numbers)[0]);
     record.values.push_back((*numbers)[static_cast<std::size_t>(column) - 1]);
     const std::size_t n = times.size();
     if (n == 2) record.step = times[1] - times[0];
     if (n < 2) continue;
     const double step = times[n - 1] - times[n - 2];
-    if (!(step > 0.0)) refuse(file, line.number, "times must be ascending");
+    if (!(step > 0.0)) fail_in_file(file, line.number, 0, "times must be ascending");
     if (std::abs(step - record.step) > unequal * record.step)
-      refuse(file, line.number,
-             fmt::format("the time step is {:.6g} here and {:.6g} before: a record has equal steps and no gaps", step,
-                         record.step));
+      fail_in_file(file, line.number, 0,
+                   fmt::format("the time step is {:.6g} here and {:.6g} before: a record has equal steps and no gaps",
+                               step, record.step));
   }
   if (times.size() > 1) {
     record.begin = times.front();
@@ -154,8 +151,8 @@ Record read_record(const std::string& file, int column) {
   Record record = is_peer    ? read_peer(file, lines)
                   : is_k_net ? read_k_net(file, lines)
                              : read_table(file, lines, column);
-  if (record.values.size() < 2) refuse(file, 0, "has no record: two values or more are needed");
-  if (!(record.step > 0.0)) refuse(file, 0, "has a time step that is not positive");
+  if (record.values.size() < 2) fail_in_file(file, 0, 0, "has no record: two values or more are needed");
+  if (!(record.step > 0.0)) fail_in_file(file, 0, 0, "has a time step that is not positive");
   return record;
 }
 

@@ -50,10 +50,10 @@ void read_restart(Reading& reading, const Value& value) {
   const NodePtr root =
       stream.is_open() && fs::exists(directory / state_at_end_file, error) ? parse_yaml(text, mistakes) : NodePtr();
   if (!root || root->kind != Node::Kind::map || !mistakes.empty()) {
-    reading.report.error(value,
-                         fmt::format("{} has no state at its end to start from: only a static run that was "
-                                     "solved, without error bars, tolerances and large slip, leaves one; run it again",
-                                     quoted_name(*name)));
+    reading.report.error(
+        value, fmt::format("{} has no state at its end to start from: only a run at rest that was solved, without "
+                           "steps in time, error bars and tolerances, leaves one; run it again",
+                           quoted_name(*name)));
     return;
   }
   Restart restart;

@@ -134,6 +134,10 @@ void check_dynamic_step(Checking& checking, const std::string& path, const Step&
     checking.error(path, "dynamic.step",
                    fmt::format("must be at most the duration, {}, not {}", number_text(dynamic.duration),
                                number_text(*dynamic.step)));
+  else if (dynamic.step && known && dynamic.duration > limits::time_steps * *dynamic.step)
+    checking.error(path, "dynamic.step",
+                   fmt::format("must be at least {:.3g}, so that there are at most {:.0e} time steps, not {}",
+                               dynamic.duration / limits::time_steps, limits::time_steps, number_text(*dynamic.step)));
   if (step.automatic)
     checking.error(path, "increments",
                    "of a step in time must be a number: that of the times at which results are written; its time steps "
@@ -192,6 +196,14 @@ void check_with_steps_in_time(Checking& checking) {
         {}, model.tolerance ? "tolerance" : "output",
         "an error bar needs finer meshes, on which steps in time are not repeated: leave it out, and halve 'size' and "
         "'step' to compare");
+  for (const HistoryItem& item : model.output.history)
+    if (std::holds_alternative<EdgeResultant>(item.of))
+      refuse(
+          item.source, "output.history." + item.name,
+          "is the sum over an edge, which steps in time do not have, as inertia acts there too: ask for a section, a "
+          "contact or a reaction");
+  if (model.output.discrete_problems)
+    refuse({}, "output.discrete_problems", "is for quasi-static increments: leave it out with steps in time");
   if (model.solver.uniqueness)
     refuse({}, "solver.uniqueness", "is a question to quasi-static increments: leave it out with steps in time");
 }

@@ -8,6 +8,7 @@ struct Range {
   long least, most;
 };
 
+constexpr double time_steps = 1e8;            ///< of a step in time, at most
 constexpr Range modes{1, 1000};               ///< of a modal analysis
 constexpr Range iterations{1, 10'000};        ///< Newton iterations in one attempt
 constexpr Range halvings{0, 30};              ///< of an increment

@@ -119,6 +119,7 @@ struct Estimate {
   const mesh::Mesh& mesh;
   const CostConstants& costs;
   std::vector<double> pairs;  // of each body
+  double solutions = 1.0;     // increments and time steps
   double written = 0.0;       // fields of bodies, how many times
   // Of one factor of the bodies joined at their pairs:
   double joined_bytes = 0.0, joined_seconds = 0.0;
@@ -193,7 +194,7 @@ void add_cells(Estimate& estimate, std::size_t b, double n, double k, Plan& plan
   if (k > 0.0)
     plan.condense +=
         costs.sweep_seconds * n + costs.condense_seconds * k * std::sqrt(n) + costs.flexibility_seconds * k * k;
-  plan.contact += 2.0 * plan.increments * costs.solve_seconds * n * log2_of(n);
+  plan.contact += 2.0 * estimate.solutions * costs.solve_seconds * n * log2_of(n);
 }
 
 /// The contact problems. W has a block for each body, dense within it; the systems of Newton's method are as sparse.
@@ -205,16 +206,16 @@ void add_contact(const Estimate& estimate, Plan& plan) {
     if (!estimate.model.bodies[b].rigid) blocks += 4.0 * estimate.pairs[b] * estimate.pairs[b];
   if (components > system::most_formed && blocks > system::most_filled * components * components) {
     plan.bytes += estimate.joined_bytes;
-    plan.contact += costs.joined_iterations * plan.increments * estimate.joined_seconds;
+    plan.contact += costs.joined_iterations * estimate.solutions * estimate.joined_seconds;
     return;
   }
   plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
   const bool many_bodies = width < 0.5 * components;                          // W and the systems are sparse
   if (many_bodies) plan.bytes += costs.wall_bytes * components * width;
-  const double iterations = costs.wall_first_iterations + costs.wall_iterations * (plan.increments - 1);
+  const double iterations = costs.wall_first_iterations + costs.wall_iterations * (estimate.solutions - 1.0);
   plan.contact += many_bodies ? iterations * costs.wall_seconds * components * width
-                              : plan.increments * costs.contact_seconds * components * components;
+                              : estimate.solutions * costs.contact_seconds * components * components;
 }
 
 }  // namespace
@@ -224,7 +225,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
   plan.sizes = sizes_of(model, mesh);
   plan.increments = increments_of(model);
   plan.bytes = costs.base_bytes;
-  Estimate estimate{model, mesh, costs, pairs_of_bodies(model, mesh)};
+  Estimate estimate{model, mesh, costs, pairs_of_bodies(model, mesh), solutions_of(model, mesh)};
   if (model.output.fields.any_of_bodies())
     estimate.written = std::ceil(static_cast<double>(plan.increments) / model.output.every);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -241,6 +242,7 @@ Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConsta
     plan.fields += estimate.written * (fem ? costs.fem_field_seconds : costs.field_seconds) * n;
   }
   add_contact(estimate, plan);
+  if (model::is_dynamic(model)) plan.factorise *= 2.0, plan.condense *= 2.0;  // at rest, and of a time step
   return plan;
 }
 

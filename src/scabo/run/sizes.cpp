@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/analysis/dynamics/scheme.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/system/structure.hpp"
 
@@ -79,6 +80,14 @@ int increments_of(const model::Model& model) {
   int increments = 0;
   for (const model::Step& step : model.steps) increments += model::expected_increments(step);
   return increments;
+}
+
+double solutions_of(const model::Model& model, const mesh::Mesh& mesh) {
+  double solutions = 0.0;
+  for (const model::Step& step : model.steps)
+    solutions += step.dynamic ? std::ceil(step.dynamic->duration / analysis::longest_time_step(model, mesh, step))
+                              : model::expected_increments(step);
+  return solutions;
 }
 
 }  // namespace scabo::run

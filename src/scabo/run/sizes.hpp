@@ -28,4 +28,7 @@ std::string describe_sizes(const Sizes& sizes);
 /// Increments of all steps together.
 int increments_of(const model::Model& model);
 
+/// How many problems are solved: increments, of steps in time the time steps.
+double solutions_of(const model::Model& model, const mesh::Mesh& mesh);
+
 }  // namespace scabo::run

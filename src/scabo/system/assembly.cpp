@@ -296,7 +296,7 @@ Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
       stiffness.rounding = std::max(stiffness.rounding, rounding_of(cells[static_cast<std::size_t>(body)]));
     stiffness.sparse = stiffness_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), threads);
   }
-  stiffness.unbounded = dofs.is_unbounded(part);
+  stiffness.resists_rigid_motions = dofs.is_unbounded(part);
   return stiffness;
 }
 

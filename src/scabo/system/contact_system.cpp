@@ -182,22 +182,6 @@ std::vector<T> selected(const std::vector<T>& all, const std::vector<int>& which
   return some;
 }
 
-/// Rows and columns of a sparse matrix; row_place and column_place: the new number of each, -1: left out.
-Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& row_place,
-                                     const std::vector<int>& column_place, Eigen::Index rows, Eigen::Index columns) {
-  Triplets entries;
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
-    const int to = column_place.empty() ? static_cast<int>(column) : column_place[static_cast<std::size_t>(column)];
-    if (to < 0) continue;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
-      if (const int row = row_place[static_cast<std::size_t>(it.row())]; row >= 0)
-        entries.emplace_back(row, to, it.value());
-  }
-  Eigen::SparseMatrix<double> block(rows, columns);
-  block.setFromTriplets(entries.begin(), entries.end());
-  return block;
-}
-
 /// Which pairs have both parts, and the new number of each of their two rows, -1 of the others.
 std::vector<int> pairs_there(const std::vector<ContactSystem::Pair>& pairs, const Structure& structure,
                              const model::Model& model, const std::vector<char>& absent, std::vector<int>& row_place) {
@@ -214,10 +198,37 @@ std::vector<int> pairs_there(const std::vector<ContactSystem::Pair>& pairs, cons
 
 }  // namespace
 
+Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& row_place,
+                                     const std::vector<int>& column_place, Eigen::Index rows, Eigen::Index columns) {
+  Triplets entries;
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    const int to = column_place.empty() ? static_cast<int>(column) : column_place[static_cast<std::size_t>(column)];
+    if (to < 0) continue;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
+      if (const int row = row_place[static_cast<std::size_t>(it.row())]; row >= 0)
+        entries.emplace_back(row, to, it.value());
+  }
+  Eigen::SparseMatrix<double> block(rows, columns);
+  block.setFromTriplets(entries.begin(), entries.end());
+  return block;
+}
+
+contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& place) {
+  std::vector<int> rows;
+  for (std::size_t row = 0; row < place.size(); ++row)
+    if (place[row] >= 0) rows.push_back(static_cast<int>(row));
+  const auto kept = static_cast<Eigen::Index>(rows.size());
+  if (rows.empty()) return {};
+  if (W.is_sparse()) return contact::Delassus(block_of(W.sparse(), place, place, kept, kept));
+  if (const contact::PairHolder* holder = W.is_dense() ? nullptr : W.holder())
+    if (Matrix block = holder->flexibility(rows); block.rows() == kept) return block;
+  return Matrix(W.dense()(rows, rows));
+}
+
 ContactSystem without_parts(const ContactSystem& whole, const Structure& structure, const model::Model& model,
                             const std::vector<char>& absent) {
   ContactSystem system;
-  std::vector<int> place, held_place, rigid_place(static_cast<std::size_t>(whole.rigid_motions()), -1), rows;
+  std::vector<int> place, held_place, rigid_place(static_cast<std::size_t>(whole.rigid_motions()), -1);
   const std::vector<int> there = pairs_there(whole.pairs, structure, model, absent, place),
                          held = pairs_there(whole.held, structure, model, absent, held_place);
   system.pairs = selected(whole.pairs, there);
@@ -233,11 +244,7 @@ ContactSystem without_parts(const ContactSystem& whole, const Structure& structu
     for (Eigen::Index k = 0; !absent[p] && k < structure.parts[p]->rigid_motions().cols(); ++k)
       rigid_place[static_cast<std::size_t>(whole.first_rigid[p] + k)] = columns++;
   }
-  for (std::size_t row = 0; row < place.size(); ++row)
-    if (place[row] >= 0) rows.push_back(static_cast<int>(row));
-  if (!there.empty())
-    system.W = whole.W.is_sparse() ? contact::Delassus(block_of(whole.W.sparse(), place, place, kept, kept))
-                                   : contact::Delassus(Matrix(whole.W.dense()(rows, rows)));
+  system.W = block_of(whole.W, place);
   system.G = contact::RigidMap(block_of(whole.G.sparse(), place, rigid_place, kept, columns));
   system.gap.resize(static_cast<Eigen::Index>(there.size()));
   system.laws.of_pair = selected(whole.laws.of_pair, there);

@@ -37,6 +37,13 @@ struct ContactSystem {
 /// The parts on up to `threads` threads.
 ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads = 1);
 
+/// Rows and columns of a matrix of pairs; row_place and column_place: the new number of each, -1: left out. Without
+/// `column_place` all columns.
+Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& row_place,
+                                     const std::vector<int>& column_place, Eigen::Index rows, Eigen::Index columns);
+/// The same rows and columns of W, without its holder.
+contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& place);
+
 /// What is left of a system where some parts are absent: the pairs between parts that are there, in their order and
 /// with their numbers, and the rigid motions of these parts; `absent`: one for each part. W is a sum over parts, and a
 /// part contributes only to its own pairs, so that a block of W is exact.

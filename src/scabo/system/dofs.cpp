@@ -60,6 +60,13 @@ std::string Dofs::name_of(std::size_t part, const model::Model& model) const {
   return (bodies.size() == 1 ? "body " : "the tied bodies ") + names;
 }
 
+Vector Dofs::translation(std::size_t part, int component) const {
+  Vector u = Vector::Zero(size(part));
+  const Eigen::Index nodes = parts_[part].rigid ? 1 : static_cast<Eigen::Index>(parts_[part].nodes.size());
+  for (Eigen::Index node = 0; node < nodes; ++node) u[components_.of(node, component)] = 1.0;
+  return u;
+}
+
 std::vector<int> Dofs::of(int body, std::span<const int> nodes) const {
   std::vector<int> numbers;
   numbers.reserve(static_cast<std::size_t>(components_.count(nodes.size())));

@@ -35,6 +35,9 @@ class Dofs {
   /// `body 'upper'`, or `the tied bodies 'wall', 'base'`; of many the first four, and how many others.
   std::string name_of(std::size_t part, const model::Model& model) const;
 
+  /// Displacements of a part that moves by 1 along x (component 0) or y (1).
+  Vector translation(std::size_t part, int component) const;
+
   /// Number of a node of an elastic body in its part.
   int node_in_part(int body, int node) const {
     const std::vector<int>& number = numbers_[static_cast<std::size_t>(body)];

@@ -32,7 +32,7 @@ ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const std::vector<V
 
 void ElasticBody::find_rigid_motions(const std::vector<Vec2>& nodes) {
   rigid_coordinates_ = free_motions(nodes, constraints_, stiffness().springs.directions, reference_, lever_);
-  if (stiffness().unbounded) rigid_coordinates_ = Matrix::Zero(3, 0);
+  if (stiffness().resists_rigid_motions) rigid_coordinates_ = Matrix::Zero(3, 0);
   rigid_motions_.resize(size(), rigid_coordinates_.cols());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     rigid_motions_.middleRows<2>(place_of(i)) = rigid_point(nodes[i], reference_, lever_) * rigid_coordinates_;
@@ -292,7 +292,7 @@ double ElasticBody::elastic_energy(const Vector& u, const Vector& f, const Vecto
 
 double ElasticBody::energy_lost(const Vector& u) const {
   // An estimate: digits that the rigid motions take from it do not count.
-  const Vector strained = stiffness().unbounded ? u : motions_.taken_out_of(u);
+  const Vector strained = stiffness().resists_rigid_motions ? u : motions_.taken_out_of(u);
   const double largest = strained.lpNorm<Eigen::Infinity>();
   if (!(largest > 0.0)) return 0.0;
   const Vector square = (strained / largest).cwiseAbs2();  // the fourth power of a displacement may overflow

@@ -5,6 +5,7 @@
 #include "scabo/base/components.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/system/assembly.hpp"
+#include "scabo/system/joined_bodies.hpp"
 
 namespace scabo::system {
 
@@ -34,7 +35,7 @@ Stiffness stiffness_in_time(const PartInertia& part, double h) {
   const double of_K = part.theta * part.theta, of_C = part.theta / h, of_M = 1.0 / (h * h);
   Stiffness made;
   made.rounding = part.K.rounding;
-  made.unbounded = true;  // no motion is free
+  made.resists_rigid_motions = true;  // no motion is free
   if (part.K.dense) {
     Matrix A = of_K * *part.K.dense + of_M * *part.M.dense;
     if (part.C) A += of_C * *part.C->dense;
@@ -62,14 +63,6 @@ std::unique_ptr<BodySystem> rigid_in_time(const BodySystem& part, const PartIner
     springs.directions = inertia.K.springs.directions;
   std::string contradiction;
   return rigid_body(at, part.lever(), part.constraints(), std::move(springs), contradiction);
-}
-
-/// Degrees of freedom that pairs touch, ascending.
-std::vector<int> touched(const Eigen::SparseMatrix<double>& motion) {
-  std::vector<int> dofs;
-  for (Eigen::Index dof = 0; dof < motion.cols(); ++dof)
-    if (motion.outerIndexPtr()[dof] < motion.outerIndexPtr()[dof + 1]) dofs.push_back(static_cast<int>(dof));
-  return dofs;
 }
 
 }  // namespace
@@ -117,9 +110,9 @@ Structure structure_in_time(const Structure& structure, const model::Model& mode
     }
     elastic.push_back(p);
     parts.push_back({stiffness_in_time(inertia[p], h), structure.dofs.nodes(p), structure.parts[p]->constraints(),
-                     touched(motion[p])});
+                     touched_part(motion[p]).dofs});
     // Without mass and supports it is as free as it is at rest.
-    if (inertia[p].theta == 1.0) parts.back().stiffness.unbounded = structure.dofs.is_unbounded(p);
+    if (inertia[p].theta == 1.0) parts.back().stiffness.resists_rigid_motions = structure.dofs.is_unbounded(p);
   }
   linalg::SparseOptions options;
   if (model.solver.factorisation == model::Factorisation::mumps) options.library = linalg::SparseLibrary::mumps;

@@ -74,14 +74,14 @@ Eigen::Vector3d NodalRigidMotions::resultants_of(const Vector& forces) const {
 bool is_large(const Stiffness& stiffness) { return stiffness.size() >= 20000; }
 
 bool by_differences(const Stiffness& stiffness) {
-  return is_large(stiffness) && !stiffness.unbounded && !stiffness.divided && !stiffness.dense;
+  return is_large(stiffness) && !stiffness.resists_rigid_motions && !stiffness.divided && !stiffness.dense;
 }
 
 Vector internal_forces(const Stiffness& stiffness, const NodalRigidMotions& motions, Vector u) {
   if (by_differences(stiffness))
     return forces_left(stiffness, motions, linalg::twofold(u), Vector::Zero(u.size()), Product::by_differences);
   const Vector springs = stiffness.springs.none() ? Vector() : stiffness.springs.times(u);
-  if (!stiffness.unbounded) {
+  if (!stiffness.resists_rigid_motions) {
     auto by_node = u.reshaped(2, u.size() / 2);
     const Vec2 mean = by_node.rowwise().mean();
     by_node.colwise() -= mean;
@@ -95,7 +95,7 @@ Vector forces_left(const Stiffness& stiffness, const NodalRigidMotions& motions,
                    const Vector& f, Product product, double* rounding) {
   linalg::TwofoldVector springs;
   if (!stiffness.springs.none()) springs = linalg::product(stiffness.springs.matrix, u);
-  if (!stiffness.unbounded) motions.take_out_of(u);
+  if (!stiffness.resists_rigid_motions) motions.take_out_of(u);
   linalg::TwofoldVector forces;
   if (product == Product::by_differences) {
     const ForcesByDifferences found = forces_by_differences(stiffness.sparse, u);
@@ -104,7 +104,7 @@ Vector forces_left(const Stiffness& stiffness, const NodalRigidMotions& motions,
   } else {
     forces = stiffness.times(u);
   }
-  if (!stiffness.unbounded) motions.take_out_of(forces);
+  if (!stiffness.resists_rigid_motions) motions.take_out_of(forces);
   for (std::size_t i = 0; i < springs.size(); ++i) forces[i] = forces[i] + springs[i];
   Vector left(stiffness.size());
   for (std::size_t i = 0; i < forces.size(); ++i) {

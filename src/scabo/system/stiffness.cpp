@@ -73,7 +73,7 @@ bool equal(const linalg::SparseMatrix& a, const linalg::SparseMatrix& b) {
 }  // namespace
 
 bool equal(const Stiffness& a, const Stiffness& b) {
-  if (a.unbounded != b.unbounded || !equal(a.springs.matrix, b.springs.matrix)) return false;
+  if (a.resists_rigid_motions != b.resists_rigid_motions || !equal(a.springs.matrix, b.springs.matrix)) return false;
   if (a.divided || b.divided) return a.divided == b.divided;
   if (a.dense || b.dense) return a.dense == b.dense;
   return a.rounding == b.rounding && equal(a.sparse, b.sparse);

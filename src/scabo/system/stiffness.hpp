@@ -34,7 +34,8 @@ struct Stiffness {
   linalg::SparseMatrix sparse;
   std::shared_ptr<const DividedStiffness> divided = {};
   double rounding = std::numeric_limits<double>::epsilon();  ///< relative error of its entries
-  bool unbounded = false;  ///< of a domain that reaches to infinity, which holds it: no rigid motion is free
+  bool resists_rigid_motions =
+      false;  ///< no rigid motion is free: it reaches to infinity, or has inertia (inertia.hpp)
   Springs springs = {};
 
   Eigen::Index size() const;

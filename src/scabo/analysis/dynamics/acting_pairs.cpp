@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include "scabo/analysis/state/loads.hpp"
-#include "scabo/contact/pair_operator.hpp"
+#include "scabo/analysis/state/pair_motions.hpp"
 
 namespace scabo::analysis {
 
 namespace {
-
-/// Relative motions of all pairs under the vectors of all parts.
-Vector motion_of(const Prepared& prepared, const std::vector<Vector>& of_parts) {
-  Vector motion = Vector::Zero(static_cast<Eigen::Index>(2 * prepared.contact.pairs.size()));
-  for (std::size_t p = 0; p < of_parts.size(); ++p)
-    if (!prepared.is_absent(p)) motion += prepared.contact.motion[p] * of_parts[p];
-  return motion;
-}
 
 std::vector<int> rows_of(const std::vector<int>& places) {
   std::vector<int> rows;
@@ -25,23 +17,16 @@ std::vector<int> rows_of(const std::vector<int>& places) {
   return rows;
 }
 
-/// Rows of a sparse matrix, and columns if it is `square`.
-Eigen::SparseMatrix<double> rows_in(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& rows,
-                                    bool square) {
-  std::vector<int> place(static_cast<std::size_t>(matrix.rows()), -1);
+/// Of each of `count` rows its number among those of some pairs, -1: of another pair.
+std::vector<int> places_of_rows(const std::vector<int>& places, Eigen::Index count) {
+  const std::vector<int> rows = rows_of(places);
+  std::vector<int> place(static_cast<std::size_t>(count), -1);
   for (std::size_t k = 0; k < rows.size(); ++k) place[static_cast<std::size_t>(rows[k])] = static_cast<int>(k);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
-    const int to = square ? place[static_cast<std::size_t>(column)] : static_cast<int>(column);
-    if (to < 0) continue;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
-      if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0)
-        entries.emplace_back(row, to, it.value());
-  }
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Eigen::SparseMatrix<double> block(n, square ? n : matrix.cols());
-  block.setFromTriplets(entries.begin(), entries.end());
-  return block;
+  return place;
+}
+
+Eigen::Index rows_of_all(const Prepared& prepared) {
+  return 2 * static_cast<Eigen::Index>(prepared.contact.pairs.size());
 }
 
 }  // namespace
@@ -63,21 +48,23 @@ double rounding_of_gaps(const Prepared& prepared) {
 
 Vector entries_of(const Vector& of_pairs, const std::vector<int>& places) { return of_pairs(rows_of(places)); }
 
-contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& places) {
-  if (2 * static_cast<Eigen::Index>(places.size()) == W.size()) return W;
-  const std::vector<int> rows = rows_of(places);
-  if (W.is_sparse()) return contact::Delassus(rows_in(W.sparse(), rows, true));
-  if (W.is_dense()) return Matrix(W.factor() * W.matrix()(rows, rows));
-  if (const contact::PairHolder* holder = W.holder())
-    if (Matrix block = holder->flexibility(rows); block.rows() == static_cast<Eigen::Index>(rows.size())) return block;
-  return Matrix(W.dense()(rows, rows));
+contact::Problem problem_of(const Prepared& prepared, const std::vector<int>& places) {
+  contact::Problem problem;
+  const auto rows = static_cast<Eigen::Index>(2 * places.size()), all = rows_of_all(prepared);
+  const std::vector<int> place = places_of_rows(places, all);
+  problem.W = rows == all ? prepared.contact.W : system::block_of(prepared.contact.W, place);
+  problem.G = contact::RigidMap(
+      system::block_of(prepared.contact.G.sparse(), place, {}, rows, prepared.contact.rigid_motions()));
+  problem.q = Vector::Zero(rows);
+  problem.f = Vector::Zero(prepared.contact.rigid_motions());
+  return problem;
 }
 
 ActingPairs acting_pairs(const InTime& in, const State& from, const Factors& at_end) {
   const Prepared& prepared = in.at_rest;
   ActingPairs acting;
   const double none = rounding_of_gaps(prepared), h = in.system.size;
-  const Vector velocity = motion_of(prepared, from.velocity);
+  const Vector velocity = motion_under(prepared.contact.motion, from.velocity, rows_of_all(prepared));
   const contact::JointLaws laws = laws_at(prepared, at_end);
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -92,27 +79,12 @@ ActingPairs acting_pairs(const InTime& in, const State& from, const Factors& at_
   return acting;
 }
 
-contact::RigidMap block_of(const contact::RigidMap& G, const std::vector<int>& places) {
-  return contact::RigidMap(rows_in(G.sparse(), rows_of(places), false));
-}
-
 contact::Problem pose(const ActingPairs& pairs, const Prepared& prepared, const State& t) {
-  contact::Problem problem;
-  problem.W = block_of(prepared.contact.W, pairs.places);
-  problem.G = block_of(prepared.contact.G, pairs.places);
-  problem.f = Vector::Zero(prepared.contact.rigid_motions());
-  std::vector<Vector> free;
-  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
-    const system::BodySystem& part = *prepared.structure.parts[p];
-    if (prepared.is_absent(p)) {
-      free.push_back(Vector::Zero(part.size()));
-      continue;
-    }
-    free.push_back(part.displacement(t.forces[p], t.prescribed[p]));
-    problem.f.segment(prepared.contact.first_rigid[p], part.rigid_motions().cols()) =
-        part.rigid_motions().transpose() * t.forces[p];
-  }
-  problem.q = entries_of(motion_of(prepared, free), pairs.places);
+  contact::Problem problem = problem_of(prepared, pairs.places);
+  problem.q = entries_of(free_motion(prepared, t).pairs, pairs.places);
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p)
+    if (const Matrix& rigid = prepared.structure.parts[p]->rigid_motions(); rigid.cols() > 0 && !prepared.is_absent(p))
+      problem.f.segment(prepared.contact.first_rigid[p], rigid.cols()) = rigid.transpose() * t.forces[p];
   return problem;
 }
 
@@ -130,7 +102,7 @@ void give_to_all(const ActingPairs& pairs, const contact::Solution& solution, co
 }
 
 Vector gaps_at(const Prepared& prepared, const State& state) {
-  Vector motion = motion_of(prepared, state.u);
+  Vector motion = motion_under(prepared.contact.motion, state.u, rows_of_all(prepared));
   if (state.offset.size() > 0) motion += state.offset;
   Vector gaps(static_cast<Eigen::Index>(prepared.contact.pairs.size()));
   for (Eigen::Index i = 0; i < gaps.size(); ++i) gaps[i] = gap_at(prepared, state.factors, i) + motion[2 * i];

@@ -29,13 +29,10 @@ std::vector<T> at_places(const std::vector<T>& all, const std::vector<int>& plac
 }
 /// Both components of some pairs.
 Vector entries_of(const Vector& of_pairs, const std::vector<int>& places);
-/// Blocks of some pairs.
-contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& places);
+/// W and G of some pairs, with q and f of zero, and without laws.
+contact::Problem problem_of(const Prepared& prepared, const std::vector<int>& places);
 
-/// Motions of some pairs per unit rigid motion.
-contact::RigidMap block_of(const contact::RigidMap& G, const std::vector<int>& places);
-
-/// Their problem in a structure in time: motions are h V+, under the forces and prescribed values of `t`.
+/// The problem of acting pairs in a structure in time: motions are h V+, under the forces and prescribed values of `t`.
 contact::Problem pose(const ActingPairs& pairs, const Prepared& prepared, const State& t);
 
 /// Forces, histories and states of all pairs.

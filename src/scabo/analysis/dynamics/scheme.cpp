@@ -11,20 +11,11 @@
 #include "scabo/analysis/state/step_factors.hpp"
 #include "scabo/base/components.hpp"
 #include "scabo/element/plane/elasticity.hpp"
+#include "scabo/model/limits.hpp"
 
 namespace scabo::analysis {
 
 namespace {
-
-/// A motion of the whole part along x or y.
-Vector translation(const system::BodySystem& part, bool rigid, int component) {
-  Vector r = Vector::Zero(part.size());
-  if (rigid)
-    r[component] = 1.0;
-  else
-    for (Eigen::Index i = component; i < r.size(); i += 2) r[i] = 1.0;
-  return r;
-}
 
 /// Gives the components of a velocity that supports hold theirs. Of a rigid body on supports all are 0.
 void hold(const system::BodySystem& part, const Vector& of_supports, Vector& v) {
@@ -73,7 +64,8 @@ void refuse_overlap(const Prepared& prepared, const State& at_rest) {
 
 }  // namespace
 
-double step_by_wave_speed(const model::Model& model, const mesh::Mesh& mesh, double duration) {
+double longest_time_step(const model::Model& model, const mesh::Mesh& mesh, const model::Step& step) {
+  if (step.dynamic->step) return *step.dynamic->step;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].rigid || model.bodies[b].outside) continue;
@@ -86,12 +78,7 @@ double step_by_wave_speed(const model::Model& model, const mesh::Mesh& mesh, dou
     if (fastest > 0.0) shortest = std::min(shortest, shortest_side(mesh.bodies[b]) / fastest);
   }
   constexpr double parts = 1000.0;
-  return std::isfinite(shortest) ? shortest : duration / parts;
-}
-
-double Dynamics::largest_step() const {
-  const model::DynamicStep& step = *solution_.model.steps[increment_.step].dynamic;
-  return step.step ? *step.step : step_by_wave_speed(solution_.model, solution_.mesh, step.duration);
+  return std::isfinite(shortest) ? shortest : step.dynamic->duration / parts;
 }
 
 void Dynamics::begin(const Prepared& at_rest, std::size_t step, double begin, double end) {
@@ -104,17 +91,23 @@ void Dynamics::begin(const Prepared& at_rest, std::size_t step, double begin, do
     for (int k = 0; k < 2; ++k) {
       mass_of_ground_[k].clear();
       for (std::size_t p = 0; p < inertia_.size(); ++p)
-        mass_of_ground_[k].push_back(
-            inertia_[p].M.times(translation(*at_rest.structure.parts[p], at_rest.structure.dofs.is_rigid(p), k)));
+        mass_of_ground_[k].push_back(inertia_[p].M.times(at_rest.structure.dofs.translation(p, k)));
     }
   }
   const double duration = solution_.model.steps[step].dynamic->duration;
   increment_ = {step, begin * duration, end * duration, 1, 0.0};
   for (std::size_t before = 0; before < step; ++before)
     if (const auto& dynamic = solution_.model.steps[before].dynamic) increment_.before += dynamic->duration;
+  const double longest = longest_time_step(solution_.model, solution_.mesh, solution_.model.steps[step]);
+  if (duration > model::limits::time_steps * longest)
+    throw InputError(solution_.model.file,
+                     {{solution_.model.steps[step].source,
+                       fmt::format("would need {:.0e} time steps of {:.3g}, the time in which a wave passes the "
+                                   "smallest element: give 'step'",
+                                   duration / longest, longest)}});
   constexpr double rounding = 1e-9;
   increment_.steps =
-      std::max(1, static_cast<int>(std::ceil((increment_.end - increment_.begin) / largest_step() * (1.0 - rounding))));
+      std::max(1, static_cast<int>(std::ceil((increment_.end - increment_.begin) / longest * (1.0 - rounding))));
 }
 
 double Dynamics::part_at_once(double rest) const { return std::min(rest, 1.0 / increment_.steps); }

@@ -27,7 +27,6 @@ class Dynamics {
   /// With the velocities before the first time step, of size `step`.
   State in_motion(State at_rest, double step) const;
   Acting acting(double from, double to, const StepSystem& system) const;
-  double largest_step() const;
 
   /// Of the present increment; times are those since the begin of the step.
   struct Increment {
@@ -45,8 +44,8 @@ class Dynamics {
   Increment increment_;
 };
 
-/// The time that a wave needs to pass the smallest element of the bodies with a mass; `duration` / 1000 where there is
-/// none.
-double step_by_wave_speed(const model::Model& model, const mesh::Mesh& mesh, double duration);
+/// Longest time step of a step in time: as it says, or the time that a wave needs to pass the smallest element of the
+/// bodies with a mass; a thousandth of its duration where there is none.
+double longest_time_step(const model::Model& model, const mesh::Mesh& mesh, const model::Step& step);
 
 }  // namespace scabo::analysis

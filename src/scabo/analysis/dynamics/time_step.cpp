@@ -7,6 +7,7 @@
 #include "scabo/analysis/dynamics/projection.hpp"
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/loads.hpp"
+#include "scabo/analysis/state/pair_motions.hpp"
 
 namespace scabo::analysis {
 
@@ -20,8 +21,7 @@ system::ContactSystem condensed(const Prepared& at_rest, const system::Structure
 }
 
 /// Right-hand side of eq. (1) without contact.
-std::vector<Vector> forces_in_time(const InTime& in, const State& from, const Acting& acting,
-                                   const std::vector<Vector>& applied) {
+std::vector<Vector> forces_in_time(const InTime& in, const State& from, const std::vector<Vector>& applied) {
   const double h = in.system.size;
   std::vector<Vector> forces = applied;
   for (std::size_t p = 0; p < forces.size(); ++p) {
@@ -31,7 +31,6 @@ std::vector<Vector> forces_in_time(const InTime& in, const State& from, const Ac
     forces[p] += part.M.times(v) / h;
     forces[p] -= part.stiffness_times(from.u[p] + part.theta * (1.0 - part.theta) * h * v);
     if (part.C && part.theta < 1.0) forces[p] -= (1.0 - part.theta) * part.damping_times(v);
-    if (!acting.ground.empty()) forces[p] += acting.ground[p];
   }
   return forces;
 }
@@ -44,7 +43,7 @@ struct Making {
   Attempt attempt = {};
   State as_at_rest = {};
   std::vector<Balance> balances = {};
-  std::vector<Vector> applied = {};  // mean of the step
+  std::vector<Vector> applied = {};  // mean of the step, with the inertia of a moving ground
   std::vector<Vector> mean_velocity = {};
   Vector motion = {};  // 2N, mean velocities of the pairs
   Projection projected = {};
@@ -66,10 +65,11 @@ void begin(Making& making) {
   to.rigid_motion = from.rigid_motion;
   to.time = from.time + making.size();
   making.applied = applied_forces(at_rest, making.acting.mean, to.released);
+  for (std::size_t p = 0; p < making.acting.ground.size(); ++p) making.applied[p] += making.acting.ground[p];
   to.forces = making.applied;
   to.prescribed = prescribed_values(at_rest, to.factors.supports, to.replaced.moved);
   State& t = making.as_at_rest;
-  t.forces = forces_in_time(making.in, from, making.acting, making.applied);
+  t.forces = forces_in_time(making.in, from, making.applied);
   for (const Vector& velocity : making.acting.support) t.prescribed.push_back(making.size() * velocity);
 }
 
@@ -112,18 +112,19 @@ void advance(Making& making) {
   const double h = making.size();
   State& to = making.to();
   const State& from = making.from;
-  making.motion = Vector::Zero(to.p.size());
   for (std::size_t p = 0; p < from.u.size(); ++p) {
     const double theta = making.in.inertia[p].theta;
     to.velocity.push_back(making.as_at_rest.u[p] / h);
     making.mean_velocity.push_back(theta * to.velocity[p] + (1.0 - theta) * from.velocity[p]);
     to.u.push_back(from.u[p] + h * making.mean_velocity[p]);
-    if (!at_rest.is_absent(p)) making.motion += at_rest.contact.motion[p] * making.mean_velocity[p];
   }
+  making.motion = motion_under(at_rest.contact.motion, making.mean_velocity, to.p.size());
   to.slip = from.slip;
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) to.slip[i] += h * making.motion[2 * i + 1];
   to.gap = gaps_at(at_rest, to);
   making.projected = project(making.in, making.as_at_rest, to);
+  const auto held = static_cast<Eigen::Index>(2 * at_rest.contact.held.size());
+  if (held > 0) check_held_pairs(at_rest, motion_under(at_rest.contact.held_motion, to.u, held), to);
 }
 
 /// Work of the step, which closes the balance of energy, and how much contact and projection added.
@@ -141,7 +142,6 @@ double add_energy(Making& making) {
     const system::BodySystem& body = *at_rest.structure.parts[p];
     const Vector moved = to.u[p] - from.u[p], by_velocity = h * making.mean_velocity[p];
     energy.external += making.applied[p].dot(moved);
-    if (!making.acting.ground.empty()) energy.external += making.acting.ground[p].dot(moved);
     energy.external += to.reactions[p].dot(support_values(body, by_velocity));
     energy.damping += h * making.mean_velocity[p].dot(part.damping_times(making.mean_velocity[p]));
     if (part.theta == 1.0) energy.massless += 0.5 * by_velocity.dot(part.stiffness_times(by_velocity));
@@ -160,9 +160,7 @@ double add_energy(Making& making) {
   for (std::size_t p = 0; p < making.projected.displacement.size(); ++p) {
     const Vector& d = making.projected.displacement[p];
     if (d.size() == 0 || d.isZero(0.0)) continue;
-    Vector acting = making.applied[p];
-    if (!making.acting.ground.empty()) acting += making.acting.ground[p];
-    projected += d.dot(making.in.inertia[p].stiffness_times(to.u[p] - 0.5 * d) - acting);
+    projected += d.dot(making.in.inertia[p].stiffness_times(to.u[p] - 0.5 * d) - making.applied[p]);
   }
   energy.projection -= projected;
   return std::max(0.0, normal + tangential) + std::max(0.0, projected);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 
@@ -18,17 +19,6 @@
 namespace scabo::analysis {
 
 namespace {
-
-/// M times a translation of the whole body.
-std::array<Vector, 2> mass_of_translations(const system::Stiffness& M) {
-  std::array<Vector, 2> products;
-  for (Eigen::Index component = 0; component < 2; ++component) {
-    Vector r = Vector::Zero(M.size());
-    for (Eigen::Index i = component; i < r.size(); i += 2) r[i] = 1.0;
-    products[static_cast<std::size_t>(component)] = M.times(r);
-  }
-  return products;
-}
 
 NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, const system::Dofs& dofs, std::size_t part,
                           const std::array<Vector, 2>& mass_of_translation) {
@@ -96,7 +86,8 @@ void add_modes(const Parts& parts, std::size_t part, system::MassLibrary& masses
   }
   stage("modes of " + parts.dofs.name_of(part, on.model));
   const Stopwatch stopwatch(result.timing.eigenvalues);
-  const auto translations = mass_of_translations(M);
+  const std::array<Vector, 2> translations = {M.times(parts.dofs.translation(part, 0)),
+                                              M.times(parts.dofs.translation(part, 1))};
   for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
   const system::NaturalModes modes =
       system::natural_modes(K, M, parts.dofs.nodes(part), parts.constraints[part], on.model.analysis.modes);

@@ -13,42 +13,11 @@
 #include "scabo/analysis/quasistatic/branch.hpp"
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/loads.hpp"
+#include "scabo/analysis/state/pair_motions.hpp"
 
 namespace scabo::analysis {
 
 namespace {
-
-/// Motions of pairs without contact forces, along [n, t].
-struct FreeMotion {
-  Vector pairs, held;  ///< 2N; of pairs that supports hold
-};
-
-/// Degrees of freedom of a part that its pairs touch.
-std::vector<int> touched_dofs(const system::ContactSystem& contact, std::size_t p) {
-  std::vector<int> dofs;
-  const auto is_touched = [](const Eigen::SparseMatrix<double>& motion, Eigen::Index dof) {
-    return motion.outerIndexPtr()[dof] < motion.outerIndexPtr()[dof + 1];
-  };
-  for (Eigen::Index dof = 0; dof < contact.motion[p].cols(); ++dof)
-    if (is_touched(contact.motion[p], dof) || (!contact.held.empty() && is_touched(contact.held_motion[p], dof)))
-      dofs.push_back(static_cast<int>(dof));
-  return dofs;
-}
-
-FreeMotion free_motion(const Prepared& prepared, const State& state) {
-  const system::ContactSystem& contact = prepared.contact;
-  FreeMotion free{Vector::Zero(static_cast<Eigen::Index>(2 * contact.pairs.size())),
-                  Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()))};
-  if (contact.pairs.empty() && contact.held.empty()) return free;
-  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
-    if (prepared.is_absent(p)) continue;
-    const Vector u =
-        prepared.structure.parts[p]->displacement_at(state.forces[p], state.prescribed[p], touched_dofs(contact, p));
-    free.pairs.noalias() += contact.motion[p] * u;
-    if (!contact.held.empty()) free.held.noalias() += contact.held_motion[p] * u;
-  }
-  return free;
-}
 
 /// The contact problem of an increment, its laws not yet included.
 struct Posed {
@@ -101,27 +70,6 @@ void take(const State& from, const contact::Solution& solution, contact::History
   to.gap = solution.gap;
   to.slip = from.slip + solution.slip_increment;
   to.states = solution.states;
-}
-
-/// Supports on both sides may hold a pair; they must not press its points into each other. `motion`: of these pairs.
-void check_held_pairs(const Prepared& prepared, Vector motion, const Vector& offset, const Replacing& replaced) {
-  const system::ContactSystem& contact = prepared.contact;
-  if (contact.held.empty()) return;
-  if (offset.size() > 0) motion += offset;
-  for (std::size_t i = 0; i < contact.held.size(); ++i) {
-    const mesh::ContactPair& pair = mesh_pair(prepared, contact.held[i]);
-    const double gap = pair.gap + motion[static_cast<Eigen::Index>(2 * i)] +
-                       unplaced_motion(prepared, replaced, contact.held[i].contact).dot(pair.normal);
-    double size = 0.0;
-    for (const Vec2& x : {pair.point_a, pair.point_b}) size = std::max(size, x.norm());
-    if (gap >= -1e-12 * std::max(size, std::abs(pair.gap))) continue;
-    const model::Contact& named = prepared.model.contacts[static_cast<std::size_t>(contact.held[i].contact)];
-    throw InputError(
-        prepared.model.file,
-        {{named.source, fmt::format("supports on both sides of the pair at ({:.6g}, {:.6g}) keep it at an overlap of "
-                                    "{:.3g}, which no contact force can remove: free one side there",
-                                    pair.point_a.x(), pair.point_a.y(), -gap)}});
-  }
 }
 
 contact::SolverOptions options_of(const Prepared& prepared, const State& from, const State& to) {
@@ -200,7 +148,7 @@ void certify(Making& making) {
 Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
   Attempt made;
   Posed posed = pose(prepared, from, factors, made.state);
-  check_held_pairs(prepared, std::move(posed.motion_of_held), from.held_offset, from.replaced);
+  check_held_pairs(prepared, std::move(posed.motion_of_held), from);
   made.start = {from.p, from.rigid_motion, touching_pairs(prepared)};
   const contact::SolverOptions options = options_of(prepared, from, made.state);
   made.force_scale = options.force_scale;

@@ -6,6 +6,7 @@
 
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/fields.hpp"
+#include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 
 namespace scabo::analysis {
@@ -31,14 +32,6 @@ std::map<std::pair<int, int>, Eigen::Index> numbers_of(const std::vector<Pair>& 
   for (std::size_t i = 0; i < pairs.size(); ++i)
     numbers.emplace(std::pair(pairs[i].contact, pairs[i].index), static_cast<Eigen::Index>(i));
   return numbers;
-}
-
-/// Motions of pairs under the displacements of all parts.
-Vector motion_under(const std::vector<Eigen::SparseMatrix<double>>& motion, const std::vector<Vector>& u,
-                    Eigen::Index rows) {
-  Vector sum = Vector::Zero(rows);
-  for (std::size_t p = 0; p < motion.size(); ++p) sum += motion[p] * u[p];
-  return sum;
 }
 
 /// Of each pair its place among those of the stage before; -1 if it is new.

@@ -255,10 +255,10 @@ void CheckpointWriter::write(const RunState& run, const StaticSolution& solution
   RunState& at = checkpoint_.from.at;
   at.step = run.step;
   at.progress = run.progress;
-  const State& state = run.state;  // without displacements
-  at.state = state;
-  for (std::vector<Vector>* of : {&at.state.u, &at.state.forces, &at.state.reactions, &at.state.prescribed})
-    of->clear();
+  at.state = run.state;  // without what follows from it (complete())
+  const bool in_time = !at.state.velocity.empty();
+  at.state.forces.clear(), at.state.prescribed.clear();
+  if (!in_time) at.state.u.clear(), at.state.reactions.clear();
   replace();
 }
 

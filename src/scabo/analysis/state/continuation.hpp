@@ -25,7 +25,7 @@ struct RunState {
 };
 
 struct Continuation {
-  RunState at;                              ///< of its state, the displacements are not needed (complete())
+  RunState at;                              ///< of its state, displacements are needed in time only (complete())
   std::vector<IncrementResult> increments;  ///< so far, without fields and pairs
   std::vector<Warning> warnings;            ///< so far
   Timing timing;                            ///< of all sessions so far, to which this one adds

@@ -106,7 +106,7 @@ void exchange(Io& io, std::map<std::string, double>& values) {
 template <typename Io>
 void exchange(Io& io, contact::Certificate& of) {
   for (double* value : {&of.equilibrium, &of.penetration, &of.tension, &of.friction_excess, &of.complementarity,
-                        &of.slip_direction, &of.rigid_balance})
+                        &of.slip_direction, &of.rigid_balance, &of.energy_balance})
     io(*value);
 }
 template <typename Io>
@@ -159,6 +159,12 @@ void exchange(Io& io, UniquenessResult& of) {
   io(of.others), io(of.complete), io(of.bound), io(of.index);
 }
 template <typename Io>
+void exchange(Io& io, Energy& of) {
+  for (double* value : {&of.external, &of.elastic, &of.friction, &of.friction_error, &of.kinetic, &of.damping,
+                        &of.impact, &of.projection, &of.massless})
+    io(*value);
+}
+template <typename Io>
 void exchange(Io& io, PairsFound& of) {
   io(of.times), io(of.jump);
 }
@@ -167,6 +173,7 @@ void exchange(Io& io, IncrementResult& of) {
   io(of.step);
   exchange(io, of.step_name);
   io(of.increment), io(of.reached);
+  exchange(io, of.time);
   exchange(io, of.factors);
   io(of.converged), io(of.newton_iterations), io(of.coarse_iterations), io(of.halvings), io(of.residual);
   exchange(io, of.pairs_found);
@@ -177,8 +184,8 @@ void exchange(Io& io, IncrementResult& of) {
   exchange(io, of.absent);
   io(of.largest_force);
   exchange(io, of.certificate);
-  io(of.lost_to_rounding), io(of.energy.external), io(of.energy.elastic), io(of.energy.friction);
-  io(of.energy.friction_error);
+  io(of.lost_to_rounding);
+  exchange(io, of.energy);
   exchange(io, of.cracks);
   exchange(io, of.reason);
   exchange(io, of.uniqueness);
