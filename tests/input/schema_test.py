@@ -22,7 +22,7 @@ SCHEMA = BAD = GOOD = None
 BEYOND_SCHEMA = re.compile(
     r"syntax_|key_repeated|key_is_a_list|number_(underscores|infinite|nan|overflow)"
     r"|material_(incompressible_plane_strain|unknown|section_missing)"
-    r"|bodies_all_rigid|body_(unsupported|rigid_without_contact)"
+    r"|large_slip_of_rigid|body_(unsupported|rigid_without_contact)"
     r"|polygon_(?!two_vertices|vertex_of_three)|outline_(not_|full_circle|arc_radii|arc_crosses|arc_swallows"
     r"|name_twice|without_area)"
     r"|shape_too_|centre_|mesh_(1e9|too_many|(quadtree|polygons)_of_a_sliver|min_size_(of|above)|refine_(of|on_un)|tolerance_of_a_body|quadtree_centre)"

@@ -158,7 +158,6 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
   int rigid_body = -1;  // the first that a tie would join
   for (const geometry::TouchingEdges& pair : geometry::touching_edges(outlines, touching.reach)) {
     const int rigid = reading.body(pair.body_a).rigid + reading.body(pair.body_b).rigid;
-    if (rigid == 2) continue;
     if (is_tie && rigid > 0) {
       if (rigid_body < 0) rigid_body = reading.body(pair.body_a).rigid ? pair.body_a : pair.body_b;
       continue;

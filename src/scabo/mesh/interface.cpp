@@ -53,8 +53,9 @@ class Matching {
   }
 
   std::variant<Interface, Diagnostic> run() {
-    if (!side_a_ && !side_b_) return mistake("both bodies are rigid: one must be elastic");
-    const std::optional<Diagnostic> wrong = side_a_ && side_b_ ? pair_nodes() : pair_with_rigid();
+    const std::optional<Diagnostic> wrong = side_a_ && side_b_   ? pair_nodes()
+                                            : side_a_ || side_b_ ? pair_with_rigid()
+                                                                 : pair_rigid();
     if (wrong) return *wrong;
     if (interface_.pairs.empty()) return std::move(interface_);  // the sides have left each other
     if (const std::optional<Diagnostic> back = back_to_back()) return *back;
@@ -257,6 +258,30 @@ class Matching {
     return std::nullopt;
   }
 
+  /// The two straight edges of rigid bodies face each other in a stretch, whose ends are the pairs.
+  std::optional<Diagnostic> pair_rigid() {
+    const auto along = [](const model::Edge& edge) { return Vec2((edge.end - edge.start).normalized()); };
+    const Vec2 of_a = along(edge_a_), of_b = along(edge_b_), t = (of_a - of_b).normalized();
+    if (of_a.dot(of_b) > facing_cosine) return not_facing();
+    const auto stretch = [&](const model::Edge& edge) { return std::minmax({edge.start.dot(t), edge.end.dot(t)}); };
+    const auto [first_a, last_a] = stretch(edge_a_);
+    const auto [first_b, last_b] = stretch(edge_b_);
+    const double first = std::max(first_a, first_b), last = std::min(last_a, last_b);
+    if (last - first <= end_tolerance * std::min(edge_a_.length(), edge_b_.length())) return not_overlapping();
+    const auto point_at = [&](const model::Edge& edge, const Vec2& direction, double s) {
+      return Vec2(edge.start + direction * ((s - edge.start.dot(t)) / direction.dot(t)));
+    };
+    for (const double s : {first, last}) {
+      ContactPair pair;
+      pair.point_a = point_at(edge_a_, of_a, s);
+      pair.point_b = point_at(edge_b_, of_b, s);
+      pair.normal = Vec2(t.y(), -t.x());  // out of A, whose boundary runs counter-clockwise
+      partners_.push_back({-1, -1});
+      interface_.pairs.push_back(pair);
+    }
+    return std::nullopt;
+  }
+
   /// Whether the overlap can be judged at a pair: not at an end, where x_B - x_A may lie along other edges.
   std::vector<ContactPair> inner_pairs() const {
     const std::vector<ContactPair>& pairs = interface_.pairs;
@@ -290,6 +315,7 @@ class Matching {
   }
 
   bool is_closed() const {
+    if (!side_a_ && !side_b_) return false;
     const ContactSide& side = side_a_ ? *side_a_ : *side_b_;
     return side.closed && (!side_a_ || !side_b_ || side_b_->closed) && partners_.size() >= side.nodes.size();
   }

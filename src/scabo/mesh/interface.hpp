@@ -24,6 +24,9 @@
 // One side rigid. Every node of the elastic edge that has its foot on the rigid edge is paired with that foot; n is the
 // exact normal of the rigid edge there, directed out of A. Only the named edge counts, not its neighbours.
 //
+// Both sides rigid. Along their bisector the two straight edges face each other in a stretch; its two ends are the
+// pairs, and n is at right angles to the bisector. More pairs would only share the same resultant differently.
+//
 // g < 0 is an overlap, which is treated as an interference fit.
 //
 // The two faces of a crack have the same points (crack_faces.hpp).

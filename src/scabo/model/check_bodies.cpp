@@ -151,10 +151,6 @@ void check_bodies(Checking& checking) {
   } else if (bodies.empty()) {
     checking.enter({});
     checking.error("bodies", "", "contains no body: define at least one");
-  } else if (std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.rigid; })) {
-    checking.enter({});
-    checking.error("bodies", "", "all bodies are rigid: at least one must be elastic");
-    checking.of_whole();
   }
   std::unordered_set<std::string> names;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -101,13 +101,26 @@ bool check_sides(Checking& checking, const std::string& path, const char* what, 
          check_unbroken(checking, path + ".between.1", what, side_b, side_a);
 }
 
-/// The bodies of a contact are not both rigid.
-bool check_one_elastic(Checking& checking, const std::string& path, const Contact& contact) {
+/// Two rigid bodies touch along straight lines, and do not slide far.
+bool check_rigid_sides(Checking& checking, const std::string& path, const Contact& contact) {
   const Body& a = checking.body(contact.a.body);
   const Body& b = checking.body(contact.b.body);
   if (!a.rigid || !b.rigid) return true;
-  checking.error(path, "between",
-                 fmt::format("'{}' and '{}' are both rigid: one of them must be elastic", a.name, b.name));
+  const auto is_curved = [&](const Place& side) {
+    const Outline& outline = checking.body(side.body).outline;
+    return checking.sound_shape(side.body) &&
+           !geometry::runs_straight(outline.edges[static_cast<std::size_t>(side.index)]);
+  };
+  if (is_curved(contact.a) || is_curved(contact.b))
+    checking.error(
+        path, "between",
+        fmt::format("'{}' and '{}' are both rigid: their edges must be straight, or one of the bodies elastic", a.name,
+                    b.name));
+  else if (contact.large_slip)
+    checking.error_of_key(path, "slip",
+                          fmt::format("cannot be 'large' between '{}' and '{}', which are both rigid", a.name, b.name));
+  else
+    return true;
   return false;
 }
 
@@ -287,7 +300,7 @@ void check_contacts_and_ties(Checking& checking) {
     checking.enter(contact.source);
     check_name(checking, path, contact.name, "contact", names);
     check_law(checking, path, contact);
-    if (!check_sides(checking, path, "contact", contact.a, contact.b) || !check_one_elastic(checking, path, contact)) {
+    if (!check_sides(checking, path, "contact", contact.a, contact.b) || !check_rigid_sides(checking, path, contact)) {
       checking.gaps.conditions = true;
       continue;
     }

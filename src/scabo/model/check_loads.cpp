@@ -80,10 +80,9 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
   }
   if (kind == "gravity" || kind == "body_force" || kind == "temperature") {
     if (place.kind != Place::Kind::body) return fmt::format("{} acts on a whole body: write on: {}", kind, body);
-    if (of.rigid)
-      return fmt::format(
-          "'{}' is rigid: {}", body,
-          kind == "temperature" ? "temperature has no effect on it" : "it has no weight; apply a force to it instead");
+    if (of.rigid && kind == "temperature") return fmt::format("'{}' is rigid: temperature has no effect on it", body);
+    if (of.rigid && kind == "body_force") return fmt::format("'{}' is rigid: apply a force to it instead", body);
+    if (of.rigid && !of.density) return fmt::format("'{}' has no weight: give it a 'density'", body);
     if (of.outside) return fmt::format("'{}' is unbounded: loads can act only on its boundary", body);
     return "";
   }

@@ -148,8 +148,9 @@ void check_stages(Checking& checking) {
                                       a.name, b.name));
   }
   for (std::size_t s = 0; s < model.steps.size(); ++s) {
-    const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
-                                 [&](const Body& body) { return !body.rigid && body.is_there(static_cast<int>(s)); });
+    const bool any = std::any_of(model.bodies.begin(), model.bodies.end(), [&](const Body& body) {
+      return (!body.rigid || body.density) && body.is_there(static_cast<int>(s));
+    });
     if (any) continue;
     checking.enter(model.steps[s].source);
     checking.error(path_of("steps", model.steps[s].source, s), "",

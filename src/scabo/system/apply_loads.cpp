@@ -73,6 +73,11 @@ class Applied {
   void operator()(const model::Water& water) { apply(varying_traction(water)); }
 
   void operator()(const model::Gravity& gravity) {
+    if (body_.rigid) {
+      nodal = Vector::Zero(3);
+      const double mass = body_.density.value_or(0.0) * body_.outline.area() * thickness();
+      return add_to_rigid(body_.outline.centroid(), mass * gravity.value);
+    }
     const auto density_of = [&](int material) {
       return model_.materials[static_cast<std::size_t>(material)].density.value_or(0.0);
     };
@@ -460,9 +465,11 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
     const bool of_unbounded = std::holds_alternative<model::UniformStress>(load.kind) ||
                               std::holds_alternative<model::GroundStress>(load.kind);
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      // Without a place, the load acts on every elastic body; only a stress on unbounded ones too.
+      // Without a place, the load acts on every elastic body, gravity on rigid ones that have a density; only a stress
+      // on unbounded ones too.
+      const bool weighs = std::holds_alternative<model::Gravity>(load.kind) && model.bodies[b].density;
       if (load.on ? load.on->body != static_cast<int>(b)
-                  : model.bodies[b].rigid || (model.bodies[b].outside && !of_unbounded))
+                  : (model.bodies[b].rigid && !weighs) || (model.bodies[b].outside && !of_unbounded))
         continue;
       const auto body = static_cast<int>(b);
       const std::size_t part = structure.dofs.part_of(body);

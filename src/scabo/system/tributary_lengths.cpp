@@ -118,10 +118,18 @@ std::vector<double> tributary_lengths(int contact, const model::Model& model, co
   const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(contact)];
   std::vector<double> lengths(interface.pairs.size(), 0.0);
   if (named.a.kind == model::Place::Kind::face) return lengths_of_crack(named, interface, model, mesh);
+  const auto is_rigid = [&](const model::Place& side) {
+    return model.bodies[static_cast<std::size_t>(side.body)].rigid;
+  };
+  if (is_rigid(named.a) && is_rigid(named.b)) {  // pairs at the two ends
+    const mesh::ContactPair &first = interface.pairs.front(), &last = interface.pairs.back();
+    std::fill(lengths.begin(), lengths.end(), 0.5 * std::abs(cross(last.point_a - first.point_a, first.normal)));
+    return lengths;
+  }
   std::vector<int> sides(lengths.size(), 0);
   for (const bool on_b : {false, true}) {
     const model::Place& place = on_b ? named.b : named.a;
-    if (model.bodies[static_cast<std::size_t>(place.body)].rigid) continue;
+    if (is_rigid(place)) continue;
     std::vector<int> paired;
     for (const mesh::ContactPair& pair : interface.pairs) paired.push_back(on_b ? pair.node_b : pair.node_a);
     const std::vector<double> of_side = lengths_of_side(place, mesh, paired);

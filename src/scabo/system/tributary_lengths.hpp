@@ -13,7 +13,8 @@
 // of a block that stands in the middle of a floor, the elements of the floor beside the block do not count. A node
 // without such an element keeps the lengths of all its elements. If both sides are elastic, the mean of both is used.
 // It does not change if the sides are swapped, and on matching elements both sides agree except for the gap between
-// curved sides.
+// curved sides. Two rigid sides have two pairs, each with half of the length in which they face each other.
+//
 // Beside the tip of a crack whose faces are in contact, a length d of them is free of traction (mesh/tip_rings.hpp),
 // though the crack is closed there. What it would carry passes beside it, as at a crack of length d that a pressure p
 // closes: at the distance r from the tip

@@ -200,8 +200,13 @@ void warn_of_coarse_zones(const StaticSolution& solution, std::vector<Warning>& 
   const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
                                  [](const IncrementResult& increment) { return increment.converged; });
   if (last == solution.increments.rend()) return;
+  const auto is_rigid = [&](const model::Place& side) {
+    return solution.model.bodies[static_cast<std::size_t>(side.body)].rigid;
+  };
   std::vector<Finding> coarse;
   for (std::size_t c = 0; c < last->contacts.size(); ++c) {
+    const model::Contact& contact = solution.model.contacts[c];
+    if (is_rigid(contact.a) && is_rigid(contact.b)) continue;  // two pairs are all there are
     const int closed = last->contacts[c].stick + last->contacts[c].slip;
     if (closed > 0 && closed < fewest_pairs) coarse.push_back({c, -static_cast<double>(closed)});
   }

@@ -77,7 +77,7 @@ struct InteriorPoints::Path {
 bool may_take_interior_points(const Problem& problem) {
   return problem.pairs() > 0 &&
          (problem.W.is_sparse() || (problem.W.is_dense() && problem.W.size() <= path_constants.most_dense)) &&
-         problem.W.diagonal().minCoeff() >= 0.0 && problem.W.diagonal().mean() > 0.0 &&
+         problem.W.diagonal().minCoeff() >= 0.0 &&
          !(problem.q.isZero(0.0) && problem.f.isZero(0.0));
 }
 

@@ -29,10 +29,11 @@ double divided_bound(double difference, double forth, double back, double m) {
   return std::clamp(0.5 * (low + high), -forth + least, back - least);
 }
 
-/// Roots of the mean own W_ii of each pair, for each of its components.
+/// Roots of the mean own W_ii of each pair, for each of its components; 1 where all bodies are rigid.
 Vector scales_of_pairs(const Problem& problem) {
   const Index d = problem.dimension;
   const Vector diagonal = problem.W.diagonal();
+  if (diagonal.isZero(0.0)) return Vector::Ones(diagonal.size());
   const double least = step_constants.least_of_mean * diagonal.mean();
   Vector scales(diagonal.size());
   for (Index i = 0; i < problem.pairs(); ++i)

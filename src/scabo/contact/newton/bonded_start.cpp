@@ -15,10 +15,12 @@ constexpr double softness = 1e-3;     // eps
 constexpr double free_motion = 1e-6;  // E where the bodies are not held without it
 constexpr double balance = 1e-4;      // of forces, relative to the largest
 
-/// Every touching component that a force moves, alone in its row and column.
+/// Every touching component that a force moves, alone in its row and column; where all bodies are rigid, every touching
+/// one.
 SaddleRows held_rows(const Problem& problem, const std::vector<bool>& touching) {
   const Eigen::Index d = problem.dimension;
-  const Vector diagonal = problem.W.diagonal();
+  Vector diagonal = problem.W.diagonal();
+  if (diagonal.isZero(0.0)) diagonal.setOnes();
   std::vector<Eigen::Index> held;
   for (Eigen::Index k = 0; k < diagonal.size(); ++k)
     if ((touching.empty() || touching[static_cast<std::size_t>(k / d)]) && diagonal[k] > 0.0) held.push_back(k);
