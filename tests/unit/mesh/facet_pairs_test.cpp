@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "scabo/files/solid_abaqus.hpp"
+#include "scabo/mesh/space/imported_solid.hpp"
 #include "support/solid_blocks.hpp"
 
 namespace scabo::mesh {
@@ -127,6 +129,30 @@ TEST(SideOfThePairs, DoesNotChangeWithTheOrderOfTheFaces) {
   const TwoBlocks blocks(10, 0.2);
   EXPECT_TRUE(has_pairs_on_second(blocks.a(), blocks.b()));
   EXPECT_FALSE(has_pairs_on_second(blocks.b(), blocks.a()));
+}
+
+/// Surfaces of a file name the sides as its format does: S1 to S4 of the cell are all of its boundary, once each.
+TEST(SolidOfAFile, HasItsSurfacesAndSetsAsFacets) {
+  const std::string text =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,.5,0,0\n6,.5,.5,0\n7,0,.5,0\n8,0,0,.5\n9,.5,0,.5\n10,0,.5,.5\n"
+      "*ELEMENT, TYPE=C3D10, ELSET=All\n1,1,2,3,4,5,6,7,8,9,10\n*NSET, NSET=Front\n1,2,4\n"
+      "*SURFACE, NAME=Bottom\n1,S1\n*SURFACE, NAME=Front\n1,S2\n*SURFACE, NAME=Slope\n1,S3\n*SURFACE, "
+      "NAME=Left\n1,S4\n";
+  const files::ImportedSolidMesh file = files::parse_solid_abaqus(text, "one.inp");
+  const SolidMesh mesh = solid_mesh_of(file);
+  const std::vector<SolidFacet> boundary = boundary_facets(mesh);
+  const Eigen::Vector3d normals[4] = {{0, 0, -1}, {0, -1, 0}, {1, 1, 1}, {-1, 0, 0}};
+  ASSERT_EQ(file.side_sets.size(), 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::vector<SolidFacet> facets = facets_of_sides(mesh, file.side_sets[i].sides);
+    ASSERT_EQ(facets.size(), 1);
+    const Matrix x = nodes_of(mesh, facets[0]);
+    const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
+    EXPECT_LT((a.cross(b) - normals[i]).norm(), 1e-15);
+    EXPECT_LT((x.col(4) - 0.5 * (x.col(1) + x.col(2))).norm(), 1e-15);
+    EXPECT_EQ(std::count(boundary.begin(), boundary.end(), facets[0]), 1);
+  }
+  EXPECT_EQ(facets_among(boundary, file.node_sets[0].nodes), facets_of_sides(mesh, file.side_sets[1].sides));
 }
 
 TEST(Boundary, OfABlockIsClosed) {
