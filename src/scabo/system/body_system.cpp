@@ -9,7 +9,7 @@
 
 namespace scabo::system {
 
-std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
+std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const Positions& nodes,
                                          std::vector<Constraint> constraints) {
   std::vector<ElasticPart> parts;
   parts.push_back({std::move(stiffness), nodes, std::move(constraints)});

@@ -1,8 +1,8 @@
 // One body with its supports and springs: its displacement under nodal forces, prescribed displacements and rigid
 // motions.
 //
-// Displacement vectors have two components per node; those of a rigid body have three, [u_x, u_y, L rotation] about its
-// centroid, with L half its size so that all three are lengths. For both,
+// Displacement vectors have two components per node, in space three; those of a rigid body, which is plane, have three,
+// [u_x, u_y, L rotation] about its centroid, with L half its size so that all three are lengths. For both,
 //
 //     u = u_p(f, d) + A C'p + Nn a
 //
@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/system/positions.hpp"
 #include "scabo/system/stiffness.hpp"
 
 namespace scabo::system {
@@ -70,9 +71,9 @@ class BodySystem {
   virtual ~BodySystem() = default;
   virtual Eigen::Index size() const = 0;                          ///< of u
   const Matrix& rigid_motions() const { return rigid_motions_; }  ///< Nn, size x m
-  const Vec2& reference() const { return reference_; }            ///< centre of rotation
+  const Vec2& reference() const { return reference_; }            ///< centre of rotation of a plane body
   double lever() const { return lever_; }                         ///< L
-  /// Columns of Nn as [u_x, u_y, L rotation] at the reference point, 3 x m.
+  /// Columns of Nn as [u_x, u_y, L rotation] at the reference point, 3 x m; in space 6 x m (rigid_motions.hpp).
   const Matrix& rigid_coordinates() const { return rigid_coordinates_; }
 
   /// u_p for the applied forces f and the prescribed values of all constraints.
@@ -136,15 +137,15 @@ class BodySystem {
 /// Adds the forces of constraints, one for each, to those on the nodes of an elastic body.
 void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces);
 
-/// An elastic body. `nodes` give the rigid motions; constraints have distinct `dof`s, and two at one node are not
-/// parallel.
-std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const std::vector<Vec2>& nodes,
+/// An elastic body, in the plane or in space. `nodes` give the rigid motions; constraints have distinct `dof`s, and two
+/// at one node are not parallel. In space they hold along the axes, and there are no springs.
+std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const Positions& nodes,
                                          std::vector<Constraint> constraints);
 
 /// An elastic body that is not factorised yet.
 struct ElasticPart {
   Stiffness stiffness;
-  std::vector<Vec2> nodes;
+  Positions nodes;
   std::vector<Constraint> constraints;
   /// Of the nodes in contact pairs, ascending and distinct: those whose flexibility is asked for later.
   std::vector<int> contact_dofs = {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/error.hpp"
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/joined_bodies.hpp"
@@ -13,20 +14,22 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Rows [n, t] of one side of a pair over the displacements of its part.
-void add_side(Triplets& entries, int row, double sign, const Structure& structure, int body, int node,
-              const Vec2& point, const Vec2& normal) {
-  const Dofs& dofs = structure.dofs;
-  const BodySystem& part = *structure.parts[dofs.part_of(body)];
-  const Vec2 directions[2] = {normal, tangent_of(normal)};
-  for (int k = 0; k < 2; ++k) {
-    if (node < 0) {
-      const Eigen::RowVector3d map = directions[k].transpose() * rigid_point(point, part.reference(), part.lever());
+/// Rows of one side of a pair over the displacements of its part.
+void add_side(Triplets& entries, int row, double sign, const BodySystem& part, const PairSide& side,
+              const PairPoints::Directions& directions) {
+  const Components components{static_cast<int>(directions.rows())};
+  for (int k = 0; k < components.dimension; ++k) {
+    if (side.nodes.empty()) {
+      ensure(components.dimension == 2, "a part without nodes is rigid, and rigid parts are plane");
+      const Vec2 direction = directions.col(k);
+      const Eigen::RowVector3d map = direction.transpose() * rigid_point(side.point, part.reference(), part.lever());
       for (int j = 0; j < 3; ++j) entries.emplace_back(row + k, j, sign * map[j]);
-    } else {
-      for (int j = 0; j < 2; ++j)  // of a joint along an axis half of them are 0
-        if (directions[k][j] != 0.0) entries.emplace_back(row + k, dofs.of(body, node, j), sign * directions[k][j]);
     }
+    for (const PairSide::Node& at : side.nodes)
+      for (int j = 0; j < components.dimension; ++j)  // of a joint along an axis half of them are 0
+        if (directions(j, k) != 0.0)
+          entries.emplace_back(row + k, static_cast<int>(components.of(at.node, j)),
+                               sign * (at.weight * directions(j, k)));
   }
 }
 
@@ -52,21 +55,13 @@ Eigen::SparseMatrix<double> by_columns(Eigen::Index rows, Eigen::Index columns, 
   return matrix;
 }
 
-std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<ContactSystem::Pair>& pairs,
-                                                   const Structure& structure, const model::Model& model,
-                                                   const mesh::Mesh& mesh) {
+std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<PairPoints>& pairs, const Structure& structure) {
   std::vector<Triplets> entries(structure.parts.size());
   int row = 0;
-  for (const ContactSystem::Pair& at : pairs) {
-    const model::Contact& contact = model.contacts[static_cast<std::size_t>(at.contact)];
-    const mesh::ContactPair& pair =
-        mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
-    const int a = contact.a.body, b = contact.b.body;
-    add_side(entries[structure.dofs.part_of(a)], row, -1.0, structure, a, pair.node_a,
-             mesh.point_of(at.contact, pair, 0), pair.normal);
-    add_side(entries[structure.dofs.part_of(b)], row, 1.0, structure, b, pair.node_b,
-             mesh.point_of(at.contact, pair, 1), pair.normal);
-    row += 2;
+  for (const PairPoints& pair : pairs) {
+    add_side(entries[pair.a.part], row, -1.0, *structure.parts[pair.a.part], pair.a, pair.directions);
+    add_side(entries[pair.b.part], row, 1.0, *structure.parts[pair.b.part], pair.b, pair.directions);
+    row += static_cast<int>(pair.directions.cols());
   }
   std::vector<Eigen::SparseMatrix<double>> motion;
   for (std::size_t p = 0; p < structure.parts.size(); ++p)
@@ -182,15 +177,17 @@ std::vector<T> selected(const std::vector<T>& all, const std::vector<int>& which
   return some;
 }
 
-/// Which pairs have both parts, and the new number of each of their two rows, -1 of the others.
-std::vector<int> pairs_there(const std::vector<ContactSystem::Pair>& pairs, const Structure& structure,
-                             const model::Model& model, const std::vector<char>& absent, std::vector<int>& row_place) {
+/// Which pairs have both parts, and the new number of each of their rows, -1 of the others.
+std::vector<int> pairs_there(const std::vector<ContactSystem::Pair>& pairs, const Components& components,
+                             const Structure& structure, const model::Model& model, const std::vector<char>& absent,
+                             std::vector<int>& row_place) {
   std::vector<int> there;
-  row_place.assign(2 * pairs.size(), -1);
+  row_place.assign(static_cast<std::size_t>(components.count(pairs.size())), -1);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(pairs[i].contact)];
     if (absent[structure.dofs.part_of(contact.a.body)] || absent[structure.dofs.part_of(contact.b.body)]) continue;
-    for (std::size_t k = 0; k < 2; ++k) row_place[2 * i + k] = static_cast<int>(2 * there.size() + k);
+    for (int k = 0; k < components.dimension; ++k)
+      row_place[static_cast<std::size_t>(components.of(i, k))] = static_cast<int>(components.of(there.size(), k));
     there.push_back(static_cast<int>(i));
   }
   return there;
@@ -229,17 +226,18 @@ ContactSystem without_parts(const ContactSystem& whole, const Structure& structu
                             const std::vector<char>& absent) {
   ContactSystem system;
   std::vector<int> place, held_place, rigid_place(static_cast<std::size_t>(whole.rigid_motions()), -1);
-  const std::vector<int> there = pairs_there(whole.pairs, structure, model, absent, place),
-                         held = pairs_there(whole.held, structure, model, absent, held_place);
+  system.components = whole.components;
+  const std::vector<int> there = pairs_there(whole.pairs, whole.components, structure, model, absent, place),
+                         held = pairs_there(whole.held, whole.components, structure, model, absent, held_place);
   system.pairs = selected(whole.pairs, there);
   system.held = selected(whole.held, held);
-  const auto kept = static_cast<Eigen::Index>(2 * there.size());
+  const auto kept = whole.components.count(there.size());
   int columns = 0;
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
     system.motion.push_back(block_of(whole.motion[p], place, {}, kept, whole.motion[p].cols()));
     if (!whole.held_motion.empty())
-      system.held_motion.push_back(block_of(whole.held_motion[p], held_place, {},
-                                            static_cast<Eigen::Index>(2 * held.size()), whole.held_motion[p].cols()));
+      system.held_motion.push_back(block_of(whole.held_motion[p], held_place, {}, whole.components.count(held.size()),
+                                            whole.held_motion[p].cols()));
     system.first_rigid.push_back(columns);
     for (Eigen::Index k = 0; !absent[p] && k < structure.parts[p]->rigid_motions().cols(); ++k)
       rigid_place[static_cast<std::size_t>(whole.first_rigid[p] + k)] = columns++;
@@ -254,14 +252,6 @@ ContactSystem without_parts(const ContactSystem& whole, const Structure& structu
 }
 
 namespace {
-
-std::vector<ContactSystem::Pair> pairs_of(const mesh::Mesh& mesh) {
-  std::vector<ContactSystem::Pair> all;
-  for (std::size_t c = 0; c < mesh.interfaces.size(); ++c)
-    for (std::size_t i = 0; i < mesh.interfaces[c].pairs.size(); ++i)
-      all.push_back({static_cast<int>(c), static_cast<int>(i), 0});
-  return all;
-}
 
 /// What a part has to do for its flexibility, roughly.
 double work_of(const BodySystem& part, const Eigen::SparseMatrix<double>& motion) {
@@ -278,7 +268,7 @@ struct Flexibilities {
 };
 Flexibilities flexibilities_of(const std::vector<TouchedPart>& touched, const Structure& structure,
                                const std::vector<Eigen::SparseMatrix<double>>& motion, const PairProducts* products,
-                               int threads) {
+                               const Components& components, int threads) {
   Flexibilities found{std::vector<PartFlexibility>(structure.parts.size()),
                       std::vector<Vector>(structure.parts.size())};
   std::vector<double> work;
@@ -291,7 +281,8 @@ Flexibilities flexibilities_of(const std::vector<TouchedPart>& touched, const St
       const Matrix blocks = products->diagonal_blocks_of(p);
       diagonal.resize(static_cast<Eigen::Index>(touched[p].rows.size()));
       for (std::size_t i = 0; i < touched[p].rows.size(); ++i)
-        diagonal[static_cast<Eigen::Index>(i)] = blocks(touched[p].rows[i] % 2, touched[p].rows[i]);
+        diagonal[static_cast<Eigen::Index>(i)] =
+            blocks(components.component_of(touched[p].rows[i]), touched[p].rows[i]);
     } else {
       found.of_part[p] = flexibility_of(touched[p], *structure.parts[p]);
       diagonal = found.of_part[p].block.diagonal();
@@ -322,7 +313,8 @@ Eigen::SparseMatrix<double> rigid_map_of(const Structure& structure,
 
 /// Which pairs move. A pair whose gap is changed by no force and no rigid motion is held by supports on both sides.
 std::vector<char> moving_pairs(const std::vector<TouchedPart>& touched, const Structure& structure,
-                               const std::vector<Vector>& diagonals, const Eigen::SparseMatrix<double>& G) {
+                               const std::vector<Vector>& diagonals, const Eigen::SparseMatrix<double>& G,
+                               const Components& components) {
   Vector diagonal = Vector::Zero(G.rows()), moved = Vector::Zero(G.rows());  // of W; by rigid motions, at most
   double largest = 0.0, largest_on_springs = 0.0;  // of the diagonal; a soft spring says nothing of stiff bodies
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
@@ -336,55 +328,46 @@ std::vector<char> moving_pairs(const std::vector<TouchedPart>& touched, const St
     for (Eigen::SparseMatrix<double>::InnerIterator it(G, k); it; ++it)
       moved[it.row()] = std::max(moved[it.row()], std::abs(it.value()));
   std::vector<char> moves;
-  for (Eigen::Index row = 0; row < G.rows(); row += 2)
+  for (Eigen::Index row = 0; row < G.rows(); row += components.dimension)
     moves.push_back(diagonal[row] > 1e-13 * largest || moved[row] > 1e-12);
   return moves;
 }
 
-/// Gaps of pairs whose laws do not keep them.
-Vector gaps_of(const ContactSystem& system, const mesh::Mesh& mesh) {
-  Vector gap(static_cast<Eigen::Index>(system.pairs.size()));
-  for (std::size_t i = 0; i < system.pairs.size(); ++i) {
-    const ContactSystem::Pair& at = system.pairs[i];
-    gap[static_cast<Eigen::Index>(i)] =
-        system.laws.of_pair[i]->keeps_gap()
-            ? 0.0
-            : mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)].gap;
-  }
-  return gap;
-}
-
-}  // namespace
-
-ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads) {
-  const std::vector<ContactSystem::Pair> all = pairs_of(mesh);
-  const auto motion = motion_of(all, structure, model, mesh);
-  const auto rows = static_cast<Eigen::Index>(2 * all.size());
+/// All but the laws; `joints`: number of contacts among which the pairs are.
+ContactSystem condensed(const Structure& structure, const std::vector<PairPoints>& points,
+                        const std::vector<ContactSystem::Pair>& all, std::size_t joints, int threads) {
+  ContactSystem system;
+  if (!points.empty()) system.components = {static_cast<int>(points.front().directions.rows())};
+  const Components components = system.components;
+  const auto motion = motion_of(points, structure);
+  const Eigen::Index rows = components.count(all.size());
   std::vector<TouchedPart> touched;
   for (const Eigen::SparseMatrix<double>& of_part : motion) touched.push_back(touched_part(of_part));
   const bool sparse = is_sparse(touched, structure, rows);
+  // Bodies are joined by the positions of their nodes, in the plane.
+  const bool has_positions = components.dimension == 2 && structure.dofs.parts() == structure.parts.size();
   std::shared_ptr<const JoinedBodies> joined;
-  if (!sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion, joints_of(all));
+  if (has_positions && !sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion, joints_of(all));
   const bool by_products = joined && rows > most_formed;
   const auto products = by_products ? std::make_unique<const PairProducts>(structure, motion) : nullptr;
-  Flexibilities flexibilities = flexibilities_of(touched, structure, motion, products.get(), threads);
+  Flexibilities flexibilities = flexibilities_of(touched, structure, motion, products.get(), components, threads);
 
-  ContactSystem system;
   Eigen::SparseMatrix<double> G = rigid_map_of(structure, motion, rows, system.first_rigid);
-  const std::vector<char> moves = moving_pairs(touched, structure, flexibilities.diagonals, G);
+  const std::vector<char> moves = moving_pairs(touched, structure, flexibilities.diagonals, G, components);
   std::vector<int> moving, held, place(static_cast<std::size_t>(rows), -1);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = 0; moves[i] && k < 2; ++k) place[2 * i + k] = static_cast<int>(2 * moving.size() + k);
+    for (int k = 0; moves[i] && k < components.dimension; ++k)
+      place[static_cast<std::size_t>(components.of(i, k))] = static_cast<int>(components.of(moving.size(), k));
     (moves[i] ? moving : held).push_back(static_cast<int>(i));
   }
   system.pairs = selected(all, moving);
   system.held = selected(all, held);
-  std::vector<int> numbers(model.contacts.size(), 0);
+  std::vector<int> numbers(joints, 0);
   for (ContactSystem::Pair& pair : system.pairs) pair.number = ++numbers[static_cast<std::size_t>(pair.contact)];
-  const auto kept = static_cast<Eigen::Index>(2 * moving.size());
-  system.motion = held.empty() ? motion : motion_of(system.pairs, structure, model, mesh);
+  const Eigen::Index kept = components.count(moving.size());
+  system.motion = held.empty() ? motion : motion_of(selected(points, moving), structure);
   if (!held.empty()) {
-    system.held_motion = motion_of(system.held, structure, model, mesh);
+    system.held_motion = motion_of(selected(points, held), structure);
     if (joined) joined = JoinedBodies::of(structure, system.motion, joints_of(system.pairs));
     G = block_of(G, place, {}, kept, G.cols());
   }
@@ -392,9 +375,59 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
                          : sum_of(std::move(flexibilities.of_part), place, kept, sparse);
   if (joined) system.W = system.W.with_holder(joined);
   system.G = contact::RigidMap(std::move(G));
-  system.laws = contact_laws(system.pairs, model, mesh);
-  system.gap = gaps_of(system, mesh);
+  system.gap.resize(static_cast<Eigen::Index>(moving.size()));
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    system.gap[static_cast<Eigen::Index>(i)] = points[static_cast<std::size_t>(moving[i])].gap;
   return system;
+}
+
+/// The system with these laws, some of which keep the gap of their pairs.
+ContactSystem with_laws(ContactSystem system, contact::JointLaws laws) {
+  system.laws = std::move(laws);
+  for (std::size_t i = 0; i < system.laws.of_pair.size(); ++i)
+    if (system.laws.of_pair[i]->keeps_gap()) system.gap[static_cast<Eigen::Index>(i)] = 0.0;
+  return system;
+}
+
+/// A side of a pair that is a node of an elastic body, or a point of a rigid one.
+PairSide side_of(const Dofs& dofs, int body, int node, const Vec2& point) {
+  PairSide side{dofs.part_of(body), {}, point};
+  if (node >= 0) side.nodes.push_back({dofs.node_in_part(body, node), 1.0});
+  return side;
+}
+
+}  // namespace
+
+ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads) {
+  std::vector<ContactSystem::Pair> all;
+  std::vector<PairPoints> points;
+  for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
+    const auto contact = static_cast<int>(c);
+    for (std::size_t i = 0; i < mesh.interfaces[c].pairs.size(); ++i) {
+      const mesh::ContactPair& pair = mesh.interfaces[c].pairs[i];
+      all.push_back({contact, static_cast<int>(i), 0});
+      points.push_back({side_of(structure.dofs, model.contacts[c].a.body, pair.node_a, mesh.point_of(contact, pair, 0)),
+                        side_of(structure.dofs, model.contacts[c].b.body, pair.node_b, mesh.point_of(contact, pair, 1)),
+                        {},
+                        pair.gap});
+      points.back().directions.resize(2, 2);
+      points.back().directions << pair.normal, tangent_of(pair.normal);
+    }
+  }
+  ContactSystem system = condensed(structure, points, all, model.contacts.size(), threads);
+  contact::JointLaws laws = contact_laws(system.pairs, model, mesh);
+  return with_laws(std::move(system), std::move(laws));
+}
+
+ContactSystem condense(const Structure& structure, const std::vector<PairPoints>& pairs, const contact::JointLaws& laws,
+                       int threads) {
+  std::vector<ContactSystem::Pair> all;
+  for (std::size_t i = 0; i < pairs.size(); ++i) all.push_back({0, static_cast<int>(i), 0});
+  ContactSystem system = condensed(structure, pairs, all, 1, threads);
+  std::vector<int> kept;
+  for (const ContactSystem::Pair& pair : system.pairs) kept.push_back(pair.index);
+  contact::JointLaws of_kept{selected(laws.of_pair, kept), Vector(laws.area(kept))};
+  return with_laws(std::move(system), std::move(of_kept));
 }
 
 }  // namespace scabo::system

@@ -1,4 +1,8 @@
 // Condensation of a structure to its contact pairs: relative motion = q + W p + G a (contact/problem.hpp).
+//
+// Either side of a pair is a point that moves as the weighted mean of some nodes of its part, so that it may lie
+// anywhere on a facet. With the directions D of the pair ([n, t], in space [n, t1, t2]) its rows of B are D' sum_i w_i
+// u_i, positive for side B and negative for side A, and W = B K^-1 B'.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -14,21 +18,43 @@ inline constexpr double most_filled = 0.2;
 /// A dense W of more rows (1.2 GB) is not formed: for 10,001 pairs of two bodies it would take 3.2 GB, several times.
 inline constexpr Eigen::Index most_formed = 12000;
 
+/// One side of a pair: a point of a part.
+struct PairSide {
+  /// A node of the part, and its weight.
+  struct Node {
+    int node = -1;
+    double weight = 1.0;
+  };
+  std::size_t part = 0;
+  std::vector<Node> nodes;    ///< the weights add up to 1; none: of a rigid part
+  Vec2 point = Vec2::Zero();  ///< of a rigid part, which is plane
+};
+
+/// A contact pair, apart from its law.
+struct PairPoints {
+  /// d x d, orthonormal columns: the normal, out of A towards B, and the tangents.
+  using Directions = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+  PairSide a, b;
+  Directions directions;
+  double gap = 0.0;
+};
+
 /// The part of the contact problem that does not change from increment to increment.
 struct ContactSystem {
   /// A pair that can move: contact, index into the interface's pairs, number shown to users (from 1 in each contact).
   struct Pair {
     int contact = -1, index = -1, number = 0;
   };
+  Components components;                                 // of a pair: d
   std::vector<Pair> pairs;                               // N
-  std::vector<Eigen::SparseMatrix<double>> motion;       // per part, 2N x size of u: B side positive, A side negative
+  std::vector<Eigen::SparseMatrix<double>> motion;       // per part, dN x size of u: B side positive, A side negative
   std::vector<Pair> held;                                // pairs whose gap is fixed by supports, which are left out
-  std::vector<Eigen::SparseMatrix<double>> held_motion;  // per part, rows [n, t] as above
+  std::vector<Eigen::SparseMatrix<double>> held_motion;  // per part, rows as above
   Vector gap;                                            // N, initial; 0 if the pair is bonded in its initial position
   contact::JointLaws laws;                               // law of every pair
-  contact::Delassus W;  // 2N x 2N, a sum over parts: sparse if there are many, by products beyond 6,000 pairs; those
+  contact::Delassus W;  // dN x dN, a sum over parts: sparse if there are many, by products beyond 6,000 pairs; those
                         // and large dense ones have a holder (joined_bodies.hpp), and need the structure
-  contact::RigidMap G;  // 2N x m
+  contact::RigidMap G;  // dN x m
   std::vector<int> first_rigid;  // per part: its first column in G; an absent one has none
 
   int rigid_motions() const { return static_cast<int>(G.cols()); }
@@ -36,6 +62,11 @@ struct ContactSystem {
 
 /// The parts on up to `threads` threads.
 ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads = 1);
+
+/// The same for given parts and pairs, without a model: `laws` has one for each pair, and pair i of the result is
+/// {0, i, number}. `structure` needs its parts alone.
+ContactSystem condense(const Structure& structure, const std::vector<PairPoints>& pairs, const contact::JointLaws& laws,
+                       int threads = 1);
 
 /// Rows and columns of a matrix of pairs; row_place and column_place: the new number of each, -1: left out. Without
 /// `column_place` all columns.

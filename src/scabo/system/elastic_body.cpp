@@ -11,12 +11,13 @@
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/sparse_factor.hpp"
 #include "scabo/system/ranks.hpp"
+#include "scabo/system/rigid_motions.hpp"
 
 namespace scabo::system {
 
-ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes,
+ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const Positions& nodes,
                          std::vector<Constraint> constraints)
-    : factored_(std::move(factored)), motions_(nodes), free_(static_cast<std::size_t>(places_of(nodes.size())), true) {
+    : factored_(std::move(factored)), motions_(nodes), free_(static_cast<std::size_t>(nodes.columns().size()), true) {
   constraints_ = std::move(constraints);
   inclined_ = InclinedNodes(constraints_);
   find_rigid_motions(nodes);
@@ -30,12 +31,29 @@ ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const std::vector<V
     if (solved_[i]) place_[i] = static_cast<int>(dofs_.size()), dofs_.push_back(static_cast<int>(i));
 }
 
-void ElasticBody::find_rigid_motions(const std::vector<Vec2>& nodes) {
-  rigid_coordinates_ = free_motions(nodes, constraints_, stiffness().springs.directions, reference_, lever_);
-  if (stiffness().resists_rigid_motions) rigid_coordinates_ = Matrix::Zero(3, 0);
+void ElasticBody::find_rigid_motions_in_space(const Matrix& nodes) {
+  ensure(inclined_.none() && !has_springs(), "in space supports hold along the axes, and there are no springs");
+  const RigidMotionsInSpace motions(nodes);
+  lever_ = motions.lever();
+  Matrix held(static_cast<Eigen::Index>(constraints_.size()), 6);
+  for (std::size_t c = 0; c < constraints_.size(); ++c)
+    held.row(static_cast<Eigen::Index>(c)) = motions.along(constraints_[c].dof);
+  rigid_coordinates_ = null_space(held);
   rigid_motions_.resize(size(), rigid_coordinates_.cols());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    rigid_motions_.middleRows<2>(place_of(i)) = rigid_point(nodes[i], reference_, lever_) * rigid_coordinates_;
+  for (Eigen::Index dof = 0; dof < size(); ++dof) rigid_motions_.row(dof) = motions.along(dof) * rigid_coordinates_;
+}
+
+void ElasticBody::find_rigid_motions(const Positions& nodes) {
+  if (nodes.components().dimension == 3) {
+    find_rigid_motions_in_space(nodes.columns());
+  } else {
+    const std::vector<Vec2> in_plane = nodes.in_plane();
+    rigid_coordinates_ = free_motions(in_plane, constraints_, stiffness().springs.directions, reference_, lever_);
+    if (stiffness().resists_rigid_motions) rigid_coordinates_ = Matrix::Zero(3, 0);
+    rigid_motions_.resize(size(), rigid_coordinates_.cols());
+    for (std::size_t i = 0; i < in_plane.size(); ++i)
+      rigid_motions_.middleRows<2>(place_of(i)) = rigid_point(in_plane[i], reference_, lever_) * rigid_coordinates_;
+  }
   for (Eigen::Index k = 0; k < rigid_motions_.cols(); ++k) {
     Vector along = inclined_.along(rigid_motions_.col(k));
     for (const Constraint& constraint : constraints_) along[constraint.dof] = 0.0;
@@ -63,15 +81,16 @@ void ElasticBody::find_forces_on_further() {
   on_further_ = m > 0 ? Matrix(B.transpose().inverse()) : Matrix(0, 0);
 }
 
-void ElasticBody::factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes,
+void ElasticBody::factorise(linalg::SparseOptions options, const Positions& nodes,
                             const std::vector<int>& contact_dofs) {
   // Many of them are condensed fast in a balanced tree only, that of dissection: of a layer of 1,500 x 54 eight-node
   // elements with 3,001 pairs in 1.6 s instead of 9.1 s, while the factorisation takes as long.
   constexpr std::size_t many = 1000;
-  if (contact_dofs.size() >= many && options.ordering == linalg::Ordering::automatic)
+  const bool plane = nodes.components().dimension == 2;
+  if (plane && contact_dofs.size() >= many && options.ordering == linalg::Ordering::automatic)
     options.ordering = linalg::Ordering::dissection_by_position;
   for (const int dof : dofs_)
-    options.positions.push_back(nodes[static_cast<std::size_t>(plane_components.node_of(dof))]);
+    if (plane) options.positions.push_back(nodes.columns().col(plane_components.node_of(dof)));
   const bool alone = inclined_.none() && stiffness().springs.none();
   if (stiffness().divided) {
     linalg::FactorisationCosts costs;

@@ -19,14 +19,14 @@ struct Factored {
 
 class ElasticBody final : public BodySystem {
  public:
-  ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes, std::vector<Constraint> constraints);
+  ElasticBody(std::shared_ptr<Factored> factored, const Positions& nodes, std::vector<Constraint> constraints);
 
   const std::vector<int>& solved_dofs() const { return dofs_; }
   const InclinedNodes& inclined() const { return inclined_; }
   const std::shared_ptr<Factored>& factored() const { return factored_; }
   void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
   const void* factor() const override { return factored_.get(); }
-  void factorise(linalg::SparseOptions options, const std::vector<Vec2>& nodes, const std::vector<int>& contact_dofs);
+  void factorise(linalg::SparseOptions options, const Positions& nodes, const std::vector<int>& contact_dofs);
 
   Vector spring_forces(const Vector& u) const override { return -stiffness().springs.times(u); }
   bool is_flexible() const override { return true; }
@@ -53,7 +53,8 @@ class ElasticBody final : public BodySystem {
   double stiff_force(const Vector& u) const override;
 
  private:
-  void find_rigid_motions(const std::vector<Vec2>& nodes);
+  void find_rigid_motions(const Positions& nodes);
+  void find_rigid_motions_in_space(const Matrix& nodes);
   /// As many degrees of freedom as there are rigid motions, chosen so that holding them stops every motion.
   std::vector<int> further_dofs() const;
   /// Of Goal::held: B' x = z for forces x on these degrees of freedom along which the motions are B, and resultants z.
@@ -78,7 +79,7 @@ class ElasticBody final : public BodySystem {
     return system::forces_left(stiffness(), motions_, u, f, product, rounding);
   }
   bool is_large() const { return system::is_large(stiffness()); }
-  bool by_differences() const { return system::by_differences(stiffness()); }
+  bool by_differences() const { return system::by_differences(stiffness(), motions_); }
   /// 1/2 u'(K + S) u in twice the working precision.
   double exact_energy(const Vector& u) const;
 

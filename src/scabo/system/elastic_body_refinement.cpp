@@ -40,9 +40,11 @@ double ElasticBody::largest_left(const Vector& unbalanced, const Goal& of) const
   for (std::size_t i = 0; i < free_.size(); ++i)
     if (!free_[i]) free[static_cast<Eigen::Index>(i)] = 0.0;
   free = inclined_.forces(std::move(free));
-  const Eigen::Vector3d sums = motions_.resultants_of(free);
-  return std::max({largest, std::abs(sums[0]) / of.spread, std::abs(sums[1]) / of.spread,
-                   std::abs(sums[2]) / (lever_ * of.spread)});
+  const Vector sums = motions_.resultants_of(free);
+  for (Eigen::Index k = 0; k < sums.size(); ++k)
+    largest =
+        std::max(largest, std::abs(sums[k]) / (k < motions_.components().dimension ? of.spread : lever_ * of.spread));
+  return largest;
 }
 
 ElasticBody::Left ElasticBody::left_by(const Vector& u, const Vector& f) const {

@@ -22,6 +22,8 @@ Vector multiplied(const Nodes& nodes, Vector values, const MatrixOf& matrix_of) 
 }  // namespace
 
 InclinedNodes::InclinedNodes(const std::vector<Constraint>& constraints) {
+  const auto is_inclined = [](const Constraint& constraint) { return constraint.component < 0; };
+  if (std::none_of(constraints.begin(), constraints.end(), is_inclined)) return;
   std::map<int, std::array<const Constraint*, 2>> held;
   for (const Constraint& constraint : constraints)
     held[plane_components.node_of(constraint.dof)]

@@ -7,35 +7,46 @@
 
 #include <vector>
 
+#include "scabo/system/positions.hpp"
 #include "scabo/system/stiffness.hpp"
 
 namespace scabo::system {
 
-/// Rigid motions of the nodes of a body, two components for each node: the translations, and the rotation about the
-/// mean of the nodes, which is orthogonal to them.
+/// Rigid motions of the nodes of a body, in the plane or in space: the translations, and rotations about the mean of
+/// the nodes (one, or three), which are orthogonal to them and to each other.
 class NodalRigidMotions {
  public:
-  explicit NodalRigidMotions(const std::vector<Vec2>& nodes);
+  explicit NodalRigidMotions(const Positions& nodes);
+  const Components& components() const { return components_; }
 
   /// By sums in twice the working precision: those of half a million forces of weight lose 1e-10 of the largest
   /// otherwise.
   void take_out_of(linalg::TwofoldVector& v) const;
   /// In working precision, for estimates.
   Vector taken_out_of(Vector u) const;
-  /// Resultant of forces along x and y, and their moment about the mean of the nodes.
-  Eigen::Vector3d resultants_of(const Vector& forces) const;
+  /// Resultant of forces along the axes, and what they do in the rotations: their moment about the mean of the nodes.
+  Vector resultants_of(const Vector& forces) const;
 
  private:
-  linalg::TwofoldVector turn_;  // displacements by a unit rotation
-  linalg::Twofold turn_square_;
+  struct Rotation {
+    linalg::TwofoldVector turn;  // displacements by it
+    linalg::Twofold square;
+  };
+  template <int d>
+  void take_out(linalg::TwofoldVector& v) const;
+  template <int d>
+  Vector taken_out(Vector u) const;
+
+  Components components_;
+  std::vector<Rotation> rotations_;
 };
 
 /// Whether a solve takes so long that one less counts.
 bool is_large(const Stiffness& stiffness);
 
-/// Whether K u comes from differences of displacements: in working precision it is then exact but for the rounding of
-/// u.
-bool by_differences(const Stiffness& stiffness);
+/// Whether K u comes from differences of displacements (in the plane): in working precision it is then exact but for
+/// the rounding of u.
+bool by_differences(const Stiffness& stiffness, const NodalRigidMotions& motions);
 
 /// (K + S) u, without the part that a translation of the whole body would add to K u by rounding.
 Vector internal_forces(const Stiffness& stiffness, const NodalRigidMotions& motions, Vector u);

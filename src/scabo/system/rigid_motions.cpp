@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "scabo/base/components.hpp"
@@ -69,6 +70,20 @@ Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint
         constraints[c].direction().transpose() *
         rigid_point(nodes[static_cast<std::size_t>(plane_components.node_of(constraints[c].dof))], reference, lever);
   return at_rest(null_space(held), springs, reference, lever);
+}
+
+RigidMotionsInSpace::RigidMotionsInSpace(const Matrix& nodes)
+    : nodes_(nodes),
+      reference_(0.5 * (nodes.rowwise().minCoeff() + nodes.rowwise().maxCoeff())),
+      lever_(0.5 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm()) {}
+
+Eigen::Matrix<double, 1, 6> RigidMotionsInSpace::along(Eigen::Index dof) const {
+  constexpr Components space{3};
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(space.component_of(dof)),
+                        arm = (nodes_.col(space.node_of(dof)) - reference_) / lever_;
+  Eigen::Matrix<double, 1, 6> motion;
+  motion << axis.transpose(), arm.cross(axis).transpose();  // axis . (rotation x arm) = rotation . (arm x axis)
+  return motion;
 }
 
 void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces) {

@@ -229,17 +229,19 @@ TEST(RigidBody, FindsSupportsThatContradictEachOther) {
 /// A lattice girder of springs, two rows of `count` nodes one apart; stiffness `k` of a spring of length 1.
 ElasticPart girder(int count, double k, const Vec2& at) {
   ElasticPart part;
-  for (int i = 0; i < 2 * count; ++i) part.nodes.push_back(at + Vec2(i / 2, i % 2));
+  std::vector<Vec2> nodes;
+  for (int i = 0; i < 2 * count; ++i) nodes.push_back(at + Vec2(i / 2, i % 2));
   std::vector<Eigen::Triplet<double>> entries;
   for (int a = 0; a < 2 * count; ++a)
     for (int b = a + 1; b < std::min(2 * count, a - a % 2 + 4); ++b) {
-      const Vec2 along = part.nodes[static_cast<std::size_t>(b)] - part.nodes[static_cast<std::size_t>(a)];
+      const Vec2 along = nodes[static_cast<std::size_t>(b)] - nodes[static_cast<std::size_t>(a)];
       const Vec2 unit = along.normalized();
       const Eigen::Vector4d row(-unit.x(), -unit.y(), unit.x(), unit.y());
       const int dofs[4] = {2 * a, 2 * a + 1, 2 * b, 2 * b + 1};
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) entries.emplace_back(dofs[i], dofs[j], k / along.norm() * row[i] * row[j]);
     }
+  part.nodes = nodes;
   part.stiffness.sparse.resize(4 * count, 4 * count);
   part.stiffness.sparse.setFromTriplets(entries.begin(), entries.end());
   for (int dof = 0; dof < 4; ++dof) part.constraints.push_back(hold(dof / 2, dof % 2));

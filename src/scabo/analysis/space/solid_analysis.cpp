@@ -1,0 +1,194 @@
+#include "scabo/analysis/space/solid_analysis.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "scabo/contact/laws/bonded.hpp"
+#include "scabo/contact/laws/coulomb.hpp"
+#include "scabo/contact/solve.hpp"
+#include "scabo/system/solid_part.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+constexpr Components in_space{3};
+
+/// The pairs of all contacts, in their order.
+struct PairedFaces {
+  std::vector<system::PairPoints> points;
+  std::vector<SolidPair> pairs;  // at rest
+  std::vector<char> turned;      // whether the pairs are corners of side a
+  contact::JointLaws laws;
+};
+
+PairedFaces paired_faces(const SolidModel& model) {
+  PairedFaces paired;
+  std::vector<double> areas;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const SolidContact& contact = model.contacts[c];
+    const auto face_of = [&](const SolidContact::Side& side) {
+      return mesh::Face{model.bodies[static_cast<std::size_t>(side.body)].mesh, side.facets};
+    };
+    const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
+    const bool turned = !mesh::has_pairs_on_second(a, b);
+    const mesh::FacetPairs found = turned ? mesh::facet_pairs(b, a) : mesh::facet_pairs(a, b);
+    const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),
+               second = static_cast<std::size_t>(turned ? contact.a.body : contact.b.body);
+    std::shared_ptr<const contact::Law> law = std::make_shared<contact::Bonded>();
+    if (contact.friction) law = std::make_shared<contact::Coulomb>(*contact.friction);
+    for (system::PairPoints& points : system::points_of(found, first, second)) {
+      points.gap += contact.gap;
+      paired.points.push_back(std::move(points));
+    }
+    for (const mesh::FacetPair& pair : found.pairs) {
+      SolidPair at_rest;
+      at_rest.contact = static_cast<int>(c);
+      at_rest.point = pair.point;
+      at_rest.normal = (turned ? -1.0 : 1.0) * found.directions.col(0);
+      at_rest.area = pair.area;
+      paired.pairs.push_back(at_rest);
+      paired.turned.push_back(turned);
+      paired.laws.of_pair.push_back(law);
+      areas.push_back(pair.area);
+    }
+  }
+  paired.laws.area = Eigen::Map<const Vector>(areas.data(), static_cast<Eigen::Index>(areas.size()));
+  return paired;
+}
+
+/// What stays over all increments.
+struct PreparedSolids {
+  const SolidModel& model;
+  PairedFaces paired;
+  system::Structure structure;
+  system::ContactSystem contact;
+};
+
+PreparedSolids prepared_solids(const SolidModel& model, int threads) {
+  PreparedSolids prepared{model, paired_faces(model), {}, {}};
+  std::vector<system::ElasticPart> parts;
+  for (const SolidBody& body : model.bodies)
+    parts.push_back({system::solid_stiffness(body.mesh, element::elasticity_in_space(body.young, body.poisson)),
+                     system::Positions(body.mesh.nodes), body.supports});
+  prepared.structure.parts = system::elastic_bodies(std::move(parts), threads);
+  prepared.contact = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
+  return prepared;
+}
+
+/// Loads and prescribed displacements of all bodies.
+struct AppliedToSolids {
+  std::vector<Vector> forces, prescribed;
+};
+AppliedToSolids applied_to_solids(const SolidModel& model, const SolidFactors& factors) {
+  AppliedToSolids applied;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const SolidBody& body = model.bodies[b];
+    applied.forces.push_back(Vector::Zero(in_space.count(body.mesh.nodes.cols())));
+    for (std::size_t load = 0; load < model.loads.size(); ++load)
+      if (model.loads[load][b].size() > 0)
+        applied.forces[b] += factors.loads[static_cast<Eigen::Index>(load)] * model.loads[load][b];
+    Vector values(static_cast<Eigen::Index>(body.supports.size()));
+    for (std::size_t c = 0; c < body.supports.size(); ++c)
+      values[static_cast<Eigen::Index>(c)] = body.supports[c].value * factors.supports[body.supports[c].support];
+    applied.prescribed.push_back(std::move(values));
+  }
+  return applied;
+}
+
+/// The contact problem of the pairs that move; `slip`: (d - 1) numbers of each so far.
+contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied, const Vector& slip) {
+  const system::ContactSystem& system = prepared.contact;
+  const Eigen::Index pairs = system.gap.size();
+  contact::Problem problem;
+  problem.dimension = in_space.dimension;
+  problem.W = system.W;
+  problem.G = system.G;
+  problem.q = Vector::Zero(in_space.count(pairs));
+  problem.f = Vector::Zero(system.rigid_motions());
+  for (Eigen::Index i = 0; i < pairs; ++i)
+    problem.q.segment<3>(in_space.of(i)) << system.gap[i], -slip.segment<2>(2 * i);
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    problem.q += system.motion[p] * part.displacement(applied.forces[p], applied.prescribed[p]);
+    problem.f.segment(system.first_rigid[p], part.rigid_motions().cols()) =
+        part.rigid_motions().transpose() * applied.forces[p];
+  }
+  contact::set_limits(system.laws, contact::History(static_cast<std::size_t>(pairs)), problem);
+  return problem;
+}
+
+/// Displacements, reactions, and the certificate of equilibrium at every node.
+void add_solid_displacements(const PreparedSolids& prepared, const AppliedToSolids& applied,
+                             const contact::Solution& solution, SolidIncrement& to) {
+  double largest = solution.p.size() > 0 ? solution.p.lpNorm<Eigen::Infinity>() : 0.0, imbalance = 0.0;
+  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    const Vector forces = applied.forces[p] + prepared.contact.motion[p].transpose() * solution.p;
+    Vector u = part.displacement(forces, applied.prescribed[p]);
+    u += part.rigid_motions() * solution.a.segment(prepared.contact.first_rigid[p], part.rigid_motions().cols());
+    const Vector unbalanced = part.unbalanced(u, forces);
+    to.reactions.push_back(part.reactions_of(unbalanced));
+    largest = std::max({largest, forces.lpNorm<Eigen::Infinity>(), unbalanced.lpNorm<Eigen::Infinity>()});
+    imbalance = std::max(imbalance, part.imbalance_of(unbalanced));
+    to.u.push_back(std::move(u));
+  }
+  if (largest > 0.0) to.certificate.equilibrium = imbalance / largest;
+}
+
+/// All pairs; of those that supports hold on both sides, the gap alone.
+std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const contact::Solution& solution,
+                                   const Vector& slip) {
+  const PairedFaces& paired = prepared.paired;
+  std::vector<SolidPair> pairs = paired.pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap = paired.points[i].gap;
+  for (std::size_t k = 0; k < prepared.contact.pairs.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto i = static_cast<std::size_t>(prepared.contact.pairs[k].index);
+    const Eigen::Matrix3d directions = paired.points[i].directions;
+    const double sense = paired.turned[i] ? -1.0 : 1.0;
+    pairs[i].force = sense * (directions * solution.p.segment<3>(in_space.of(row)));
+    pairs[i].slip = sense * (directions.rightCols<2>() * slip.segment<2>(2 * row));
+    pairs[i].gap = solution.gap[row];
+    pairs[i].state = solution.states[k];
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
+                                         double tolerance, int threads) {
+  const PreparedSolids prepared = prepared_solids(model, threads);
+  contact::SolverOptions options;
+  options.tolerance = tolerance;
+  contact::Start start;
+  Vector slip = Vector::Zero(2 * prepared.contact.gap.size());
+  std::vector<SolidIncrement> made;
+  for (const SolidFactors& factors : increments) {
+    const AppliedToSolids applied = applied_to_solids(model, factors);
+    for (const Vector& forces : applied.forces)
+      options.force_scale = std::max(options.force_scale, forces.lpNorm<Eigen::Infinity>());
+    const contact::Solution solution = contact::solve(problem_of_solids(prepared, applied, slip), start, options);
+    SolidIncrement& to = made.emplace_back();
+    to.factors = factors;
+    to.status = solution.status;
+    to.reason = solution.reason;
+    to.iterations = solution.iterations;
+    if (solution.status != contact::Status::solved) return made;
+    slip += solution.slip_increment;
+    to.certificate = solution.certificate;
+    add_solid_displacements(prepared, applied, solution, to);
+    to.pairs = solid_pairs(prepared, solution, slip);
+    if (to.certificate.worst() > tolerance) {
+      to.status = contact::Status::not_converged;
+      to.reason = "the forces at some node do not balance to the tolerance of the certificate";
+      return made;
+    }
+    start.p = solution.p;
+    start.a = solution.a;
+  }
+  return made;
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,75 @@
+// Static analysis of elastic bodies in space with frictional contact and ties between plane faces that do not match.
+//
+// Bodies are tetrahedra as finite elements. Every contact gives pairs (mesh/space/facet_pairs.hpp); the bodies are
+// condensed to them, and an increment is one contact problem (contact/problem.hpp) in which q holds the gaps, the
+// motion under loads and supports, and less the slip so far. Small displacements and rotations.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scabo/contact/certificate.hpp"
+#include "scabo/contact/solution.hpp"
+#include "scabo/mesh/space/facet_pairs.hpp"
+#include "scabo/system/contact_system.hpp"
+
+namespace scabo::analysis {
+
+struct SolidBody {
+  mesh::SolidMesh mesh;
+  double young = 0.0, poisson = 0.0;         ///< force / length^2, > 0; -1 < poisson < 1/2
+  std::vector<system::Constraint> supports;  ///< along the axes; `support`: which factor they have
+};
+
+/// Two faces of different bodies.
+struct SolidContact {
+  struct Side {
+    int body = -1;
+    std::vector<mesh::SolidFacet> facets;
+  };
+  Side a, b;
+  std::optional<double> friction;  ///< >= 0; none: the faces are tied, and keep their gap
+  double gap = 0.0;                ///< added to that of the meshes
+};
+
+struct SolidModel {
+  std::vector<SolidBody> bodies;
+  std::vector<SolidContact> contacts;
+  std::vector<std::vector<Vector>> loads;  ///< [load][body]: nodal forces at factor 1; empty where there are none
+};
+
+/// Factors of loads and supports at the end of an increment.
+struct SolidFactors {
+  Vector loads, supports;
+};
+
+/// A pair in a solution; vectors along the axes.
+struct SolidPair {
+  int contact = -1;
+  Eigen::Vector3d point, normal;                    ///< the normal out of side a towards b
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on side b
+  Eigen::Vector3d slip = Eigen::Vector3d::Zero();   ///< of b relative to a, since the first increment
+  double area = 0.0, gap = 0.0;
+  contact::ContactState state = contact::ContactState::open;
+
+  double normal_force() const { return force.dot(normal); }  ///< compression positive
+};
+
+struct SolidIncrement {
+  SolidFactors factors;
+  contact::Status status = contact::Status::not_converged;
+  std::string reason;             ///< why it is not solved
+  std::vector<Vector> u;          ///< [body], three numbers for each node
+  std::vector<Vector> reactions;  ///< [body], of its constraints
+  std::vector<SolidPair> pairs;
+  contact::Certificate certificate;
+  int iterations = 0;
+};
+
+/// All increments, in their order; the last one may be unsolved, and ends the analysis. Contacts have faces for which
+/// mesh::why_no_pairs gives no reason.
+std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
+                                         double tolerance = 1e-10, int threads = 1);
+
+}  // namespace scabo::analysis

@@ -1,0 +1,37 @@
+#include "scabo/element/space/facet.hpp"
+
+#include <Eigen/Geometry>
+
+#include "scabo/geometry/simplex_basis.hpp"
+
+namespace scabo::element {
+
+namespace {
+
+/// Calls add(N times the weight of a point, x,xi_1 cross x,xi_2 / 2) at all points of the rule.
+template <typename Add>
+void over_facet(const Matrix& nodes, const Add& add) {
+  const geometry::SimplexBasis& basis = geometry::SimplexBasis::of(2, static_cast<int>(nodes.cols()));
+  for (Eigen::Index i = 0; i < basis.rule().weights.size(); ++i) {
+    const Vector lambda = basis.rule().points.col(i);
+    const Eigen::Matrix<double, 3, 2> tangents = nodes * basis.derivatives(lambda);
+    const Eigen::Vector3d a = tangents.col(0), b = tangents.col(1);
+    add(Vector(basis.rule().weights[i] * basis.values(lambda)), Eigen::Vector3d(0.5 * a.cross(b)));
+  }
+}
+
+}  // namespace
+
+Vector area_weights(const Matrix& nodes) {
+  Vector weights = Vector::Zero(nodes.cols());
+  over_facet(nodes, [&](const Vector& N, const Eigen::Vector3d& area) { weights += area.norm() * N; });
+  return weights;
+}
+
+Matrix normal_weights(const Matrix& nodes) {
+  Matrix weights = Matrix::Zero(3, nodes.cols());
+  over_facet(nodes, [&](const Vector& N, const Eigen::Vector3d& area) { weights += area * N.transpose(); });
+  return weights;
+}
+
+}  // namespace scabo::element

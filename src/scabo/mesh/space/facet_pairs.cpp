@@ -1,0 +1,271 @@
+#include "scabo/mesh/space/facet_pairs.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "scabo/base/error.hpp"
+#include "scabo/geometry/box_tree.hpp"
+#include "scabo/geometry/simplex_basis.hpp"
+
+namespace scabo::mesh {
+
+namespace {
+
+using Eigen::Vector3d;
+using CommonPart = std::vector<Vec2>;
+
+Vector3d area_of(const Face& face, const SolidFacet& facet) {
+  const Eigen::Matrix3d x = nodes_of(face.mesh, {facet[0], facet[1], facet[2]});
+  const Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
+  return 0.5 * a.cross(b);
+}
+
+Vector3d normal_of(const Face& face) {
+  Vector3d sum = Vector3d::Zero();
+  for (const SolidFacet& facet : face.facets) sum += area_of(face, facet);
+  return sum.normalized();
+}
+
+/// A facet seen along the normal: corners counter-clockwise, and how far each lies along the normal.
+struct Seen {
+  std::vector<int> nodes;
+  std::array<Vec2, 3> corners;
+  std::array<double, 3> heights;
+
+  double area() const { return 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]); }
+  Vector lambda_at(const Vec2& x) const {
+    Vector lambda(3);
+    for (std::size_t k = 0; k < 3; ++k)
+      lambda[static_cast<Eigen::Index>(k)] = 0.5 * cross(corners[(k + 1) % 3] - x, corners[(k + 2) % 3] - x) / area();
+    return lambda;
+  }
+  double height_at(const Vector& lambda) const {
+    return lambda[0] * heights[0] + lambda[1] * heights[1] + lambda[2] * heights[2];
+  }
+  geometry::Box box() const {
+    geometry::Box box;
+    for (const Vec2& corner : corners) box.add(corner);
+    return box;
+  }
+};
+
+/// `origin` keeps the digits of bodies that lie far from that of the axes.
+std::vector<Seen> seen_along(const Face& face, const Eigen::Matrix3d& directions, const Vector3d& origin) {
+  std::vector<Seen> all;
+  for (const SolidFacet& facet : face.facets) {
+    Seen seen{facet, {}, {}};
+    if (area_of(face, facet).dot(directions.col(0)) < 0.0)  // side B is seen from inside
+      seen.nodes = facet.size() == 3 ? SolidFacet{facet[0], facet[2], facet[1]}
+                                     : SolidFacet{facet[0], facet[2], facet[1], facet[5], facet[4], facet[3]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d x = directions.transpose() * (face.mesh.nodes.col(seen.nodes[k]) - origin);
+      seen.heights[k] = x[0];
+      seen.corners[k] = x.tail<2>();
+    }
+    all.push_back(std::move(seen));
+  }
+  return all;
+}
+
+/// What a polygon has in common with a triangle; both counter-clockwise (Sutherland and Hodgman).
+CommonPart clipped(CommonPart polygon, const std::array<Vec2, 3>& triangle) {
+  for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) {
+    const Vec2 start = triangle[k], along = triangle[(k + 1) % 3] - start;
+    CommonPart inside;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+      const double d_from = cross(along, from - start), d_to = cross(along, to - start);
+      if (d_from >= 0.0) inside.push_back(from);
+      if ((d_from >= 0.0) != (d_to >= 0.0)) inside.push_back(from + d_from / (d_from - d_to) * (to - from));
+    }
+    polygon = std::move(inside);
+  }
+  return polygon;
+}
+
+/// Integrals of one pair, not yet divided by the area.
+struct Sums {
+  std::map<int, double> a, b;
+  double area = 0.0, gap = 0.0;
+  Vector3d point = Vector3d::Zero();  // along the directions
+
+  void add(const Sums& other) {
+    for (const auto& [node, weight] : other.a) a[node] += weight;
+    for (const auto& [node, weight] : other.b) b[node] += weight;
+    area += other.area, gap += other.gap, point += other.point;
+  }
+};
+
+const geometry::SimplexBasis& basis_of(const Seen& facet) {
+  return geometry::SimplexBasis::of(2, static_cast<int>(facet.nodes.size()));
+}
+
+/// Adds the integrals over a triangle that lies on both facets.
+void integrate(const std::array<Vec2, 3>& triangle, const Seen& a, const Seen& b, std::map<int, Sums>& sums) {
+  const double area = 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+  const geometry::SimplexRule& rule = basis_of(b).rule();
+  for (Eigen::Index i = 0; i < rule.weights.size(); ++i) {
+    const Vec2 x = rule.points(0, i) * triangle[0] + rule.points(1, i) * triangle[1] + rule.points(2, i) * triangle[2];
+    const Vector on_a = a.lambda_at(x), psi = b.lambda_at(x);
+    const Vector N_a = basis_of(a).values(on_a), N_b = basis_of(b).values(psi);
+    const double height = b.height_at(psi), gap = height - a.height_at(on_a);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double weight = rule.weights[i] * area * psi[static_cast<Eigen::Index>(k)];
+      Sums& of_pair = sums[b.nodes[k]];
+      for (std::size_t j = 0; j < a.nodes.size(); ++j)
+        of_pair.a[a.nodes[j]] += weight * N_a[static_cast<Eigen::Index>(j)];
+      for (std::size_t j = 0; j < b.nodes.size(); ++j)
+        of_pair.b[b.nodes[j]] += weight * N_b[static_cast<Eigen::Index>(j)];
+      of_pair.area += weight;
+      of_pair.gap += weight * gap;
+      of_pair.point += weight * Vector3d(height, x.x(), x.y());
+    }
+  }
+}
+
+std::map<int, Sums> integrals(const std::vector<Seen>& a, const std::vector<Seen>& b) {
+  constexpr double least = 1e-12;  // of the smaller facet: rounding, where facets only touch
+  std::map<int, Sums> sums;
+  std::vector<geometry::Box> boxes;
+  for (const Seen& facet : a) boxes.push_back(facet.box());
+  const geometry::BoxTree tree(std::move(boxes));
+  for (const Seen& of_b : b) {
+    const geometry::Box box = of_b.box();
+    const Vec2 centre = 0.5 * (box.low + box.high);
+    tree.within(centre, 0.5 * (box.high - box.low).norm(), [&](std::size_t i) {
+      const Seen& of_a = a[i];
+      const CommonPart common = clipped({of_a.corners.begin(), of_a.corners.end()}, of_b.corners);
+      for (std::size_t k = 2; k < common.size(); ++k) {
+        const std::array<Vec2, 3> triangle{common[0], common[k - 1], common[k]};
+        const double area = 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+        if (area > least * std::min(of_a.area(), of_b.area())) integrate(triangle, of_a, of_b, sums);
+      }
+    });
+  }
+  return sums;
+}
+
+/// Unites the pairs that have too little of their corner's area with the largest one beside them.
+void unite_small(std::map<int, Sums>& sums, const std::vector<Seen>& b) {
+  constexpr double least = 1e-6;
+  std::map<int, double> whole;
+  std::map<int, std::set<int>> beside;
+  for (const Seen& facet : b)
+    for (std::size_t k = 0; k < 3; ++k) {
+      whole[facet.nodes[k]] += facet.area() / 3.0;
+      beside[facet.nodes[k]].insert({facet.nodes[(k + 1) % 3], facet.nodes[(k + 2) % 3]});
+    }
+  std::vector<int> small;
+  for (const auto& [corner, of_pair] : sums)
+    if (of_pair.area < least * whole[corner]) small.push_back(corner);
+  for (const int corner : small) {
+    const Sums of_small = sums[corner];
+    sums.erase(corner);
+    auto largest = sums.end();
+    for (const int other : beside[corner])
+      if (const auto at = sums.find(other);
+          at != sums.end() && (largest == sums.end() || at->second.area > largest->second.area))
+        largest = at;
+    if (largest != sums.end()) largest->second.add(of_small);
+  }
+}
+
+Eigen::Matrix3d directions_of(const Vector3d& normal) {
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  Eigen::Matrix3d directions;
+  directions.col(0) = normal;
+  directions.col(1) = normal.cross(Vector3d::Unit(least)).normalized();
+  directions.col(2) = normal.cross(directions.col(1));
+  return directions;
+}
+
+double largest_coordinate(const Face& face) {
+  double largest = 0.0;
+  for (const SolidFacet& facet : face.facets)
+    largest = std::max(largest, nodes_of(face.mesh, facet).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+std::vector<WeightedNode> weights_of(const std::map<int, double>& sums, double area) {
+  std::vector<WeightedNode> nodes;
+  for (const auto& [node, weight] : sums) nodes.push_back({node, weight / area});
+  return nodes;
+}
+
+/// Why a face is not plane with straight edges, to 1e-5 of the length of an edge: files have that many digits.
+std::optional<std::string> why_not_plane(const Face& face) {
+  constexpr double tolerance = 1e-5;
+  if (face.facets.empty()) return "has no facets";
+  const Vector3d normal = normal_of(face);
+  const Vector3d origin = face.mesh.nodes.col(face.facets.front().front());
+  for (const SolidFacet& facet : face.facets) {
+    const Matrix x = nodes_of(face.mesh, facet);
+    const double allowed = tolerance * (x.col(1) - x.col(0)).norm();
+    if ((normal.transpose() * (x.colwise() - origin)).cwiseAbs().maxCoeff() > allowed) return "is not plane";
+    if (area_of(face, facet).dot(normal) <= 0.0) return "is folded";
+    for (Eigen::Index k = 3; k < x.cols(); ++k)
+      if ((x.col(k) - 0.5 * (x.col(k - 3) + x.col((k - 2) % 3))).norm() > allowed) return "has curved edges";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::string> why_no_pairs(const Face& a, const Face& b) {
+  constexpr double most_angle = 1e-3;
+  if (const auto why = why_not_plane(a)) return "the first face " + *why;
+  if (const auto why = why_not_plane(b)) return "the second face " + *why;
+  if ((normal_of(a) + normal_of(b)).norm() > most_angle) return "the faces do not face each other";
+  return {};
+}
+
+bool has_pairs_on_second(const Face& a, const Face& b) {
+  struct Figures {
+    double mean_area, corners, squares;
+  };
+  const auto figures_of = [](const Face& face) {
+    double sum = 0.0, squares = 0.0;
+    std::set<int> corners;
+    for (const SolidFacet& facet : face.facets) {
+      const double area = area_of(face, facet).norm();
+      sum += area, squares += area * area;
+      corners.insert(facet.begin(), facet.begin() + 3);
+    }
+    return Figures{sum / static_cast<double>(face.facets.size()), static_cast<double>(corners.size()), squares};
+  };
+  const auto differ = [](double x, double y) { return std::abs(x - y) > 1e-9 * std::max(x, y); };
+  const Figures of_a = figures_of(a), of_b = figures_of(b);
+  if (differ(of_a.mean_area, of_b.mean_area)) return of_b.mean_area < of_a.mean_area;
+  if (differ(of_a.corners, of_b.corners)) return of_b.corners > of_a.corners;
+  return !differ(of_a.squares, of_b.squares) || of_b.squares > of_a.squares;
+}
+
+FacetPairs facet_pairs(const Face& a, const Face& b) {
+  ensure(!why_no_pairs(a, b), "faces of pairs are plane and parallel");
+  FacetPairs found;
+  found.directions = directions_of(normal_of(a));
+  const Vector3d origin = a.mesh.nodes.col(a.facets.front().front());
+  const std::vector<Seen> of_a = seen_along(a, found.directions, origin),
+                          of_b = seen_along(b, found.directions, origin);
+  std::map<int, Sums> sums = integrals(of_a, of_b);
+  unite_small(sums, of_b);
+  // Coordinates have rounding errors; faces that lie on each other have gaps of exactly 0, also if they are turned.
+  const double rounding =
+      16.0 * std::numeric_limits<double>::epsilon() * std::max(largest_coordinate(a), largest_coordinate(b));
+  for (const auto& [corner, of_pair] : sums) {
+    FacetPair pair{corner,       weights_of(of_pair.a, of_pair.area), weights_of(of_pair.b, of_pair.area),
+                   of_pair.area, of_pair.gap / of_pair.area,          {}};
+    if (std::abs(pair.gap) <= rounding) pair.gap = 0.0;
+    pair.point = origin + found.directions * (of_pair.point / of_pair.area);
+    found.pairs.push_back(std::move(pair));
+  }
+  return found;
+}
+
+}  // namespace scabo::mesh

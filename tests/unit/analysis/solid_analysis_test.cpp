@@ -1,0 +1,205 @@
+// Bodies of tetrahedra in contact on faces that do not match, where statics or a constant stress gives the answer.
+#include "scabo/analysis/space/solid_analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "scabo/system/solid_part.hpp"
+#include "support/solid_blocks.hpp"
+
+namespace scabo::analysis {
+namespace {
+
+constexpr double steel = 200e9, density_weight = 77e3;  // Pa, N/m3
+const Eigen::Vector3d upwards(0, 0, 1);
+
+/// All nodes of a coordinate plane held along these axes.
+void hold_plane(SolidBody& body, int axis, double value, const std::vector<int>& axes, double displacement = 0.0) {
+  for (const int node : test::nodes_at(body.mesh, axis, value))
+    for (const int along : axes) {
+      body.supports.push_back(system::held_along_axis(node, along, displacement));
+      body.supports.back().support = 0;
+    }
+}
+
+/// A block on another one; the lower one is 2 x 2 x 1, the upper one of size `size` in the middle of it.
+struct Stack {
+  explicit Stack(int nodes_of_cell, double size = 2.0, double moved = 0.2) {
+    const double low = 1.0 - 0.5 * size, high = 1.0 + 0.5 * size;
+    model.bodies.push_back(
+        {test::solid_block({0, 0, -1}, {2, 2, 0}, {3, 3, 2}, nodes_of_cell, moved, 1), steel, 0.3, {}});
+    model.bodies.push_back(
+        {test::solid_block({low, low, 0}, {high, high, 1}, {4, 4, 2}, nodes_of_cell, moved, 2), steel, 0.3, {}});
+    SolidContact contact;
+    contact.a = {0, test::facets_at(model.bodies[0].mesh, {0, 0, 0}, upwards)};
+    contact.b = {1, test::facets_at(model.bodies[1].mesh, {0, 0, 0}, -upwards)};
+    model.contacts.push_back(contact);
+  }
+  void swap_sides() { std::swap(model.contacts[0].a, model.contacts[0].b); }
+  std::vector<mesh::SolidFacet> top() const { return test::facets_at(model.bodies[1].mesh, {0, 0, 1}, upwards); }
+  /// Adds a load on the upper block.
+  void load(Vector forces) { model.loads.push_back({Vector(), std::move(forces)}); }
+
+  std::vector<SolidIncrement> solve(const std::vector<Vector>& factors) const {
+    std::vector<SolidFactors> increments;
+    for (const Vector& of_loads : factors) increments.push_back({of_loads, Vector::Ones(1)});
+    return solve_solids(model, increments);
+  }
+
+  SolidModel model;
+};
+
+Eigen::Vector3d total_force(const SolidIncrement& increment) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const SolidPair& pair : increment.pairs) sum += pair.force;
+  return sum;
+}
+
+class Stacks : public testing::TestWithParam<int> {};
+
+/// Uniform pressure on blocks of one material, the sides free: sigma_zz = -p everywhere, and every pair has the
+/// pressure p, whatever the friction.
+TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
+  constexpr double p = 1e6;
+  for (const std::optional<double> friction : {std::optional(0.0), std::optional(0.4), std::optional<double>()}) {
+    Stack stack(GetParam());
+    stack.model.contacts[0].friction = friction;
+    hold_plane(stack.model.bodies[0], 2, -1.0, {2});
+    for (SolidBody& body : stack.model.bodies) hold_plane(body, 0, 0.0, {0}), hold_plane(body, 1, 0.0, {1});
+    stack.load(system::pressure_forces(stack.model.bodies[1].mesh, stack.top(), p));
+    const std::vector<SolidIncrement> increments = stack.solve({Vector::Ones(1)});
+    ASSERT_EQ(increments.back().status, contact::Status::solved) << increments.back().reason;
+    EXPECT_EQ(increments.back().pairs.size(), 25);
+    double largest = 0.0;  // force of a pair, to whose rounding all are known
+    for (const SolidPair& pair : increments.back().pairs) largest = std::max(largest, pair.force.norm());
+    for (const SolidPair& pair : increments.back().pairs) {
+      EXPECT_NEAR(pair.normal_force(), p * pair.area, 1e-10 * largest);
+      EXPECT_LT((pair.force - pair.normal_force() * pair.normal).norm(), 1e-10 * largest);
+    }
+    for (std::size_t b = 0; b < 2; ++b) {
+      const Matrix& x = stack.model.bodies[b].mesh.nodes;
+      for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        const Eigen::Vector3d exact = p / steel * Eigen::Vector3d(0.3 * x(0, i), 0.3 * x(1, i), -(x(2, i) + 1.0));
+        EXPECT_LT((increments.back().u[b].segment<3>(3 * i) - exact).norm(), 1e-10 * p / steel);
+      }
+    }
+  }
+}
+
+/// The block is pressed on by its weight and pushed: no sliding below mu N, and no equilibrium above.
+TEST_P(Stacks, SlideWhereThePushExceedsFriction) {
+  constexpr double mu = 0.3;
+  Stack stack(GetParam(), 1.2);
+  stack.model.contacts[0].friction = mu;
+  hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
+  const mesh::SolidMesh& block = stack.model.bodies[1].mesh;
+  const double weight = density_weight * 1.2 * 1.2;
+  stack.load(system::volume_forces(block, {0, 0, -density_weight}));
+  const Eigen::Vector3d direction(0.6, 0.8, 0.0);
+  stack.load(system::volume_forces(block, direction * mu * density_weight));  // mu N at factor 1
+  const std::vector<SolidIncrement> increments =
+      stack.solve({Vector::Unit(2, 0), Vector(Eigen::Vector2d(1, 0.5)), Vector(Eigen::Vector2d(1, 0.99)),
+                   Vector(Eigen::Vector2d(1, 1.01))});
+  ASSERT_EQ(increments.size(), 4);
+  for (std::size_t k = 0; k < 3; ++k) {
+    ASSERT_EQ(increments[k].status, contact::Status::solved) << increments[k].reason;
+    const Eigen::Vector3d expected = weight * (upwards - increments[k].factors.loads[1] * mu * direction);
+    EXPECT_LT((total_force(increments[k]) - expected).norm(), 1e-9 * weight);
+  }
+  EXPECT_NE(increments[3].status, contact::Status::solved);
+}
+
+/// Sides swapped: the same forces, gaps and slips, with the opposite sign where it is that of a side.
+TEST_P(Stacks, GiveTheSameWithTheirSidesSwapped) {
+  Stack stack(GetParam(), 1.2);
+  stack.model.contacts[0].friction = 0.3;
+  stack.model.contacts[0].gap = 1e-6;
+  hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
+  const mesh::SolidMesh& block = stack.model.bodies[1].mesh;
+  stack.load(system::volume_forces(block, {0.1 * density_weight, 0, -density_weight}));
+  const SolidIncrement one = stack.solve({Vector::Ones(1)}).back();
+  stack.swap_sides();
+  const SolidIncrement other = stack.solve({Vector::Ones(1)}).back();
+  ASSERT_EQ(one.status, contact::Status::solved) << one.reason;
+  ASSERT_EQ(one.pairs.size(), other.pairs.size());
+  const double largest = density_weight;
+  for (std::size_t i = 0; i < one.pairs.size(); ++i) {
+    EXPECT_LT((one.pairs[i].force + other.pairs[i].force).norm(), 1e-9 * largest);
+    EXPECT_LT((one.pairs[i].normal + other.pairs[i].normal).norm(), 1e-12);
+    EXPECT_NEAR(one.pairs[i].gap, other.pairs[i].gap, 1e-15);
+    EXPECT_LT((one.pairs[i].slip + other.pairs[i].slip).norm(), 1e-15);
+  }
+}
+
+/// Turned by any rotation, far from the origin and in millimetres and meganewtons: the same forces, turned.
+TEST_P(Stacks, GiveTheSameTurnedMovedAndInOtherUnits) {
+  constexpr double millimetres = 1e3, meganewtons = 1e-6;
+  Stack stack(GetParam(), 1.2);
+  stack.model.contacts[0].friction = 0.3;
+  hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
+  const Eigen::Vector3d pushed(0.25 * density_weight, 0.1 * density_weight, -density_weight);
+  stack.load(system::volume_forces(stack.model.bodies[1].mesh, pushed));
+  const SolidIncrement one = stack.solve({Vector::Ones(1)}).back();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  for (SolidBody& body : stack.model.bodies) {
+    body.mesh.nodes = millimetres * (turn * (body.mesh.nodes.colwise() + Eigen::Vector3d(20, -30, 10)));
+    body.young *= meganewtons / (millimetres * millimetres);
+  }
+  Vector& forces = stack.model.loads[0][1];
+  forces = (meganewtons * (turn * forces.reshaped(3, forces.size() / 3))).eval().reshaped().eval();
+  const SolidIncrement other = stack.solve({Vector::Ones(1)}).back();
+  ASSERT_EQ(one.status, contact::Status::solved) << one.reason;
+  ASSERT_EQ(other.status, contact::Status::solved) << other.reason;
+  ASSERT_EQ(one.pairs.size(), other.pairs.size());
+  double largest = 0.0;
+  for (const SolidPair& pair : one.pairs) largest = std::max(largest, pair.force.norm());
+  for (std::size_t i = 0; i < one.pairs.size(); ++i) {
+    EXPECT_LT((turn * one.pairs[i].force - other.pairs[i].force / meganewtons).norm(), 1e-9 * largest);
+    EXPECT_EQ(one.pairs[i].state, other.pairs[i].state);
+  }
+}
+
+/// A tie carries tension and shear: the weight of the hanging block, at the sides of the lower one.
+TEST_P(Stacks, HangOnATie) {
+  Stack stack(GetParam(), 1.2);
+  hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
+  stack.load(system::volume_forces(stack.model.bodies[1].mesh, {3.0, 0, density_weight}));
+  const std::vector<SolidIncrement> increments = stack.solve({Vector::Ones(1)});
+  ASSERT_EQ(increments.back().status, contact::Status::solved) << increments.back().reason;
+  const double volume = 1.2 * 1.2;
+  EXPECT_LT((total_force(increments.back()) - Eigen::Vector3d(-3.0 * volume, 0, -density_weight * volume)).norm(),
+            1e-9 * density_weight);
+  Eigen::Vector3d reaction = Eigen::Vector3d::Zero();
+  for (std::size_t c = 0; c < stack.model.bodies[0].supports.size(); ++c)
+    reaction[stack.model.bodies[0].supports[c].component] +=
+        increments.back().reactions[0][static_cast<Eigen::Index>(c)];
+  EXPECT_LT((reaction - total_force(increments.back())).norm(), 1e-9 * density_weight);
+}
+
+INSTANTIATE_TEST_SUITE_P(LinearAndQuadratic, Stacks, testing::Values(4, 10));
+
+/// A bar between two supports that move apart: constant strain, and the force E A strain.
+TEST(BarInSpace, IsInTension) {
+  SolidModel model;
+  model.bodies.push_back({test::solid_block({0, 0, 0}, {4, 1, 1}, {4, 2, 2}, 10, 0.2), steel, 0.3, {}});
+  SolidBody& bar = model.bodies[0];
+  hold_plane(bar, 0, 0.0, {0}), hold_plane(bar, 1, 0.0, {1}), hold_plane(bar, 2, 0.0, {2});
+  const std::size_t held = bar.supports.size();
+  hold_plane(bar, 0, 4.0, {0}, 4e-3);
+  const SolidIncrement increment = solve_solids(model, {{Vector(), Vector::Constant(1, 0.5)}}).back();
+  ASSERT_EQ(increment.status, contact::Status::solved) << increment.reason;
+  double force = 0.0;
+  for (std::size_t c = held; c < bar.supports.size(); ++c)
+    force += increment.reactions[0][static_cast<Eigen::Index>(c)];
+  EXPECT_NEAR(force, steel * 0.5e-3, 1e-9 * steel * 1e-3);
+  for (Eigen::Index i = 0; i < bar.mesh.nodes.cols(); ++i) {
+    const Eigen::Vector3d x = bar.mesh.nodes.col(i);
+    EXPECT_LT((increment.u[0].segment<3>(3 * i) - 0.5e-3 * Eigen::Vector3d(x.x(), -0.3 * x.y(), -0.3 * x.z())).norm(),
+              1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace scabo::analysis

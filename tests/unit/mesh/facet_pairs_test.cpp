@@ -1,0 +1,174 @@
+#include "scabo/mesh/space/facet_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "scabo/files/solid_abaqus.hpp"
+#include "scabo/mesh/space/imported_solid.hpp"
+#include "support/solid_blocks.hpp"
+
+namespace scabo::mesh {
+namespace {
+
+const Eigen::Vector3d up(0, 0, 1);
+
+/// A block below z = 0 and one above z = 0.1, whose faces have 3 x 2 and `n` bricks, turned and moved together.
+struct TwoBlocks {
+  explicit TwoBlocks(int nodes_of_cell, double moved = 0.0, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero())
+      : lower(test::solid_block({0, 0, -1}, {1, 1, 0}, {3, 2, 1}, nodes_of_cell, moved, 1)),
+        upper(test::solid_block({0, 0, 0.1}, {1, 1, 1}, {4, 5, 2}, nodes_of_cell, moved, 2)) {
+    const std::vector<SolidFacet> top = test::facets_at(lower, {0, 0, 0}, up),
+                                  bottom = test::facets_at(upper, {0, 0, 0.1}, -up);
+    turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    lower.nodes = (turn * lower.nodes).colwise() + shift;
+    upper.nodes = (turn * upper.nodes).colwise() + shift;
+    facets_a = top, facets_b = bottom;
+  }
+  Face a() const { return {lower, facets_a}; }
+  Face b() const { return {upper, facets_b}; }
+
+  SolidMesh lower, upper;
+  Eigen::Matrix3d turn;
+  std::vector<SolidFacet> facets_a, facets_b;
+};
+
+Eigen::Vector3d mean_of(const SolidMesh& mesh, const std::vector<WeightedNode>& nodes) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const WeightedNode& at : nodes) sum += at.weight * mesh.nodes.col(at.node);
+  return sum;
+}
+
+double sum_of(const std::vector<WeightedNode>& nodes) {
+  double sum = 0.0;
+  for (const WeightedNode& at : nodes) sum += at.weight;
+  return sum;
+}
+
+class Faces : public testing::TestWithParam<int> {};
+
+TEST_P(Faces, ArePairedWithWeightsOfEqualSumAndMoment) {
+  const TwoBlocks blocks(GetParam(), 0.3, {1000, -2000, 500});
+  ASSERT_EQ(why_no_pairs(blocks.a(), blocks.b()), std::nullopt);
+  const FacetPairs pairs = facet_pairs(blocks.a(), blocks.b());
+  EXPECT_EQ(pairs.pairs.size(), 30);  // corners of 4 x 5 bricks
+  EXPECT_LT((pairs.directions.col(0) - blocks.turn * up).norm(), 1e-12);
+  EXPECT_LT((pairs.directions.transpose() * pairs.directions - Eigen::Matrix3d::Identity()).norm(), 1e-15);
+  double area = 0.0;
+  for (const FacetPair& pair : pairs.pairs) {
+    area += pair.area;
+    EXPECT_NEAR(sum_of(pair.a), 1.0, 1e-12);
+    EXPECT_NEAR(sum_of(pair.b), 1.0, 1e-12);
+    EXPECT_NEAR(pair.gap, 0.1, 1e-11);
+    const Eigen::Vector3d on_a = mean_of(blocks.lower, pair.a), on_b = mean_of(blocks.upper, pair.b);
+    EXPECT_LT((on_b - on_a - 0.1 * pairs.directions.col(0)).norm(), 1e-11);  // no moment but that of the gap
+    EXPECT_LT((pair.point - on_b).norm(), 1e-11);
+  }
+  EXPECT_NEAR(area, 1.0, 1e-12);
+}
+
+TEST_P(Faces, OfTheSameMeshHaveTheAreasOfTheirCorners) {
+  const SolidMesh lower = test::solid_block({0, 0, -1}, {2, 2, 0}, {2, 2, 1}, GetParam()),
+                  upper = test::solid_block({0, 0, 0}, {2, 2, 1}, {2, 2, 1}, GetParam());
+  const Face a{lower, test::facets_at(lower, {0, 0, 0}, up)}, b{upper, test::facets_at(upper, {0, 0, 0}, -up)};
+  for (const FacetPair& pair : facet_pairs(a, b).pairs) {
+    int facets = 0;
+    for (const SolidFacet& facet : b.facets)
+      facets += static_cast<int>(std::count(facet.begin(), facet.begin() + 3, pair.corner));
+    EXPECT_NEAR(pair.area, facets * 0.5 / 3.0, 1e-14);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(LinearAndQuadratic, Faces, testing::Values(4, 10));
+
+/// Half of the upper face hangs over: pairs exist where the faces have something in common, and a corner with next to
+/// nothing of it is united with another one.
+TEST(OverlappingFaces, HavePairsOnTheirCommonPart) {
+  const SolidMesh lower = test::solid_block({0, 0, -1}, {1, 1, 0}, {2, 2, 1}, 10);
+  for (const double overhang : {0.5, 0.5 - 1e-5}) {
+    const SolidMesh upper = test::solid_block({overhang, 0, 0}, {1 + overhang, 1, 1}, {4, 4, 1}, 10);
+    const Face a{lower, test::facets_at(lower, {0, 0, 0}, up)}, b{upper, test::facets_at(upper, {0, 0, 0}, -up)};
+    const FacetPairs pairs = facet_pairs(a, b);
+    EXPECT_EQ(pairs.pairs.size(), 15);
+    double area = 0.0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (const FacetPair& pair : pairs.pairs) {
+      area += pair.area;
+      moment += pair.area * pair.point;
+      EXPECT_LT((mean_of(upper, pair.b) - mean_of(lower, pair.a)).norm(), 1e-10);
+    }
+    EXPECT_NEAR(area, 1.0 - overhang, 1e-12);
+    EXPECT_NEAR(moment.x(), 0.5 * (1.0 - overhang * overhang), 1e-12);
+  }
+}
+
+TEST(FacesOnEachOther, HaveGapsOfExactlyZeroWhereverTheyAre) {
+  SolidMesh lower = test::solid_block({0, 0, -1}, {1, 1, 0}, {2, 2, 1}, 10, 0.2, 1),
+            upper = test::solid_block({0, 0, 0}, {1, 1, 1}, {3, 3, 1}, 10, 0.2, 2);
+  const std::vector<SolidFacet> top = test::facets_at(lower, {0, 0, 0}, up),
+                                bottom = test::facets_at(upper, {0, 0, 0}, -up);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  for (SolidMesh* mesh : {&lower, &upper})
+    mesh->nodes = (turn * (mesh->nodes.colwise() + Eigen::Vector3d(20, -30, 10))).eval();
+  for (const FacetPair& pair : facet_pairs({lower, top}, {upper, bottom}).pairs) EXPECT_EQ(pair.gap, 0.0);
+}
+
+TEST(FacesWithoutPairs, SayWhy) {
+  TwoBlocks blocks(10);
+  EXPECT_EQ(why_no_pairs({blocks.lower, {}}, blocks.b()), "the first face has no facets");
+  EXPECT_EQ(why_no_pairs(blocks.a(), blocks.a()), "the faces do not face each other");
+  const TwoBlocks straight = blocks;
+  blocks.upper.nodes.col(blocks.facets_b[0][4]) += 0.01 * (blocks.turn * Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(why_no_pairs(straight.a(), blocks.b()), "the second face has curved edges");
+  blocks.upper.nodes.col(blocks.facets_b[0][4]) += 0.01 * (blocks.turn * up);
+  EXPECT_EQ(why_no_pairs(straight.a(), blocks.b()), "the second face is not plane");
+}
+
+TEST(SideOfThePairs, DoesNotChangeWithTheOrderOfTheFaces) {
+  const TwoBlocks blocks(10, 0.2);
+  EXPECT_TRUE(has_pairs_on_second(blocks.a(), blocks.b()));
+  EXPECT_FALSE(has_pairs_on_second(blocks.b(), blocks.a()));
+}
+
+/// Surfaces of a file name the sides as its format does: S1 to S4 of the cell are all of its boundary, once each.
+TEST(SolidOfAFile, HasItsSurfacesAndSetsAsFacets) {
+  const std::string text =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,.5,0,0\n6,.5,.5,0\n7,0,.5,0\n8,0,0,.5\n9,.5,0,.5\n10,0,.5,.5\n"
+      "*ELEMENT, TYPE=C3D10, ELSET=All\n1,1,2,3,4,5,6,7,8,9,10\n*NSET, NSET=Front\n1,2,4\n"
+      "*SURFACE, NAME=Bottom\n1,S1\n*SURFACE, NAME=Front\n1,S2\n*SURFACE, NAME=Slope\n1,S3\n*SURFACE, "
+      "NAME=Left\n1,S4\n";
+  const files::ImportedSolidMesh file = files::parse_solid_abaqus(text, "one.inp");
+  const SolidMesh mesh = solid_mesh_of(file);
+  const std::vector<SolidFacet> boundary = boundary_facets(mesh);
+  const Eigen::Vector3d normals[4] = {{0, 0, -1}, {0, -1, 0}, {1, 1, 1}, {-1, 0, 0}};
+  ASSERT_EQ(file.side_sets.size(), 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::vector<SolidFacet> facets = facets_of_sides(mesh, file.side_sets[i].sides);
+    ASSERT_EQ(facets.size(), 1);
+    const Matrix x = nodes_of(mesh, facets[0]);
+    const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
+    EXPECT_LT((a.cross(b) - normals[i]).norm(), 1e-15);
+    EXPECT_LT((x.col(4) - 0.5 * (x.col(1) + x.col(2))).norm(), 1e-15);
+    EXPECT_EQ(std::count(boundary.begin(), boundary.end(), facets[0]), 1);
+  }
+  EXPECT_EQ(facets_among(boundary, file.node_sets[0].nodes), facets_of_sides(mesh, file.side_sets[1].sides));
+}
+
+TEST(Boundary, OfABlockIsClosed) {
+  const SolidMesh mesh = test::solid_block({0, 0, 0}, {1, 2, 3}, {2, 3, 4}, 10, 0.1);
+  const std::vector<SolidFacet> facets = boundary_facets(mesh);
+  EXPECT_EQ(facets.size(), 2 * 2 * (2 * 3 + 3 * 4 + 4 * 2));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const SolidFacet& facet : facets) {
+    const Matrix x = nodes_of(mesh, facet);
+    for (int k = 0; k < 3; ++k) EXPECT_LT((x.col(3 + k) - 0.5 * (x.col(k) + x.col((k + 1) % 3))).norm(), 1e-15);
+    const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
+    sum += 0.5 * a.cross(b);
+    EXPECT_GT(a.cross(b).dot(x.col(0) - Eigen::Vector3d(0.5, 1.0, 1.5)), 0.0);  // outwards
+  }
+  EXPECT_LT(sum.norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace scabo::mesh
