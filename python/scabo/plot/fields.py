@@ -118,6 +118,9 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
 
     `magnification` of displacements: None chooses one, 0 draws the undeformed shape. `window`: x0, x1, y0, y1 in the model's units."""
     units = units or Units()
+    number = results.number(increment)
+    if len(geometry.triangles(results.fields(number))) == 0:
+        return rigid_bodies(results, number, magnification, units, window)
     field = field_of(results, increment, component, magnification, window)
     scale = units.scale(field.dimension, max(map(abs, field.range)))
     place = units.scale("length", np.abs(field.points if window is None else window).max())
@@ -140,6 +143,28 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
     bar = figure.colorbar(drawn, ax=axis, label=scale.label(field.name), location="bottom" if wide else "right", shrink=0.8 if wide else 0.9,
                           aspect=35 if wide else 25, pad=0.02, extendfrac=0.03)
     bar.set_ticks(bar_ticks(levels))
+    return figure
+
+
+def rigid_bodies(results, number, magnification, units, window):
+    """Bodies that are all rigid, where they were (dashed) and moved."""
+    grid = results.fields(number)
+    if not geometry.rigid_outlines(grid):
+        raise NothingToDraw(f"{results.directory}: has no body in its fields")
+    if magnification is None:
+        magnification = geometry.magnification(grid, results.contacts(number).values(), window=window)
+    points = geometry.moved(grid, magnification)
+    place = units.scale("length", np.abs(points if window is None else window).max())
+    low, high = (points.min(axis=0), points.max(axis=0)) if window is None else (window[::2], window[1::2])
+    width, height = style.map_size(low, high)
+    moved = f"displacements × {magnification:g}" if magnification else "undeformed"
+    figure = style.new_figure(width, height, results.title, f"{results.name_of(number)}\u00a0· rigid bodies ({moved})")
+    axis = figure.add_subplot()
+    for body in geometry.rigid_outlines(grid):
+        sides = np.column_stack([body, np.roll(body, -1)])
+        style.draw_outline(axis, place.factor * grid.points, sides, colors="0.6", linewidths=0.4, linestyles=(0, (4, 3)), zorder=0.5)
+    draw_rigid(axis, place.factor * points, grid)
+    finish_map(axis, place, window, height)
     return figure
 
 
