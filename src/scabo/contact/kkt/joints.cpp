@@ -5,16 +5,13 @@
 #include <cstddef>
 #include <unordered_map>
 
+#include "scabo/contact/constants.hpp"
+
 namespace scabo::contact {
 
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-
-constexpr double independent = 1e-10;   // of W_ii: what is left of a row that is a pivot of its own
-constexpr double equal_within = 1e-12;  // of W_ii: largest difference of W and A K A'
-constexpr double paying = 0.4;          // of the entries of W
-constexpr int most_of_class = 4;        // joints whose pairs have the same neighbours: a tower of two blocks has two
 
 double entry(const Sparse& W, int row, int column) {
   const int *const begin = W.innerIndexPtr() + W.outerIndexPtr()[column], *const end = W.innerIndexPtr() +
@@ -105,7 +102,7 @@ struct Pivots {
     Pivots more = *this;
     for (int added = 0; added < d; ++added) {
       int best = -1;
-      double part = independent;
+      double part = system_constants.independent;
       for (int k = 0; k < d; ++k)
         if (whole[k] > 0.0 && left(k, k) > part * whole[k]) best = k, part = left(k, k) / whole[k];
       if (best < 0) break;
@@ -147,7 +144,7 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
       if (!pattern.same(i, example[e])) continue;
       if (pivots[e].take(W, i))
         found = at->second;
-      else if (++alike == most_of_class)
+      else if (++alike == system_constants.most_of_class)
         return {};
     }
     if (found < 0) {
@@ -185,7 +182,8 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
     }
     joints.first.push_back(static_cast<int>(joints.neighbour.size()));
   }
-  if (static_cast<double>(joints.K.size()) * Joints<d>::R * Joints<d>::R > paying * static_cast<double>(W.nonZeros()))
+  if (static_cast<double>(joints.K.size()) * Joints<d>::R * Joints<d>::R >
+      system_constants.paying * static_cast<double>(W.nonZeros()))
     return {};
 
   joints.A.reserve(static_cast<std::size_t>(N));
@@ -205,7 +203,8 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
       const double size = std::sqrt(diagonal.segment<d>(d * *at).maxCoeff() * diagonal.segment<d>(d * j).maxCoeff());
       for (int k = 0; k < d; ++k)
         for (int c = 0; c < d; ++c)
-          if (!(std::abs(entry(W, d * *at + c, d * j + k) - block(c, k)) <= equal_within * size)) return {};
+          if (!(std::abs(entry(W, d * *at + c, d * j + k) - block(c, k)) <= system_constants.equal_within * size))
+            return {};
     }
   }
   return joints;
