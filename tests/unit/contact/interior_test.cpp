@@ -183,7 +183,10 @@ INSTANTIATE_TEST_SUITE_P(Plane, KnownSolutions,
                                            KnownCase{2, Laws::all, 3}, KnownCase{2, Laws::all, 4}));
 INSTANTIATE_TEST_SUITE_P(Space, KnownSolutions,
                          ::testing::Values(KnownCase{3, Laws::coulomb, 5}, KnownCase{3, Laws::coulomb, 6},
-                                           KnownCase{3, Laws::all, 7}, KnownCase{3, Laws::all, 8}));
+                                           KnownCase{3, Laws::all, 7}, KnownCase{3, Laws::all, 8},
+                                           KnownCase{3, Laws::all, 9}, KnownCase{3, Laws::all, 10},
+                                           KnownCase{3, Laws::all, 11}, KnownCase{3, Laws::all, 12},
+                                           KnownCase{3, Laws::all, 13}, KnownCase{3, Laws::all, 14}));
 
 /// The plane problem with a second tangent that nothing moves.
 Problem in_space(const Problem& plane) {
@@ -225,6 +228,26 @@ TEST(InteriorPointsOfThePlane, AreThoseOfSpaceWithASecondTangentThatNothingMoves
     }
   }
   EXPECT_GE(compared, 30);
+}
+
+TEST(AllStages, SolveThePlaneAsSpaceWithASecondTangentThatNothingMoves) {
+  std::mt19937 random(13);
+  int compared = 0;
+  for (int k = 0; k < 60; ++k) {
+    Problem plane = with_known_solution(random, 2, k % 2 == 0 ? Laws::coulomb : Laws::all);
+    plane.mu_backward.resize(0);
+    plane.mu = 0.3 * plane.mu;  // little enough for one solution
+    const Solution of_plane = solve(plane), of_space = solve(in_space(plane));
+    ASSERT_EQ(of_plane.status, of_space.status) << k;
+    if (of_plane.status != Status::solved) continue;  // with other coefficients there may be no solution
+    ++compared;
+    for (int i = 0; i < plane.pairs(); ++i) {
+      const Vector difference =
+          of_space.p.segment(3 * i, 3) - (Vector(3) << of_plane.p.segment(2 * i, 2), 0.0).finished();
+      EXPECT_LE(difference.norm(), 1e-8 * of_plane.p.lpNorm<Eigen::Infinity>()) << k << " " << i;
+    }
+  }
+  EXPECT_GE(compared, 45);
 }
 
 TEST(InteriorPointsOfAllLaws, InUnitsThatArePowersOfTwoDoNotChangeABit) {
