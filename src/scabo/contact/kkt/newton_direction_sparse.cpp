@@ -36,13 +36,7 @@ bool NewtonDirection::solve_sparse() {
 template <int d>
 bool NewtonDirection::solve_by_joints() {
   Workspace& work = *work_;
-  auto& joints = [&]() -> auto& {
-    if constexpr (d == 2)
-      return work.joints_in_plane;
-    else
-      return work.joints_in_space;
-  }
-  ();
+  std::optional<JointSystem<d>>& joints = std::get<d - 2>(work.joints);
   if (!work.joints_sought) {
     work.joints_sought = true;
     if (auto found = find_joints<d>(equations_.problem())) joints.emplace(std::move(*found));

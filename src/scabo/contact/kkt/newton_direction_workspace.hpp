@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 
 #include "scabo/contact/constants.hpp"
 #include "scabo/contact/kkt/joint_system.hpp"
@@ -29,8 +30,7 @@ struct NewtonDirection::Workspace {
   std::optional<SparseSaddle> saddle;
   Eigen::SparseMatrix<double> sparse;
   bool joints_sought = false;
-  std::optional<JointSystem<2>> joints_in_plane;
-  std::optional<JointSystem<3>> joints_in_space;
+  std::tuple<std::optional<JointSystem<2>>, std::optional<JointSystem<3>>> joints;  // in the plane, in space
   bool redundant = false;  // a sparse system was singular before: pairs of three bodies that meet in a point
   Matrix blocks;           // of W on its diagonal, for the preconditioner
 };

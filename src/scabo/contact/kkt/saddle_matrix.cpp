@@ -64,17 +64,9 @@ SparseSaddle::SparseSaddle(const Problem& problem)
   if (problem.G.cols() > 0) by_rows_ = problem.G.sparse();
   moved_.setZero();
   first_.push_back(0);
-  const Index d = problem.dimension, N = problem.pairs();
-  std::vector<Index> seen(static_cast<std::size_t>(N), -1);
-  for (Index j = 0; j < N; ++j) {
-    const auto start = static_cast<std::ptrdiff_t>(beside_.size());
-    const auto see = [&](Index i) {
-      if (std::exchange(seen[static_cast<std::size_t>(i)], j) != j) beside_.push_back(static_cast<int>(i));
-    };
-    see(j);
-    for (Index k = 0; k < d; ++k)
-      for (SparseMatrix::InnerIterator at(problem.W.sparse(), d * j + k); at; ++at) see(at.row() / d);
-    std::sort(beside_.begin() + start, beside_.end());
+  for (Index j = 0; j < problem.pairs(); ++j) {
+    const std::vector<int> beside = pairs_beside(problem, j, {static_cast<int>(j)});
+    beside_.insert(beside_.end(), beside.begin(), beside.end());
     first_.push_back(beside_.size());
   }
 }
