@@ -5,25 +5,19 @@
 #include <algorithm>
 #include <vector>
 
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
-/// Friction that holds less than the tolerance of any balance.
-constexpr double no_friction = 1e-12;
-/// Loads that drive a neutral motion by less than this part of them are in balance along it.
-constexpr double balanced = 1e-10;
-/// Smallest eigenvalue of G'G, over the largest, above which no motion is neutral: far above its rounding.
-constexpr double surely_felt = 1e-12;
-
 /// The state in which a pair resists most.
 std::vector<ContactState> strongest_states(const Problem& problem) {
   std::vector<ContactState> states;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    const bool resists =
-        problem.largest_mu(i) > no_friction || problem.cohesion_of(i) > 0.0 || problem.tension_of(i) > 0.0;
+    const bool resists = problem.largest_mu(i) > neutral_constants.no_friction || problem.cohesion_of(i) > 0.0 ||
+                         problem.tension_of(i) > 0.0;
     states.push_back(resists ? ContactState::stick : ContactState::slip);
   }
   return states;
@@ -39,7 +33,7 @@ bool all_are_felt(const Problem& problem, const std::vector<ContactState>& state
   const Matrix felt = problem.G.dense()(rows, Eigen::all);
   const Vector values =
       Eigen::SelfAdjointEigenSolver<Matrix>(felt.transpose() * felt, Eigen::EigenvaluesOnly).eigenvalues();
-  return values[0] > surely_felt * values[values.size() - 1];
+  return values[0] > neutral_constants.surely_felt * values[values.size() - 1];
 }
 
 /// Columns of a sparse map.
@@ -81,7 +75,7 @@ std::optional<WithoutNeutral> without_neutral(const Problem& problem, double for
   const Eigen::Index count = neutral.cols();
   if (count == 0) return std::nullopt;
   const Vector driven = neutral.transpose() * problem.f;
-  if (driven.norm() > balanced * std::max(problem.f.norm(), force_scale)) return std::nullopt;
+  if (driven.norm() > neutral_constants.balanced * std::max(problem.f.norm(), force_scale)) return std::nullopt;
 
   // The motions that fix the neutral ones: the pivots of their rows.
   const Eigen::ColPivHouseholderQR<Matrix> pivots(Matrix(neutral.transpose()));

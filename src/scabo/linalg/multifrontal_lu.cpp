@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/interruption.hpp"
@@ -71,14 +73,20 @@ void subtract_product(const Matrix& A, const Matrix& X, Matrix& Y) {
                 1.0, Y.data(), rows);
 }
 
-}  // namespace
+/// Blocks that are eliminated together: fronts, named by the last of them.
+struct FrontTree {
+  std::vector<std::vector<int>> left;              // of each block when it is eliminated: its neighbours then
+  std::vector<std::vector<int>> merged, children;  // blocks of each front; fronts
+  std::vector<int> roots;
+};
 
-MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) : bare_(std::move(blocks.bare)) {
-  // What is left of each block when it is eliminated: its later neighbours and those of the blocks below it.
-  const std::size_t count = blocks.members.size();
-  std::vector<std::vector<int>> left = std::move(blocks.later), below(count);
-  std::vector<int> both, roots;
-  for (std::size_t v = 0; v < count; ++v) {
+/// What is left of each block, its later neighbours and those of the blocks below it, which are returned.
+std::vector<std::vector<int>> eliminate_blocks(std::vector<std::vector<int>> later, FrontTree& tree) {
+  tree.left = std::move(later);
+  std::vector<std::vector<int>>& left = tree.left;
+  std::vector<std::vector<int>> below(left.size());
+  std::vector<int> both;
+  for (std::size_t v = 0; v < left.size(); ++v) {
     for (const int child : below[v]) {
       const std::vector<int>& theirs = left[static_cast<std::size_t>(child)];
       both.clear();
@@ -86,64 +94,86 @@ MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) : bare_(std::move(blocks.ba
       left[v].swap(both);
     }
     if (left[v].empty())
-      roots.push_back(static_cast<int>(v));
+      tree.roots.push_back(static_cast<int>(v));
     else
       below[static_cast<std::size_t>(left[v].front())].push_back(static_cast<int>(v));
   }
+  return below;
+}
 
-  // A front for each block, merged with those below where that is worth it.
+/// A front for each block, merged with those below where that is worth it.
+FrontTree front_tree(const std::vector<std::vector<int>>& members, std::vector<std::vector<int>> later) {
+  FrontTree tree;
+  std::vector<std::vector<int>> below = eliminate_blocks(std::move(later), tree);
+  const std::size_t count = members.size();
   std::vector<double> pivots(count), border(count, 0.0);
-  std::vector<std::vector<int>> merged(count), children(count);  // blocks; fronts, by their last block
+  tree.merged.resize(count), tree.children.resize(count);
   for (std::size_t v = 0; v < count; ++v) {
-    pivots[v] = static_cast<double>(blocks.members[v].size());
-    for (const int w : left[v]) border[v] += static_cast<double>(blocks.members[static_cast<std::size_t>(w)].size());
-    merged[v] = {static_cast<int>(v)};
+    pivots[v] = static_cast<double>(members[v].size());
+    for (const int w : tree.left[v]) border[v] += static_cast<double>(members[static_cast<std::size_t>(w)].size());
+    tree.merged[v] = {static_cast<int>(v)};
     std::sort(below[v].begin(), below[v].end(),
               [&](int c, int d) { return border[static_cast<std::size_t>(c)] > border[static_cast<std::size_t>(d)]; });
     for (const int c : below[v]) {
       const auto child = static_cast<std::size_t>(c);
       const double apart = cost_of(pivots[child], border[child]) + cost_of(pivots[v], border[v]);
       if (cost_of(pivots[child] + pivots[v], border[v]) > apart) {
-        children[v].push_back(c);
+        tree.children[v].push_back(c);
         continue;
       }
       pivots[v] += pivots[child];
-      merged[v].insert(merged[v].end(), merged[child].begin(), merged[child].end());
-      children[v].insert(children[v].end(), children[child].begin(), children[child].end());
-      merged[child].clear();
+      const std::vector<int>&theirs = tree.merged[child], &fronts = tree.children[child];
+      tree.merged[v].insert(tree.merged[v].end(), theirs.begin(), theirs.end());
+      tree.children[v].insert(tree.children[v].end(), fronts.begin(), fronts.end());
+      tree.merged[child].clear();
     }
   }
+  return tree;
+}
 
-  // Fronts, each after its children: these one after the other, so that few rests wait.
-  std::vector<int> number(count, -1);
-  std::vector<std::pair<int, std::size_t>> path;
-  for (const int root : roots) {
+/// Fronts, each after its children: these one after the other, so that few rests wait.
+std::vector<std::size_t> children_first(const FrontTree& tree) {
+  std::vector<std::size_t> order;
+  std::vector<std::pair<std::size_t, std::size_t>> path;
+  for (const int root : tree.roots) {
     path.emplace_back(root, 0);
     while (!path.empty()) {
       auto& [at, next] = path.back();
-      const auto v = static_cast<std::size_t>(at);
-      if (next < children[v].size()) {
-        path.emplace_back(children[v][next++], 0);
-        continue;
+      if (next < tree.children[at].size()) {
+        path.emplace_back(tree.children[at][next++], 0);
+      } else {
+        order.push_back(at);
+        path.pop_back();
       }
-      Front front;
-      std::sort(merged[v].begin(), merged[v].end());
-      for (const int w : merged[v])
-        front.unknowns.insert(front.unknowns.end(), blocks.members[static_cast<std::size_t>(w)].begin(),
-                              blocks.members[static_cast<std::size_t>(w)].end());
-      front.pivots = static_cast<int>(front.unknowns.size());
-      for (const int w : left[v])
-        front.unknowns.insert(front.unknowns.end(), blocks.members[static_cast<std::size_t>(w)].begin(),
-                              blocks.members[static_cast<std::size_t>(w)].end());
-      for (const int c : children[v]) front.children.push_back(number[static_cast<std::size_t>(c)]);
-      number[v] = static_cast<int>(fronts_.size());
-      n_ += front.pivots;
-      const double k = front.pivots, b = front.border();
-      operations_ += k * k * (2.0 / 3.0 * k + 2.0 * b) + 2.0 * k * b * b;
-      entries_ += k * (k + 2.0 * b);
-      fronts_.push_back(std::move(front));
-      path.pop_back();
     }
+  }
+  return order;
+}
+
+}  // namespace
+
+MultifrontalLU::MultifrontalLU(OrderedBlocks blocks) : bare_(std::move(blocks.bare)) {
+  FrontTree tree = front_tree(blocks.members, std::move(blocks.later));
+  std::vector<int> number(blocks.members.size(), -1);
+  for (const std::size_t v : children_first(tree)) {
+    Front front;
+    const auto add = [&](const std::vector<int>& more) {
+      for (const int w : more) {
+        const std::vector<int>& members = blocks.members[static_cast<std::size_t>(w)];
+        front.unknowns.insert(front.unknowns.end(), members.begin(), members.end());
+      }
+    };
+    std::sort(tree.merged[v].begin(), tree.merged[v].end());
+    add(tree.merged[v]);
+    front.pivots = static_cast<int>(front.unknowns.size());
+    add(tree.left[v]);
+    for (const int c : tree.children[v]) front.children.push_back(number[static_cast<std::size_t>(c)]);
+    number[v] = static_cast<int>(fronts_.size());
+    n_ += front.pivots;
+    const double k = front.pivots, b = front.border();
+    operations_ += k * k * (2.0 / 3.0 * k + 2.0 * b) + 2.0 * k * b * b;
+    entries_ += k * (k + 2.0 * b);
+    fronts_.push_back(std::move(front));
   }
   place_.resize(static_cast<std::size_t>(n_));
   is_bare_.assign(static_cast<std::size_t>(n_), 0);

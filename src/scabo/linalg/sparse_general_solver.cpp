@@ -37,61 +37,60 @@ struct Saddle {
   }
 };
 
-/// Each bare unknown is put behind a group of its neighbours with equal columns, whose elimination fills it, at most
-/// half as many as the group has members. The groups, with what was put behind them, are dissected. Nothing where no
-/// unknown is bare.
-std::optional<Saddle> saddle_of(const Eigen::SparseMatrix<double>& A) {
-  const auto n = static_cast<int>(A.rows());
+/// Whether each unknown has no diagonal entry to be eliminated with.
+std::vector<char> bare_unknowns(const Eigen::SparseMatrix<double>& A) {
   constexpr double small = 1e-3;  // of the largest entry of its column
-  Saddle saddle;
-  saddle.bare.assign(static_cast<std::size_t>(n), 1);
-  for (int j = 0; j < n; ++j) {
+  std::vector<char> bare(static_cast<std::size_t>(A.rows()), 1);
+  for (int j = 0; j < static_cast<int>(A.rows()); ++j) {
     double own = 0.0, largest = 0.0;
     for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
       largest = std::max(largest, std::abs(it.value()));
       if (it.row() == j) own = it.value();
     }
-    if (own > 0.0 || own < -small * largest) saddle.bare[static_cast<std::size_t>(j)] = 0;
+    if (own > 0.0 || own < -small * largest) bare[static_cast<std::size_t>(j)] = 0;
   }
-  const std::vector<char>& bare = saddle.bare;
-  if (std::find(bare.begin(), bare.end(), 1) == bare.end()) return std::nullopt;
-  saddle.both = A + SparseMatrix(A.transpose());
-  const SparseMatrix& both = saddle.both;
-  saddle.groups = equal_columns(both);
-  const std::vector<int>& groups = saddle.groups;
-  std::vector<int>& group_of = saddle.group_of;
-  std::vector<std::vector<int>>& behind = saddle.behind;
-  const auto count = static_cast<int>(groups.size()) - 1;
-  group_of.resize(static_cast<std::size_t>(n));
+  return bare;
+}
+
+/// Each bare unknown is put behind a group of its neighbours with equal columns, whose elimination fills it, at most
+/// half as many as the group has members.
+void put_behind(Saddle& saddle) {
+  const auto n = static_cast<int>(saddle.bare.size()), count = static_cast<int>(saddle.groups.size()) - 1;
+  saddle.group_of.resize(saddle.bare.size());
   std::vector<int> room(static_cast<std::size_t>(count), 0);
   for (int g = 0; g < count; ++g)
-    for (int j = groups[static_cast<std::size_t>(g)]; j < groups[static_cast<std::size_t>(g) + 1]; ++j) {
-      group_of[static_cast<std::size_t>(j)] = g;
-      room[static_cast<std::size_t>(g)] += bare[static_cast<std::size_t>(j)] ? 0 : 1;
+    for (int j = saddle.groups[static_cast<std::size_t>(g)]; j < saddle.groups[static_cast<std::size_t>(g) + 1]; ++j) {
+      saddle.group_of[static_cast<std::size_t>(j)] = g;
+      room[static_cast<std::size_t>(g)] += saddle.bare[static_cast<std::size_t>(j)] ? 0 : 1;
     }
   for (int& of_group : room) of_group = (of_group + 1) / 2;
-  behind.resize(static_cast<std::size_t>(count));
+  saddle.behind.resize(static_cast<std::size_t>(count));
   for (int j = 0; j < n; ++j) {
-    if (!bare[static_cast<std::size_t>(j)]) continue;
+    if (!saddle.bare[static_cast<std::size_t>(j)]) continue;
     int most = 0, best = -1;
-    for (SparseMatrix::InnerIterator it(both, j); it; ++it) {
-      const int g = group_of[static_cast<std::size_t>(it.row())];
+    for (SparseMatrix::InnerIterator it(saddle.both, j); it; ++it) {
+      const int g = saddle.group_of[static_cast<std::size_t>(it.row())];
       if (room[static_cast<std::size_t>(g)] > most) most = room[static_cast<std::size_t>(g)], best = g;
     }
     if (best < 0) continue;
     --room[static_cast<std::size_t>(best)];
-    behind[static_cast<std::size_t>(best)].push_back(j);
-    group_of[static_cast<std::size_t>(j)] = best;
+    saddle.behind[static_cast<std::size_t>(best)].push_back(j);
+    saddle.group_of[static_cast<std::size_t>(j)] = best;
   }
+}
+
+/// The pattern of the groups, with what was put behind them.
+SparseMatrix pattern_of_groups(const Saddle& saddle) {
+  const auto n = static_cast<int>(saddle.bare.size()), count = static_cast<int>(saddle.groups.size()) - 1;
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(both.nonZeros()) / 4);
+  entries.reserve(static_cast<std::size_t>(saddle.both.nonZeros()) / 4);
   for (int j = 0; j < n; ++j) {
-    const int g = group_of[static_cast<std::size_t>(j)];
-    const bool first = j == groups[static_cast<std::size_t>(g)] || bare[static_cast<std::size_t>(j)];
+    const int g = saddle.group_of[static_cast<std::size_t>(j)];
+    const bool first = j == saddle.groups[static_cast<std::size_t>(g)] || saddle.bare[static_cast<std::size_t>(j)];
     if (!first) continue;  // the others of the group have the same column
     int before = -1;
-    for (SparseMatrix::InnerIterator it(both, j); it; ++it) {
-      const int h = group_of[static_cast<std::size_t>(it.row())];
+    for (SparseMatrix::InnerIterator it(saddle.both, j); it; ++it) {
+      const int h = saddle.group_of[static_cast<std::size_t>(it.row())];
       if (h == before) continue;
       before = h;
       entries.emplace_back(h, g, 1.0);
@@ -99,9 +98,20 @@ std::optional<Saddle> saddle_of(const Eigen::SparseMatrix<double>& A) {
     }
   }
   for (int g = 0; g < count; ++g) entries.emplace_back(g, g, 1.0);
-  SparseMatrix quotient(count, count);
-  quotient.setFromTriplets(entries.begin(), entries.end());
-  saddle.order = elimination_order(quotient, Ordering::nested_dissection);
+  SparseMatrix pattern(count, count);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  return pattern;
+}
+
+/// Dissected by groups. Nothing where no unknown is bare.
+std::optional<Saddle> saddle_of(const Eigen::SparseMatrix<double>& A) {
+  Saddle saddle;
+  saddle.bare = bare_unknowns(A);
+  if (std::find(saddle.bare.begin(), saddle.bare.end(), 1) == saddle.bare.end()) return std::nullopt;
+  saddle.both = A + SparseMatrix(A.transpose());
+  saddle.groups = equal_columns(saddle.both);
+  put_behind(saddle);
+  saddle.order = elimination_order(pattern_of_groups(saddle), Ordering::nested_dissection);
   return saddle;
 }
 
@@ -118,9 +128,8 @@ std::vector<int> order_of(const Saddle& saddle) {
   return order;
 }
 
-/// Each group, then the bare unknowns of which it is the last neighbour: what all neighbours together leave them as
-/// pivots is largest there.
-OrderedBlocks blocks_of(const Saddle& saddle) {
+/// For each group, in their order, the bare unknowns of which it is the last neighbour.
+std::vector<std::vector<int>> bare_after(const Saddle& saddle) {
   const std::size_t n = saddle.bare.size();
   std::vector<int> place(n, -1);  // of the group of each unknown that is not bare, in the order of groups
   for (std::size_t k = 0; k < saddle.order.size(); ++k) {
@@ -128,37 +137,22 @@ OrderedBlocks blocks_of(const Saddle& saddle) {
     for (int j = saddle.groups[g]; j < saddle.groups[g + 1]; ++j)
       if (!saddle.bare[static_cast<std::size_t>(j)]) place[static_cast<std::size_t>(j)] = static_cast<int>(k);
   }
-  std::vector<std::vector<int>> last_of(saddle.order.size());  // bare unknowns
+  std::vector<std::vector<int>> after(saddle.order.size());
   for (std::size_t j = 0; j < n; ++j) {
     if (!saddle.bare[j]) continue;
-    int last = static_cast<int>(saddle.order.size()) - 1;
-    bool any = false;
+    int last = -1;
     for (SparseMatrix::InnerIterator it(saddle.both, static_cast<Eigen::Index>(j)); it; ++it)
-      if (const int at = place[static_cast<std::size_t>(it.row())]; at >= 0) {
-        last = any ? std::max(last, at) : at;
-        any = true;
-      }
-    last_of[static_cast<std::size_t>(last)].push_back(static_cast<int>(j));
+      last = std::max(last, place[static_cast<std::size_t>(it.row())]);
+    (last < 0 ? after.back() : after[static_cast<std::size_t>(last)]).push_back(static_cast<int>(j));
   }
-  OrderedBlocks blocks;
-  std::vector<int> block_of(n, -1);
-  const auto add = [&](std::vector<int> members) {
-    for (const int j : members) block_of[static_cast<std::size_t>(j)] = static_cast<int>(blocks.members.size());
-    blocks.members.push_back(std::move(members));
-  };
-  for (std::size_t k = 0; k < saddle.order.size(); ++k) {
-    const auto g = static_cast<std::size_t>(saddle.order[k]);
-    std::vector<int> members;
-    for (int j = saddle.groups[g]; j < saddle.groups[g + 1]; ++j)
-      if (!saddle.bare[static_cast<std::size_t>(j)]) members.push_back(j);
-    if (!members.empty()) add(std::move(members));
-    for (const int j : last_of[k]) add({j});
-  }
-  blocks.later.resize(blocks.members.size());
-  // What is eliminated before a bare unknown adds its row to all neighbours: they are neighbours of each other.
+  return after;
+}
+
+/// What is eliminated before a bare unknown adds its row to all neighbours: they are neighbours of each other.
+void couple_around_bare(const Saddle& saddle, const std::vector<int>& block_of, OrderedBlocks& blocks) {
   std::vector<int> beside;
-  for (std::size_t v = 0; v < blocks.members.size(); ++v) {
-    const int first = blocks.members[v].front();
+  for (const std::vector<int>& members : blocks.members) {
+    const int first = members.front();
     if (!saddle.bare[static_cast<std::size_t>(first)]) continue;
     blocks.bare.push_back(first);
     beside.clear();
@@ -172,6 +166,28 @@ OrderedBlocks blocks_of(const Saddle& saddle) {
       later.insert(later.end(), beside.begin() + static_cast<std::ptrdiff_t>(k) + 1, beside.end());
     }
   }
+}
+
+/// Each group, then the bare unknowns of which it is the last neighbour: what all neighbours together leave them as
+/// pivots is largest there.
+OrderedBlocks blocks_of(const Saddle& saddle) {
+  const std::vector<std::vector<int>> after = bare_after(saddle);
+  OrderedBlocks blocks;
+  std::vector<int> block_of(saddle.bare.size(), -1);
+  const auto add = [&](std::vector<int> members) {
+    for (const int j : members) block_of[static_cast<std::size_t>(j)] = static_cast<int>(blocks.members.size());
+    blocks.members.push_back(std::move(members));
+  };
+  for (std::size_t k = 0; k < saddle.order.size(); ++k) {
+    const auto g = static_cast<std::size_t>(saddle.order[k]);
+    std::vector<int> members;
+    for (int j = saddle.groups[g]; j < saddle.groups[g + 1]; ++j)
+      if (!saddle.bare[static_cast<std::size_t>(j)]) members.push_back(j);
+    if (!members.empty()) add(std::move(members));
+    for (const int j : after[k]) add({j});
+  }
+  blocks.later.resize(blocks.members.size());
+  couple_around_bare(saddle, block_of, blocks);
   for (std::size_t v = 0; v < blocks.members.size(); ++v) {
     std::vector<int>& later = blocks.later[v];
     for (SparseMatrix::InnerIterator it(saddle.both, blocks.members[v].front()); it; ++it)

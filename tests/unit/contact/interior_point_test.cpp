@@ -217,7 +217,7 @@ TEST_P(InteriorPointsForLaws, FindForcesOfFloatingBlocks) {
     GetParam().give(problem, force);
     if (solve(problem).status != Status::solved) continue;
     ++solvable;
-    const InteriorPointEnd end = InteriorPoints(problem, 1.0).advance(1e-6, {}, {});
+    const InteriorPointEnd end = interior_points(problem, {}, {}, 1.0, 1e-6);
     if (end.residual > 1e-6) continue;  // a path that turned back
     ++solved;
     const BDifferentiableEquations equations(problem, 1.0);

@@ -148,29 +148,27 @@ TEST(DirectionsAlongJoints, HaveAPreconditionerThatIsNearlyTheInverse) {
   constexpr int pairs = 700;
   Problem problem = plate_on_layer(pairs, 200.0);
   problem.W = Delassus(problem.W.dense()).scaled(3.0);
-  Combinations rows, columns;  // the first half slips with 0.3, the second sticks, every seventh is open
+  SaddleRows rows;  // the first half slips with 0.3, the second sticks, every seventh is open
   std::vector<Eigen::Triplet<double>> of_L, of_C;
+  rows.resize(2 * pairs);
   int size = 0;
+  const auto add = [&](int pair, int component, double scale, double slope) {
+    rows.pair[static_cast<std::size_t>(size)] = pair;
+    rows.L(component, size) = scale;
+    rows.C(component, size) = 1.0;
+    of_L.emplace_back(size, 2 * pair + component, scale);
+    of_C.emplace_back(2 * pair + component, size, 1.0);
+    if (slope > 0.0) rows.C(1, size) = slope, of_C.emplace_back(2 * pair + 1, size, slope);
+    ++size;
+  };
   for (int i = 0; i < pairs; ++i) {
     if (i % 7 == 0) continue;
     const bool slips = 2 * i < pairs;
-    rows.add(2 * i, 2.0);
-    of_L.emplace_back(size, 2 * i, 2.0);
-    columns.add(2 * i, 1.0);
-    of_C.emplace_back(2 * i, size, 1.0);
-    if (slips) columns.add(2 * i + 1, 0.3), of_C.emplace_back(2 * i + 1, size, 0.3);
-    rows.close();
-    columns.close();
-    ++size;
-    if (slips) continue;
-    rows.add(2 * i + 1, 1.5);
-    of_L.emplace_back(size, 2 * i + 1, 1.5);
-    columns.add(2 * i + 1, 1.0);
-    of_C.emplace_back(2 * i + 1, size, 1.0);
-    rows.close();
-    columns.close();
-    ++size;
+    add(i, 0, 2.0, slips ? 0.3 : 0.0);
+    if (!slips) add(i, 1, 1.5, 0.0);
   }
+  rows.pair.resize(static_cast<std::size_t>(size));
+  rows.D.setConstant(0.01);
   Eigen::SparseMatrix<double> L(size, 2 * pairs), C(2 * pairs, size);
   L.setFromTriplets(of_L.begin(), of_L.end());
   C.setFromTriplets(of_C.begin(), of_C.end());
@@ -180,7 +178,7 @@ TEST(DirectionsAlongJoints, HaveAPreconditionerThatIsNearlyTheInverse) {
   A.topRightCorner(size, 3) = L * problem.G.dense();
   A.bottomLeftCorner(3, size) = problem.G.dense().transpose() * C;
   LinePreconditioner preconditioner;
-  ASSERT_TRUE(preconditioner.factorise(problem, rows, columns, Vector::Constant(size, 0.01)));
+  ASSERT_TRUE(preconditioner.factorise(problem, rows));
   const Vector b = Vector::LinSpaced(size + 3, -1.0, 1.0), exact = A.partialPivLu().solve(b);
   Vector x;
   preconditioner.solve(b, x);

@@ -4,30 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "scabo/base/interruption.hpp"
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/interior/judged_steps.hpp"
 #include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
 namespace {
-
-struct HeldConstants {
-  double aim = 1e-3;      ///< of the square of the slips' change: m at which a round ends
-  double least = 1e-22;   ///< of the mean square of the loads: m that rounding leaves
-  double met = 1e-2;      ///< of the slips' change: distance b at which a round ends
-  double start = 1e2;     ///< of the square of the slips' change: m at which a round starts
-  double sticking = 3.0;  ///< times sqrt(m): slips below it are 0
-  double gain = 0.9;      ///< of the least m, in `patience` steps: otherwise the round is over
-  int patience = 5, most = 60;
-  int remembered = 3;  ///< changes of the extrapolation
-  double fall = 0.7;   ///< of the slips' distance in so many rounds; otherwise another way
-  int rounds_of_way = 30;
-};
-constexpr HeldConstants held_constants;
 
 /// Slips of the last rounds, and how far they were from those held.
 struct Remembered {
@@ -52,7 +38,7 @@ struct Remembered {
       of_slips.col(j) = slips[k + 1] - slips[k];
     }
     Matrix gram = of_offs.transpose() * of_offs;
-    gram.diagonal() *= 1.0 + 1e-8;  // in case the changes are nearly equal
+    gram.diagonal() *= 1.0 + held_constants.independent;  // in case the changes are nearly equal
     const Vector gamma = gram.ldlt().solve(of_offs.transpose() * offs.back());
     if (gamma.allFinite()) next -= of_slips * gamma;
   }
@@ -71,18 +57,19 @@ class FixedPoint {
     steps_.start(1.0);
   }
 
-  InteriorPointEnd advance(double aim, int rounds, double fall, const IsSolution& content, const Deadline& deadline) {
+  void run(const IsSolution& content, const Deadline& deadline,
+           const std::function<bool(InteriorPointEnd)>& cross_over) {
     InteriorPointEnd end;
-    end.residual = HUGE_VAL;
-    while (rounds_ < rounds) {
-      ++rounds_;
+    double aim = held_constants.first_aim;
+    for (int round = 1;; ++round) {
       const double map = solve(content, deadline, end);
-      if (end.content || !std::isfinite(map) || deadline.passed()) break;
-      const double off = hold_next();
-      if (rounds_ == 1) first_off_ = off;
-      if (map <= aim || off > std::pow(fall, rounds_ - 1) * first_off_) break;
+      const bool last = end.content || !std::isfinite(map) || deadline.passed() || round == held_constants.rounds;
+      if (!last) hold_next();
+      if (!last && map > aim) continue;
+      aim = held_constants.next_aim * end.residual;
+      if (cross_over(std::move(end)) || last) return;
+      end = {};
     }
-    return end;
   }
 
  private:
@@ -106,15 +93,16 @@ class FixedPoint {
       if (!std::isfinite(map) || end.content) return map;
       const double gap = steps_.gap();
       passed_.push_back({gap, steps_.point()});
-      since = gap <= c.gain * least_gap ? 0 : since + 1;
+      since = gap <= interior_constants.gain * least_gap ? 0 : since + 1;
       least_gap = std::min(least_gap, gap);
       const bool solved = gap <= enough && steps_.distance() <= c.met * change_;
-      if (solved || since >= c.patience || step >= c.most || deadline.passed() || !steps_.advance()) return map;
+      if (solved || since >= interior_constants.patience || step >= c.most || deadline.passed() || !steps_.advance())
+        return map;
     }
   }
 
-  /// The next slips, and the point from which they are looked for. Returns the distance of those of now.
-  double hold_next() {
+  /// The next slips, and the point from which they are looked for.
+  void hold_next() {
     const HeldConstants& c = held_constants;
     const Vector slips = steps_.lifts();
     const Vector off = slips - held_;
@@ -130,7 +118,6 @@ class FixedPoint {
     while (passed_.size() > 1 && passed_.back().gap < c.start * moved * moved) passed_.pop_back();
     steps_.go_to(passed_.back().point);
     passed_.pop_back();
-    return off.norm();
   }
 
   void choose_way(double off) {
@@ -151,30 +138,18 @@ class FixedPoint {
   std::vector<Passed> passed_;  // of this round and those before it, m falling from round to round
   Remembered remembered_;
   Way way_ = Way::plain;
-  double fallen_ = HUGE_VAL, first_off_ = 0.0;
-  int since_fall_ = 0, rounds_ = 0;
+  double fallen_ = HUGE_VAL;
+  int since_fall_ = 0;
 };
 
 }  // namespace
 
-struct HeldSlips::Rounds {
-  std::variant<FixedPoint<2>, FixedPoint<3>> of;
-};
-
-HeldSlips::HeldSlips(const Problem& problem) {
-  using Either = std::variant<FixedPoint<2>, FixedPoint<3>>;
+void hold_slips(const Problem& problem, const IsSolution& content, const Deadline& deadline,
+                const std::function<bool(InteriorPointEnd)>& cross_over) {
   if (problem.dimension == 3)
-    rounds_.reset(new Rounds{Either(std::in_place_index<1>, problem)});
+    FixedPoint<3>(problem).run(content, deadline, cross_over);
   else
-    rounds_.reset(new Rounds{Either(std::in_place_index<0>, problem)});
-}
-HeldSlips::~HeldSlips() = default;
-HeldSlips::HeldSlips(HeldSlips&&) noexcept = default;
-HeldSlips& HeldSlips::operator=(HeldSlips&&) noexcept = default;
-
-InteriorPointEnd HeldSlips::advance(double aim, int rounds, double fall, const IsSolution& content,
-                                    const Deadline& deadline) {
-  return std::visit([&](auto& of) { return of.advance(aim, rounds, fall, content, deadline); }, rounds_->of);
+    FixedPoint<2>(problem).run(content, deadline, cross_over);
 }
 
 }  // namespace scabo::contact

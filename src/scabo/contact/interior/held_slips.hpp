@@ -22,29 +22,16 @@
 // the steps collapse.
 #pragma once
 
-#include <memory>
+#include <functional>
 
 #include "scabo/contact/interior/interior_points.hpp"
 
 namespace scabo::contact {
 
-class HeldSlips {
- public:
-  /// Of a problem that may_take_interior_points(). Keeps a reference to `problem`.
-  explicit HeldSlips(const Problem& problem);
-  ~HeldSlips();
-  HeldSlips(HeldSlips&&) noexcept;
-  HeldSlips& operator=(HeldSlips&&) noexcept;
-
-  /// Goes on where it ended before, until `content` accepts forces and motions, the natural map is at most `aim` after
-  /// a round, `rounds` rounds are done in all, or the slips' distance |s - |u_t|| is larger than `fall` per round times
-  /// that of the first. The best point of this call.
-  InteriorPointEnd advance(double aim, int rounds, double fall, const IsSolution& content,
-                           const Deadline& deadline = {});
-
- private:
-  struct Rounds;
-  std::unique_ptr<Rounds> rounds_;
-};
+/// Of a problem that may_take_interior_points(), until `content` accepts forces and motions, the most rounds are done
+/// or the deadline has passed. After each round whose natural map is at most an aim, the best point since is handed to
+/// `cross_over`, and at the end; that returns true where the search is over, else the aim is a part of that map.
+void hold_slips(const Problem& problem, const IsSolution& content, const Deadline& deadline,
+                const std::function<bool(InteriorPointEnd)>& cross_over);
 
 }  // namespace scabo::contact

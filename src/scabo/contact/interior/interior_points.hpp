@@ -3,7 +3,7 @@
 // and this asks for neither.
 #pragma once
 
-#include <memory>
+#include <cmath>
 #include <vector>
 
 #include "scabo/contact/deadline.hpp"
@@ -17,34 +17,16 @@ struct InteriorPointEnd {
   Vector p, a;  ///< where the judge is content; otherwise of the least residual; empty: no point is finite
   bool content = false;
   int iterations = 0;
-  double residual = 0.0;         ///< least natural map met, of forces in the units of W p, over |q|
+  double residual = HUGE_VAL;    ///< least natural map met, of forces in the units of W p, over |q|
   std::vector<Iteration> trace;  ///< its residual, its step length; merit is m / 2
 };
 
 /// W sparse, or dense with few enough rows to be factorised in each step; some load.
 bool may_take_interior_points(const Problem& problem);
 
-class InteriorPoints {
- public:
-  /// All pairs with the same normal force, `start` times what the loads suggest.
-  InteriorPoints(const Problem& problem, double start);
-  /// From forces and rigid motions known roughly, as of bonded pairs: what of p - u is beyond the law becomes motion,
-  /// and the products are `start` times what is usual.
-  InteriorPoints(const Problem& problem, const Vector& p, const Vector& a, double start);
-  ~InteriorPoints();
-  InteriorPoints(InteriorPoints&&) noexcept;
-
-  /// Goes on where it ended before, until `content`, which may be empty, accepts forces and motions, the natural map is
-  /// at most `aim`, or steps no longer lead on. The best point of this call.
-  InteriorPointEnd advance(double aim, const IsSolution& content, const Deadline& deadline = {});
-
- private:
-  struct Path;
-  std::unique_ptr<Path> path_;
-};
-
-/// To the end, from the start without history.
+/// From all pairs with the same normal force, `start` times what the loads suggest, until `content`, which may be
+/// empty, accepts forces and motions, the natural map is at most `aim`, or steps no longer lead on.
 InteriorPointEnd interior_points(const Problem& problem, const IsSolution& content, const Deadline& deadline = {},
-                                 double start = 1.0);
+                                 double start = 1.0, double aim = 0.0);
 
 }  // namespace scabo::contact

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scabo/contact/constants.hpp"
+
 namespace scabo::contact {
 
 namespace {
@@ -11,30 +13,12 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 const double root_half = std::sqrt(0.5);
 
-/// x, y > 0 with x - y = `difference` and x y = m.
-std::pair<double, double> divided(double difference, double m) {
-  const double larger = 0.5 * (std::abs(difference) + std::sqrt(difference * difference + 4.0 * m));
-  return difference > 0.0 ? std::pair(larger, m / larger) : std::pair(m / larger, larger);
-}
-
-/// A tangential force between -`forth` and `back` for which p_t - (v+ - v-) = `difference`, with equal products m / 2
-/// of v+ and v- and the distances from either bound. By bisection: what is on the left grows with p_t.
-double divided_bound(double difference, double forth, double back, double m) {
-  double low = -forth, high = back;
-  for (int k = 0; k < step_constants.bisections; ++k) {
-    const double p_t = 0.5 * (low + high);
-    (p_t - 0.5 * m / (forth + p_t) + 0.5 * m / (back - p_t) < difference ? low : high) = p_t;
-  }
-  const double least = 1e-12 * (forth + back);
-  return std::clamp(0.5 * (low + high), -forth + least, back - least);
-}
-
 /// Roots of the mean own W_ii of each pair, for each of its components; 1 where all bodies are rigid.
 Vector scales_of_pairs(const Problem& problem) {
   const Index d = problem.dimension;
   const Vector diagonal = problem.W.diagonal();
   if (diagonal.isZero(0.0)) return Vector::Ones(diagonal.size());
-  const double least = step_constants.least_of_mean * diagonal.mean();
+  const double least = interior_constants.least_of_mean * diagonal.mean();
   Vector scales(diagonal.size());
   for (Index i = 0; i < problem.pairs(); ++i)
     scales.segment(d * i, d).setConstant(std::sqrt(std::max(diagonal.segment(d * i, d).mean(), least)));
@@ -89,7 +73,7 @@ InteriorSteps<d>::InteriorSteps(const Problem& problem)
   const Index N = problem_.pairs();
   std::size_t unknowns = 0;
   for (Index i = 0; i < N; ++i) {
-    const bool slides = problem_.largest_mu(i) <= step_constants.no_friction && problem_.cohesion_of(i) == 0.0;
+    const bool slides = problem_.largest_mu(i) <= interior_constants.no_friction && problem_.cohesion_of(i) == 0.0;
     kind_.push_back(slides                                   ? Tangential::none
                     : std::isfinite(problem_.cohesion_of(i)) ? Tangential::cone
                                                              : Tangential::equation);
@@ -98,7 +82,7 @@ InteriorSteps<d>::InteriorSteps(const Problem& problem)
     products_ += static_cast<int>(opens(i)) + static_cast<int>(has_cone(i));
   }
   rows_.resize(unknowns);
-  rows_.E = step_constants.held;
+  rows_.E = interior_constants.held;
   for (Index i = 0; i < N; ++i) {
     const auto first = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]);
     const std::size_t next = i + 1 < N ? static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1]) : unknowns;
@@ -108,7 +92,7 @@ InteriorSteps<d>::InteriorSteps(const Problem& problem)
     }
   }
   rows_.C = rows_.L;
-  rows_.D.setConstant(step_constants.held);
+  rows_.D.setConstant(interior_constants.held);
   size_of_loads_ = std::hypot(problem_.q.norm(), problem_.f.norm());
   at_.p.setZero(d * N), at_.X.setZero(d * N), at_.Y.setZero(d * N);
   at_.a.setZero(problem_.G.cols());
@@ -142,38 +126,6 @@ void InteriorSteps<d>::start(double factor) {
     const double forth = problem_.friction_bound(i, force, -1.0), back = problem_.friction_bound(i, force, 1.0);
     T p_t = T::Zero();
     p_t[0] = 0.5 * (back - forth);
-    at_.p.template segment<d - 1>(d * i + 1) = p_t;
-    const V X = Cone::of_force(forth, back, p_t);
-    at_.X.template segment<d>(d * i) = X;
-    at_.Y.template segment<d>(d * i) = Cone::quotient(m * Cone::middle(), X);
-  }
-}
-
-template <int d>
-void InteriorSteps<d>::start_near(const Vector& p, const Vector& a, double factor) {
-  at_.p = p.cwiseProduct(scale_);
-  at_.a = a.cwiseQuotient(length_);
-  double mean = 0.0;
-  for (Index i = 0; i < problem_.pairs(); ++i) mean += std::abs(at_.p[d * i]) / problem_.pairs();
-  const double m = factor * std::max(mean * mean, 1e-300);
-  Vector u = problem_.q + problem_.W * at_.p;
-  if (at_.a.size() > 0) u += problem_.G * at_.a;
-  for (Index i = 0; i < problem_.pairs(); ++i) {
-    if (opens(i)) {
-      std::tie(at_.x[i], at_.y[i]) = divided(at_.p[d * i] + problem_.tension_of(i) - u[d * i], m);
-      at_.p[d * i] = at_.x[i] - problem_.tension_of(i);
-    }
-    if (kind_[static_cast<std::size_t>(i)] == Tangential::none) at_.p.template segment<d - 1>(d * i + 1).setZero();
-    if (!has_cone(i)) continue;
-    const double normal = pressure(i, at_.p[d * i], m).first;
-    const double forth = problem_.friction_bound(i, normal, -1.0), back = problem_.friction_bound(i, normal, 1.0);
-    T p_t = tangents(at_.p, i) - tangents(u, i);
-    if constexpr (d == 3) {
-      const double size = p_t.norm();
-      if (size > 0.0) p_t *= divided_bound(size, forth, forth, m) / size;
-    } else {
-      p_t[0] = divided_bound(p_t[0], forth, back, m);
-    }
     at_.p.template segment<d - 1>(d * i + 1) = p_t;
     const V X = Cone::of_force(forth, back, p_t);
     at_.X.template segment<d>(d * i) = X;
@@ -339,7 +291,8 @@ typename InteriorSteps<d>::Point InteriorSteps<d>::direction(const Vector& of_no
   const Index N = problem_.pairs();
   const Vector z = system_.solve(right_side(of_normals, of_cones));
   Point change;
-  change.p = rows_.forces(z, d, N);
+  change.p.setZero(d * N);
+  rows_.add_forces(z, d, change.p);
   change.a = z.tail(at_.a.size());
   change.x.setZero(N), change.y.setZero(N), change.X.setZero(d * N), change.Y.setZero(d * N);
   Vector du = problem_.W * change.p;
@@ -416,7 +369,7 @@ bool InteriorSteps<d>::advance() {
   lay_out();
   if (!system_.factorise(rows_)) return false;
   const Index N = problem_.pairs();
-  const StepConstants& c = step_constants;
+  const InteriorConstants& c = interior_constants;
   const double gap = lacks_.gap;
   // Products for sigma, without the changes of `first`, a part of it.
   Vector of_normals(N), of_cones(d * N);

@@ -39,21 +39,6 @@
 
 namespace scabo::contact {
 
-/// Of the steps. Without unit, where none is given.
-struct StepConstants {
-  double part = 0.95;           ///< of the way to the boundary of the cones; nearly whole where m is small
-  double collapsed = 0.1;       ///< a step shorter than this is replaced by one that leads back to the middle, ...
-  double centring = 0.8;        ///< ... with this sigma and no correction
-  double distance_lag = 10.0;   ///< what lacks in the equations may fall so many times more slowly than m; ...
-  double lagging = 0.9;         ///< ... beyond it sigma is at least this: y must not vanish before the motions come
-  double settled = 1e-13;       ///< of the loads: what lacks less is rounding
-  double least_of_mean = 1e-6;  ///< of the mean W_ii: least by which a pair is scaled; what is held does not give way
-  double held = 1e-12;          ///< D of equations, E, over W_ii = 1: holds what nothing determines
-  double no_friction = 1e-12;   ///< coefficients up to it are 0
-  int bisections = 60;          ///< of a warm start
-};
-inline constexpr StepConstants step_constants;
-
 template <int d>
 class InteriorSteps {
   using Index = Eigen::Index;
@@ -76,9 +61,6 @@ class InteriorSteps {
 
   /// All pairs with the same normal force, `factor` times what the loads suggest.
   void start(double factor);
-  /// From forces and rigid motions known roughly: what of p - u is beyond the law becomes motion, with products
-  /// `factor` times the square of the mean force.
-  void start_near(const Vector& p, const Vector& a, double factor);
   /// Lifts beta.Y held from now on, one of each pair, instead of none.
   void hold(Vector lifts) { lifts_ = std::move(lifts); }
 

@@ -4,15 +4,9 @@
 
 #include <functional>
 
-#include "scabo/base/types.hpp"
+#include "scabo/contact/constants.hpp"
 
 namespace scabo::contact {
-
-struct GmresOptions {
-  double tolerance = 1e-11;  ///< bound of the residual relative to b
-  int restart = 80;          ///< number of vectors kept
-  int iterations = 400;      ///< total number of products with A
-};
 
 /// x <- A^-1 b, starting from x. Returns |b - A x| / |b| at the end.
 double gmres(const std::function<void(const Vector&, Vector&)>& multiply,

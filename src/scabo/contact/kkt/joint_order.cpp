@@ -13,19 +13,17 @@ void make_set(std::vector<int>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Pairs that the motion of this one depends on.
-std::vector<int> pairs_beside(const Problem& problem, Eigen::Index pair) {
-  std::vector<int> of_pairs;
+}  // namespace
+
+std::vector<int> pairs_beside(const Problem& problem, Eigen::Index pair, std::vector<int> with) {
   const Eigen::Index d = problem.dimension;
   for (Eigen::Index row = d * pair; row < d * (pair + 1); ++row)
     for (Eigen::SparseMatrix<double>::InnerIterator it(problem.W.sparse(), row); it; ++it)
-      if (const auto other = static_cast<int>(it.row() / d); of_pairs.empty() || of_pairs.back() != other)
-        of_pairs.push_back(other);
-  make_set(of_pairs);
-  return of_pairs;
+      if (const auto other = static_cast<int>(it.row() / d); with.empty() || with.back() != other)
+        with.push_back(other);
+  make_set(with);
+  return with;
 }
-
-}  // namespace
 
 std::vector<std::vector<int>> motions_of_pairs(const Problem& problem) {
   std::vector<std::vector<int>> motions(static_cast<std::size_t>(problem.pairs()));

@@ -6,11 +6,7 @@
 
 namespace scabo::contact {
 
-namespace {
-
 using Index = Eigen::Index;
-
-}  // namespace
 
 template <int d>
 JointSystem<d>::JointSystem(Joints<d> joints) : joints_(std::move(joints)) {
@@ -34,12 +30,6 @@ JointSystem<d>::JointSystem(Joints<d> joints) : joints_(std::move(joints)) {
 }
 
 template <int d>
-void JointSystem<d>::turn(Index i, const Eigen::Matrix<double, d, d>& by) {
-  auto& A = joints_.A[static_cast<std::size_t>(i)];
-  A = (by * A).eval();
-}
-
-template <int d>
 Vector JointSystem<d>::spread(const Vector& s) const {
   Vector result = Vector::Zero(s.size());
   for (int e = 0; e < joints_.count(); ++e)
@@ -47,17 +37,6 @@ Vector JointSystem<d>::spread(const Vector& s) const {
       result.segment<R>(R * joints_.neighbour[static_cast<std::size_t>(at)]).noalias() +=
           joints_.K[static_cast<std::size_t>(at)] * s.segment<R>(R * e);
   return result;
-}
-
-template <int d>
-Vector JointSystem<d>::times(const Vector& v) const {
-  Vector s = Vector::Zero(R * joints_.count()), u(v.size());
-  for (std::size_t i = 0; i < joints_.A.size(); ++i)
-    s.segment<R>(R * joints_.joint[i]).noalias() += joints_.A[i].transpose() * v.segment<d>(d * static_cast<Index>(i));
-  s = spread(s);
-  for (std::size_t i = 0; i < joints_.A.size(); ++i)
-    u.segment<d>(d * static_cast<Index>(i)).noalias() = joints_.A[i] * s.segment<R>(R * joints_.joint[i]);
-  return u;
 }
 
 template <int d>
@@ -148,26 +127,6 @@ void JointSystem<d>::apply(const Vector& z, Vector& result) const {
   for (std::size_t j = 0; j < pair.size(); ++j) {
     const auto row = static_cast<Index>(j);
     result[row] = D[row] * z[row] + L.row(row).dot(s.segment<R>(R * static_cast<Index>(joint_of(j))));
-  }
-}
-
-template <int d>
-void JointSystem<d>::solve_refined(const Vector& b, Vector& z) const {
-  constexpr int rounds = 3;
-  constexpr double enough = 1e-14;
-  solve(b, z);
-  Vector image, rest, correction, trial;
-  apply(z, image);
-  rest = b - image;
-  double left = rest.norm();
-  for (int round = 0; round < rounds && left > enough * b.norm(); ++round) {
-    solve(rest, correction);
-    trial = z + correction;
-    apply(trial, image);
-    rest = b - image;
-    if (!(rest.norm() < left)) break;  // rounding
-    left = rest.norm();
-    z.swap(trial);
   }
 }
 

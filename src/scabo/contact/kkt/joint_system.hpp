@@ -34,12 +34,6 @@ class JointSystem {
 
   /// A of pair i, scaled.
   const typename Joints<d>::Combination& A(Eigen::Index i) const { return joints_.A[static_cast<std::size_t>(i)]; }
-  /// A of pair i is multiplied by `by` from the left: other units or axes of the pairs.
-  void turn(Eigen::Index i, const Eigen::Matrix<double, d, d>& by);
-
-  /// W v, v: dN.
-  Vector times(const Vector& v) const;
-
   /// Unknown j belongs to pair `pair[j]`; rows of L and C are those of A', multiplied as needed.
   std::vector<int> pair;
   Rows L, C;
@@ -51,8 +45,6 @@ class JointSystem {
   void solve(const Vector& b, Vector& z) const;
   /// result = (D + L K C') z with the D of now.
   void apply(const Vector& z, Vector& result) const;
-  /// solve, refined up to three times with what was factorised.
-  void solve_refined(const Vector& b, Vector& z) const;
 
  private:
   Vector spread(const Vector& s) const;  // K s

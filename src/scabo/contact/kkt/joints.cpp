@@ -4,17 +4,16 @@
 #include <cmath>
 #include <cstddef>
 #include <unordered_map>
+#include <utility>
+
+#include "scabo/contact/constants.hpp"
+#include "scabo/contact/kkt/joint_order.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-
-constexpr double independent = 1e-10;   // of W_ii: what is left of a row that is a pivot of its own
-constexpr double equal_within = 1e-12;  // of W_ii: largest difference of W and A K A'
-constexpr double paying = 0.4;          // of the entries of W
-constexpr int most_of_class = 4;        // joints whose pairs have the same neighbours: a tower of two blocks has two
 
 double entry(const Sparse& W, int row, int column) {
   const int *const begin = W.innerIndexPtr() + W.outerIndexPtr()[column], *const end = W.innerIndexPtr() +
@@ -39,20 +38,11 @@ struct Pattern {
   }
 };
 
-Pattern pattern_of(const Sparse& W, int d, int N) {
-  Pattern pattern;
-  pattern.first.push_back(0);
-  std::vector<int> seen(static_cast<std::size_t>(N), -1);
-  for (int i = 0; i < N; ++i) {
-    const auto note = [&](int j) {
-      if (seen[static_cast<std::size_t>(j)] == i) return;
-      seen[static_cast<std::size_t>(j)] = i;
-      pattern.pairs.push_back(j);
-    };
-    note(i);
-    for (int k = 0; k < d; ++k)
-      for (Sparse::InnerIterator at(W, d * i + k); at; ++at) note(static_cast<int>(at.row()) / d);
-    std::sort(pattern.pairs.begin() + pattern.first.back(), pattern.pairs.end());
+Pattern pattern_of(const Problem& problem) {
+  Pattern pattern{{0}, {}};
+  for (int i = 0; i < problem.pairs(); ++i) {
+    const std::vector<int> beside = pairs_beside(problem, i, {i});
+    pattern.pairs.insert(pattern.pairs.end(), beside.begin(), beside.end());
     pattern.first.push_back(static_cast<int>(pattern.pairs.size()));
   }
   return pattern;
@@ -105,7 +95,7 @@ struct Pivots {
     Pivots more = *this;
     for (int added = 0; added < d; ++added) {
       int best = -1;
-      double part = independent;
+      double part = system_constants.independent;
       for (int k = 0; k < d; ++k)
         if (whole[k] > 0.0 && left(k, k) > part * whole[k]) best = k, part = left(k, k) / whole[k];
       if (best < 0) break;
@@ -124,19 +114,18 @@ struct Pivots {
   }
 };
 
-}  // namespace
-
+/// The pairs by joints.
 template <int d>
-std::optional<Joints<d>> find_joints(const Problem& problem) {
-  if (!problem.W.is_sparse() || problem.G.cols() > 0 || problem.dimension != d) return {};
-  const Sparse& W = problem.W.sparse();
-  const int N = problem.pairs();
-  const Pattern pattern = pattern_of(W, d, N);
+struct Groups {
+  std::vector<int> joint;         // of each pair
+  std::vector<Pivots<d>> pivots;  // of each joint
+  std::vector<int> example;       // a pair of each joint
+};
 
-  Joints<d> joints;
-  joints.joint.resize(static_cast<std::size_t>(N));
-  std::vector<Pivots<d>> pivots;
-  std::vector<int> example;  // a pair of each joint
+/// Pairs with the same neighbours and the same R motions; nothing where there are nearly as many joints as pairs.
+template <int d>
+std::optional<Groups<d>> groups_of(const Sparse& W, const Pattern& pattern, int N) {
+  Groups<d> groups;
   std::unordered_multimap<std::size_t, int> of_pattern;
   for (int i = 0; i < N; ++i) {
     const std::size_t hash = pattern.hash(i);
@@ -144,40 +133,43 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
     int found = -1, alike = 0;
     for (auto at = begin; at != end && found < 0; ++at) {
       const auto e = static_cast<std::size_t>(at->second);
-      if (!pattern.same(i, example[e])) continue;
-      if (pivots[e].take(W, i))
+      if (!pattern.same(i, groups.example[e])) continue;
+      if (groups.pivots[e].take(W, i))
         found = at->second;
-      else if (++alike == most_of_class)
+      else if (++alike == system_constants.most_of_class)
         return {};
     }
     if (found < 0) {
-      found = static_cast<int>(pivots.size());
+      found = static_cast<int>(groups.pivots.size());
       if (found > N / 2 + 8) return {};
-      pivots.emplace_back();
-      example.push_back(i);
-      if (!pivots.back().take(W, i)) return {};
+      groups.pivots.emplace_back();
+      groups.example.push_back(i);
+      if (!groups.pivots.back().take(W, i)) return {};
       of_pattern.emplace(hash, found);
     }
-    joints.joint[static_cast<std::size_t>(i)] = found;
+    groups.joint.push_back(found);
   }
+  return groups;
+}
 
-  const auto count = static_cast<int>(pivots.size());
+/// Neighbours and K of every joint; false where W is not symmetric.
+template <int d>
+bool couple(const Sparse& W, const Pattern& pattern, const Groups<d>& groups, Joints<d>& joints) {
   joints.first.push_back(0);
-  std::vector<int> pairs_met(static_cast<std::size_t>(count), 0);
-  for (int f = 0; f < count; ++f) {
-    const int pair = example[static_cast<std::size_t>(f)];
+  std::vector<int> pairs_met(groups.pivots.size(), 0);
+  for (std::size_t f = 0; f < groups.pivots.size(); ++f) {
+    const int pair = groups.example[f];
     const auto before = static_cast<std::ptrdiff_t>(joints.neighbour.size());
     for (const int* at = pattern.begin(pair); at != pattern.end(pair); ++at) {
-      const int e = joints.joint[static_cast<std::size_t>(*at)];
+      const int e = groups.joint[static_cast<std::size_t>(*at)];
       if (pairs_met[static_cast<std::size_t>(e)]++ == 0) joints.neighbour.push_back(e);
     }
     std::sort(joints.neighbour.begin() + before, joints.neighbour.end());
     for (auto at = joints.neighbour.begin() + before; at != joints.neighbour.end(); ++at) {
       const auto e = static_cast<std::size_t>(*at);
-      if (pairs_met[e] != pivots[e].pairs) return {};  // W is not symmetric
-      pairs_met[e] = 0;
+      if (std::exchange(pairs_met[e], 0) != groups.pivots[e].pairs) return false;
       typename Joints<d>::Block K = Joints<d>::Block::Zero();
-      const std::vector<int>&rows = pivots[e].rows, &columns = pivots[static_cast<std::size_t>(f)].rows;
+      const std::vector<int>&rows = groups.pivots[e].rows, &columns = groups.pivots[f].rows;
       for (std::size_t a = 0; a < rows.size(); ++a)
         for (std::size_t b = 0; b < columns.size(); ++b)
           K(static_cast<int>(a), static_cast<int>(b)) = entry(W, rows[a], columns[b]);
@@ -185,16 +177,15 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
     }
     joints.first.push_back(static_cast<int>(joints.neighbour.size()));
   }
-  if (static_cast<double>(joints.K.size()) * Joints<d>::R * Joints<d>::R > paying * static_cast<double>(W.nonZeros()))
-    return {};
+  return true;
+}
 
-  joints.A.reserve(static_cast<std::size_t>(N));
-  for (int i = 0; i < N; ++i)
-    joints.A.push_back(pivots[static_cast<std::size_t>(joints.joint[static_cast<std::size_t>(i)])].combination(W, i));
-  // Every entry, by block columns: K A' of a pair once for every joint.
+/// Whether W = A K A' in every entry, by block columns: K A' of a pair once for every joint.
+template <int d>
+bool are_those_of(const Sparse& W, const Pattern& pattern, const Joints<d>& joints) {
   const Vector diagonal = W.diagonal();
-  std::vector<Eigen::Matrix<double, Joints<d>::R, d>> of_joint(static_cast<std::size_t>(count));
-  for (int j = 0; j < N; ++j) {
+  std::vector<Eigen::Matrix<double, Joints<d>::R, d>> of_joint(static_cast<std::size_t>(joints.count()));
+  for (int j = 0; j < static_cast<int>(joints.A.size()); ++j) {
     const auto f = static_cast<std::size_t>(joints.joint[static_cast<std::size_t>(j)]);
     for (int at = joints.first[f]; at < joints.first[f + 1]; ++at)
       of_joint[static_cast<std::size_t>(joints.neighbour[static_cast<std::size_t>(at)])] =
@@ -205,9 +196,32 @@ std::optional<Joints<d>> find_joints(const Problem& problem) {
       const double size = std::sqrt(diagonal.segment<d>(d * *at).maxCoeff() * diagonal.segment<d>(d * j).maxCoeff());
       for (int k = 0; k < d; ++k)
         for (int c = 0; c < d; ++c)
-          if (!(std::abs(entry(W, d * *at + c, d * j + k) - block(c, k)) <= equal_within * size)) return {};
+          if (!(std::abs(entry(W, d * *at + c, d * j + k) - block(c, k)) <= system_constants.equal_within * size))
+            return false;
     }
   }
+  return true;
+}
+
+}  // namespace
+
+template <int d>
+std::optional<Joints<d>> find_joints(const Problem& problem) {
+  if (!problem.W.is_sparse() || problem.G.cols() > 0 || problem.dimension != d) return {};
+  const Sparse& W = problem.W.sparse();
+  const Pattern pattern = pattern_of(problem);
+  std::optional<Groups<d>> groups = groups_of<d>(W, pattern, problem.pairs());
+  Joints<d> joints;
+  if (!groups || !couple(W, pattern, *groups, joints)) return {};
+  if (static_cast<double>(joints.K.size()) * Joints<d>::R * Joints<d>::R >
+      system_constants.paying * static_cast<double>(W.nonZeros()))
+    return {};
+  joints.joint = std::move(groups->joint);
+  for (int i = 0; i < problem.pairs(); ++i) {
+    const auto e = static_cast<std::size_t>(joints.joint[static_cast<std::size_t>(i)]);
+    joints.A.push_back(groups->pivots[e].combination(W, i));
+  }
+  if (!are_those_of(W, pattern, joints)) return {};
   return joints;
 }
 

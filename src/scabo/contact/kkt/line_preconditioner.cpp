@@ -1,54 +1,48 @@
 #include "scabo/contact/kkt/line_preconditioner.hpp"
 
-#include <algorithm>
+#include "scabo/contact/constants.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
-/// M: each sum of rows of G.
-Matrix sums_of(const Combinations& sums, const Matrix& G) {
-  Matrix result = Matrix::Zero(sums.size(), G.cols());
-  for (Eigen::Index j = 0; j < sums.size(); ++j)
-    for (std::size_t e = sums.first[static_cast<std::size_t>(j)]; e < sums.first[static_cast<std::size_t>(j + 1)]; ++e)
-      result.row(j) += sums.weight[e] * G.row(sums.component[e]);
+/// [L or C]' G, n x m.
+Matrix motions_of(const SaddleRows& rows, const SaddleRows::Columns& of, const Problem& problem) {
+  const Eigen::Index d = problem.dimension;
+  Matrix result(rows.size(), problem.G.cols());
+  for (Eigen::Index j = 0; j < rows.size(); ++j)
+    result.row(j) =
+        of.col(j).head(d).transpose() * problem.G.dense().middleRows(d * rows.pair[static_cast<std::size_t>(j)], d);
   return result;
 }
 
 }  // namespace
 
-bool LinePreconditioner::factorise(const Problem& problem, const Combinations& rows, const Combinations& columns,
-                                   const Vector& diagonal) {
+bool LinePreconditioner::factorise(const Problem& problem, const SaddleRows& rows) {
   const Matrix& W = problem.W.matrix();
   const double factor = problem.W.factor();
+  const Eigen::Index d = problem.dimension;
+  const auto first_of = [&](Eigen::Index unknown) { return d * rows.pair[static_cast<std::size_t>(unknown)]; };
   Vector motion;
   const auto fill = [&](Eigen::Index row, Eigen::Index column, Matrix& block) {
-    const std::size_t first = rows.first[static_cast<std::size_t>(row)],
-                      last = rows.first[static_cast<std::size_t>(row + block.rows())];
-    if (first == last || block.cols() == 0) return;
-    const auto [low, high] = std::minmax_element(rows.component.begin() + static_cast<std::ptrdiff_t>(first),
-                                                 rows.component.begin() + static_cast<std::ptrdiff_t>(last));
-    const Eigen::Index begin = *low, count = *high - *low + 1;
+    if (block.size() == 0) return;
+    const Eigen::Index begin = first_of(row), count = first_of(row + block.rows() - 1) + d - begin;
     for (Eigen::Index j = 0; j < block.cols(); ++j) {
-      const auto of = static_cast<std::size_t>(column + j);
       motion.setZero(count);
-      for (std::size_t e = columns.first[of]; e < columns.first[of + 1]; ++e)
-        motion += (factor * columns.weight[e]) * W.col(columns.component[e]).segment(begin, count);
-      for (Eigen::Index i = 0; i < block.rows(); ++i) {
-        double sum = row + i == column + j ? diagonal[row + i] : 0.0;
-        for (std::size_t e = rows.first[static_cast<std::size_t>(row + i)];
-             e < rows.first[static_cast<std::size_t>(row + i + 1)]; ++e)
-          sum += rows.weight[e] * motion[rows.component[e] - begin];
-        block(i, j) = sum;
-      }
+      for (Eigen::Index k = 0; k < d; ++k)
+        if (const double C = rows.C(k, column + j); C != 0.0)
+          motion += (factor * C) * W.col(first_of(column + j) + k).segment(begin, count);
+      for (Eigen::Index i = 0; i < block.rows(); ++i)
+        block(i, j) = rows.L.col(row + i).head(d).dot(motion.segment(first_of(row + i) - begin, d)) +
+                      (row + i == column + j ? rows.D[row + i] : 0.0);
     }
   };
-  constexpr double fine = 1e-8, coarse = 1e-6;  // of each block; of thousands of pairs ranks are too large for more
-  if (!A_.factorise(rows.size(), fill, fine) && !A_.factorise(rows.size(), fill, coarse)) return false;
+  const auto& c = system_constants;
+  if (!A_.factorise(rows.size(), fill, c.line_fine) && !A_.factorise(rows.size(), fill, c.line_coarse)) return false;
   const Eigen::Index m = problem.G.cols();
   if (m == 0) return true;
-  const Matrix M = sums_of(rows, problem.G.dense());
-  F_ = sums_of(columns, problem.G.dense()).transpose();
+  const Matrix M = motions_of(rows, rows.L, problem);
+  F_ = motions_of(rows, rows.C, problem).transpose();
   solved_.resize(rows.size(), m);
   for (Eigen::Index g = 0; g < m; ++g) {
     A_.solve(M.col(g), y_);
@@ -56,7 +50,7 @@ bool LinePreconditioner::factorise(const Problem& problem, const Combinations& r
   }
   if (!solved_.allFinite()) return false;
   balance_.compute(F_ * solved_);
-  return balance_.rcond() > 1e-13;
+  return balance_.rcond() > c.least_of_balance;
 }
 
 void LinePreconditioner::solve(const Vector& x, Vector& result) const {

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "scabo/contact/kkt/gmres.hpp"
+#include "scabo/contact/kkt/saddle_matrix.hpp"
 #include "scabo/contact/newton/b_differentiable.hpp"
 
 namespace scabo::contact {
@@ -49,43 +50,39 @@ class NewtonDirection {
   bool find(Residual& at, double regularisation, Vector& d);
 
  private:
-  struct Unknown {
-    int pair = 0;
-    Eigen::Vector3d row, column;  // components [n, t, t]
-    double scale = 0.0;           // of the row: r, r lambda
-    double own = 0.0;             // 1 - lambda
-  };
   bool solve(const Residual& at, double regularisation, Vector& d);
-  void lay_out(const Residual& at);
-  bool solve_dense(double regularisation);
-  bool solve_along_joints(double regularisation);
-  bool solve_by_single_precision(double regularisation);
-  /// y_ by GMRES, with products with the matrix itself; false if it is less exact than LU in double precision.
-  bool solve_preconditioned(double regularisation, const std::function<void(const Vector&, Vector&)>& precondition,
-                            const GmresOptions& options);
-  void lay_out_sparse(double regularisation);
-  bool factorise_sparse(const Eigen::SparseMatrix<double>& A);
-  bool solve_sparse(double regularisation);
+  bool solve_in_turn();
+  void lay_out(const Residual& at, double regularisation);
+  void add_unknown(int pair, const Eigen::Vector3d& row, const Eigen::Vector3d& column, double scale, double own);
+  bool solve_dense();
+  bool solve_regular(Eigen::Index n);
+  bool solve_singular(Eigen::Index n);
+  bool solve_along_joints();
+  bool solve_by_single_precision();
+  /// y_ by GMRES, with products with the matrix itself. The residual, over that of y_ = 0.
+  double solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
+                              const GmresOptions& options);
+  bool solve_sparse();
   template <int d>
-  bool solve_by_joints(double regularisation);
-  bool solve_by_holding(double regularisation);
-  bool solve_iteratively(double regularisation);
+  bool solve_by_joints();
+  bool solve_by_holding();
+  bool solve_iteratively();
   /// The matrix above times x = [y; da].
-  void apply(const Vector& x, double regularisation, Vector& result);
+  void apply(const Vector& x, Vector& result);
   /// The preconditioner of GMRES.
   struct PairBlocks {
+    std::vector<int> first;                // N + 1, of the unknowns
     std::vector<Eigen::Matrix3d> inverse;  // of D, for each pair
     Matrix motion, force;                  // L'R G, G'C
     Eigen::PartialPivLU<Matrix> balance;   // of G'C D^-1 L'R G
+
+    void solve(const Eigen::Ref<const Vector>& x, Vector& y) const;
   };
-  PairBlocks pair_blocks(double regularisation);
-  void solve_pairs(const PairBlocks& blocks, const Eigen::Ref<const Vector>& x, Vector& y) const;
-  void expand(const Vector& y, Vector& dp) const;
-  void gather(const Vector& motion, Vector& rows) const;
+  PairBlocks pair_blocks();
 
   const BDifferentiableEquations& equations_;
-  std::vector<Unknown> unknowns_;
-  std::vector<int> first_of_pair_;  // N + 1
+  SaddleRows rows_;     // with L R for L; E: alpha
+  Vector scale_, own_;  // n, or more: r of the row, r lambda; 1 - lambda
   Vector known_, moved_, right_, y_;
   struct Workspace;
   std::unique_ptr<Workspace> work_;

@@ -13,25 +13,10 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
-#include "scabo/contact/problem.hpp"
+#include "scabo/contact/kkt/saddle_matrix.hpp"
 
 namespace scabo::contact {
-
-/// The unknowns of a system, pair after pair.
-struct SaddleRows {
-  using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-  std::vector<int> pair;  ///< n, ascending
-  Columns L, C;           ///< 3 x n; in the plane the last row is not used
-  Vector D;               ///< n
-  double E = 0.0;
-
-  void resize(std::size_t n);
-  Eigen::Index size() const { return D.size(); }
-  /// C z, dN numbers.
-  Vector forces(const Vector& z, int dimension, Eigen::Index pairs) const;
-};
 
 class SaddleSystem {
  public:

@@ -4,16 +4,14 @@
 #include <cmath>
 #include <optional>
 
+#include "scabo/contact/constants.hpp"
+
 namespace scabo::contact {
 
 namespace {
 
-/// Forces that differ by less than this, relative to their size, are equal within rounding (a tie), and so are forces
-/// as small as this relative to the largest force of the problem.
-constexpr double tie = 1e-12, rounding = 4e-14;
-
 bool tied(double a, double b, double scale, double smallest) {
-  return std::isfinite(scale) && std::abs(a - b) <= tie * scale + smallest;
+  return std::isfinite(scale) && std::abs(a - b) <= newton_constants.tie * scale + smallest;
 }
 
 /// The tangential part of pair `i` in a vector of pairs; in the plane its second component is zero.
@@ -147,7 +145,9 @@ BDifferentiableEquations::BDifferentiableEquations(const Problem& problem, doubl
   const Eigen::Index d = problem.dimension;
   r_.resize(diagonal.size());
   const double mean = diagonal.size() > 0 ? diagonal.mean() : 1.0;
-  const auto inverse = [&](double W) { return r_factor / (W > 1e-14 * mean ? W : mean > 0.0 ? mean : 1.0); };
+  const auto inverse = [&](double W) {
+    return r_factor / (W > newton_constants.no_flexibility * mean ? W : mean > 0.0 ? mean : 1.0);
+  };
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     r_[d * i] = inverse(diagonal[d * i]);
     const auto tangents = diagonal.segment(d * i + 1, d - 1);
@@ -175,7 +175,7 @@ void BDifferentiableEquations::evaluate_at_motion(const Vector& p, Residual& at)
   double largest = largest_q_;
   for (Eigen::Index k = 0; k < d * N; ++k)
     largest = std::max({largest, std::abs(p[k]), std::abs(r_[k] * at.motion[k])});
-  const double smallest = rounding * largest;
+  const double smallest = newton_constants.smallest * largest;
   for (Eigen::Index i = 0; i < N; ++i) {
     Branch& branch = at.branches[static_cast<std::size_t>(i)];
     const Vec2 p_t = tangent_part(p, i, d);
@@ -264,11 +264,11 @@ int BDifferentiableEquations::follow(Residual& at, const Vector& direction) cons
     const Branch before = branch;
     const double dg = r_[d * i] * du[d * i], dp_n = direction[d * i];
     // Within rounding both branches are valid, and the present one is kept.
-    const double room = 1e-9 * (std::abs(dg) + std::abs(dp_n));
+    const double room = newton_constants.room * (std::abs(dg) + std::abs(dp_n));
     if (branch.normal_tie && std::abs(dg - dp_n) > room) branch.contact = dg < dp_n;
     const Vec2 dt = tangent_part(direction, i, d) - r_[d * i + 1] * tangent_part(du, i, d);
     const double db = bound_slope(branch, mu_for(problem_, i, branch, dt), dp_n);
-    if (!(branch.edge && std::abs(branch.along.dot(dt) - db) <= 1e-9 * (dt.norm() + std::abs(db))))
+    if (!(branch.edge && std::abs(branch.along.dot(dt) - db) <= newton_constants.room * (dt.norm() + std::abs(db))))
       follow_tangent(branch, dt, db);
     if (branch.bound_tie && dp_n != 0.0) branch.slope = dp_n > 0.0 ? followed_mu(i, branch) : 0.0;
     changed += !branch.same_branch(before);

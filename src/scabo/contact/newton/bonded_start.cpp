@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
 #include "scabo/contact/kkt/saddle_system.hpp"
 #include "scabo/contact/pair_operator.hpp"
@@ -11,26 +12,28 @@ namespace scabo::contact {
 
 namespace {
 
-constexpr double softness = 1e-3;     // eps
-constexpr double free_motion = 1e-6;  // E where the bodies are not held without it
-constexpr double balance = 1e-4;      // of forces, relative to the largest
+/// Every touching component that a force moves; `diagonal` of W.
+std::vector<int> held_components(const Problem& problem, const Vector& diagonal, const std::vector<bool>& touching) {
+  std::vector<int> held;
+  for (int k = 0; k < diagonal.size(); ++k)
+    if ((touching.empty() || touching[static_cast<std::size_t>(k / problem.dimension)]) && diagonal[k] > 0.0)
+      held.push_back(k);
+  return held;
+}
 
-/// Every touching component that a force moves, alone in its row and column; where all bodies are rigid, every touching
-/// one.
+/// These, each alone in its row and column; all that touch where all bodies are rigid.
 SaddleRows held_rows(const Problem& problem, const std::vector<bool>& touching) {
-  const Eigen::Index d = problem.dimension;
+  const int d = problem.dimension;
   Vector diagonal = problem.W.diagonal();
   if (diagonal.isZero(0.0)) diagonal.setOnes();
-  std::vector<Eigen::Index> held;
-  for (Eigen::Index k = 0; k < diagonal.size(); ++k)
-    if ((touching.empty() || touching[static_cast<std::size_t>(k / d)]) && diagonal[k] > 0.0) held.push_back(k);
+  const std::vector<int> held = held_components(problem, diagonal, touching);
   SaddleRows rows;
   rows.resize(held.size());
   for (std::size_t j = 0; j < held.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
-    rows.pair[j] = static_cast<int>(held[j] / d);
+    rows.pair[j] = held[j] / d;
     rows.L(held[j] % d, column) = rows.C(held[j] % d, column) = 1.0;
-    rows.D[column] = softness * diagonal[held[j]];
+    rows.D[column] = newton_constants.softness * diagonal[held[j]];
   }
   return rows;
 }
@@ -40,11 +43,7 @@ std::optional<Point> joined_start(const Problem& problem, const std::vector<bool
   const PairHolder* const holder = problem.W.holder();
   if (holder == nullptr) return std::nullopt;
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
-  const Vector diagonal = problem.W.diagonal();
-  std::vector<int> rows;
-  for (Eigen::Index k = 0; k < d * N; ++k)
-    if ((touching.empty() || touching[static_cast<std::size_t>(k / d)]) && diagonal[k] > 0.0)
-      rows.push_back(static_cast<int>(k));
+  const std::vector<int> rows = held_components(problem, problem.W.diagonal(), touching);
   if (rows.empty()) return std::nullopt;
   const std::unique_ptr<HeldPairs> held = holder->hold(rows);
   if (!held) return std::nullopt;
@@ -71,7 +70,7 @@ std::optional<Point> start_by_products(const Problem& problem, const std::vector
     at.H.segment(d * static_cast<Eigen::Index>(i), d) = apart.H.segment(d * static_cast<Eigen::Index>(i), d);
   }
   Vector direction;
-  if (!NewtonDirection(equations).find(at, softness, direction)) return std::nullopt;
+  if (!NewtonDirection(equations).find(at, newton_constants.softness, direction)) return std::nullopt;
   return Point{direction.head(n), direction.tail(m)};
 }
 
@@ -88,16 +87,17 @@ std::optional<Point> bonded_start(const Problem& problem, const std::vector<bool
     right[j] = -problem.q.segment(problem.dimension * rows.pair[static_cast<std::size_t>(j)], problem.dimension)
                     .dot(rows.L.col(j).head(problem.dimension));
   right.tail(m) = -problem.f;
-  for (const double hold : {0.0, free_motion}) {
+  for (const double hold : {0.0, newton_constants.free_motion}) {
     rows.E = hold;
     if (!system.factorise(rows)) continue;
     const Vector x = system.solve(right);
     if (!x.allFinite()) continue;
-    Point start{rows.forces(x, problem.dimension, problem.pairs()), x.tail(m)};
+    Point start{Vector::Zero(problem.q.size()), x.tail(m)};
+    rows.add_forces(x, problem.dimension, start.p);
     if (m == 0) return start;
     const double force = std::max(start.p.lpNorm<Eigen::Infinity>(), problem.f.lpNorm<Eigen::Infinity>());
     const Vector left = problem.G.transpose() * start.p + problem.f;
-    if (n > 0 && left.lpNorm<Eigen::Infinity>() <= balance * force) return start;
+    if (n > 0 && left.lpNorm<Eigen::Infinity>() <= newton_constants.bond_balance * force) return start;
   }
   return std::nullopt;
 }

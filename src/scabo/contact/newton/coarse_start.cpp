@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/newton/bonded_start.hpp"
 #include "scabo/contact/newton/coarse_problem.hpp"
 
@@ -9,18 +10,11 @@ namespace scabo::contact {
 
 namespace {
 
-/// Pairs below which a coarser problem saves nothing.
-constexpr int least_pairs = 48;
-/// What is wrong with a floating body on few pairs stays wrong on more, and iterations on few pairs cost little.
-constexpr int of_held = 3, of_floating = 10;
-/// |H| at which a coarser problem is solved, relative to the largest force: its pairs are others.
-constexpr double loosely = 5e-2;
-
 /// Newton on `problem` from `start`; its best iterate replaces it. False where that is not finite.
 bool solve_loosely(const Problem& problem, CoarseStart& start) {
   NewtonOptions options;
-  options.relative = loosely;
-  options.iterations = problem.G.cols() > 0 ? of_floating : of_held;
+  options.relative = newton_constants.coarse_aim;
+  options.iterations = problem.G.cols() > 0 ? newton_constants.of_floating : newton_constants.of_held;
   options.stage = "newton, " + std::to_string(problem.pairs()) + " pairs";
   NewtonEnd end =
       newton(BDifferentiableEquations(problem, 1.0), std::move(start.point.p), std::move(start.point.a), options);
@@ -36,7 +30,8 @@ bool solve_loosely(const Problem& problem, CoarseStart& start) {
 }  // namespace
 
 std::optional<CoarseStart> coarse_start(const Problem& problem, const Vector& a) {
-  if (problem.dimension != 2 || !problem.W.is_dense() || problem.pairs() < least_pairs) return std::nullopt;
+  if (problem.dimension != 2 || !problem.W.is_dense() || problem.pairs() < newton_constants.least_pairs)
+    return std::nullopt;
   const CoarseProblem coarse = coarse_problem(problem);
   if (4 * coarse.problem.pairs() > 3 * problem.pairs()) return std::nullopt;
   std::optional<CoarseStart> start = coarse_start(coarse.problem, a);

@@ -2,15 +2,12 @@
 
 #include <cmath>
 
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
 
 namespace scabo::contact {
 
 namespace {
-
-constexpr double no_force = 1e-13;          // of the largest: what rounding leaves
-constexpr double at_bound = 1e-10;          // of the bound of friction
-constexpr int one_of_so_many_changes = 10;  // Newton's method finds so few changes itself
 
 /// The state of pair `i` that its forces tell, and H on that branch in place of that on the branch of `at`. Whether
 /// these branches differ.
@@ -28,7 +25,7 @@ bool keep_state(const BDifferentiableEquations& equations, Eigen::Index i, const
   if (!(bound > small)) {
     branch.tangent = Branch::Tangent::free;
     at.H.segment(n + 1, d - 1) = p_t;
-  } else if (friction < (1.0 - at_bound) * bound) {
+  } else if (friction < (1.0 - newton_constants.at_bound) * bound) {
     branch.tangent = Branch::Tangent::stick;
     at.H.segment(n + 1, d - 1) = r[n + 1] * at.motion.segment(n + 1, d - 1);
   } else {
@@ -54,13 +51,24 @@ std::optional<Point> with_states_kept(const BDifferentiableEquations& equations,
   const double before = at.merit();
   int changes = 0;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i)
-    changes += keep_state(equations, i, from.p, no_force * largest, at) ? 1 : 0;
-  if (one_of_so_many_changes * changes <= problem.pairs()) return std::nullopt;
+    changes += keep_state(equations, i, from.p, newton_constants.no_force * largest, at) ? 1 : 0;
+  if (newton_constants.few * changes <= problem.pairs()) return std::nullopt;
   Vector d;
   if (!NewtonDirection(equations).find(at, 0.0, d)) return std::nullopt;
   Point kept{from.p + d.head(from.p.size()), from.a + d.tail(from.a.size())};
   if (!(equations.residual(kept.p, kept.a).merit() < before)) return std::nullopt;
   return kept;
+}
+
+std::optional<Point> with_undecided_stuck(const BDifferentiableEquations& equations, const Point& from) {
+  const Eigen::Index n = from.p.size();
+  Residual at = equations.residual(from.p, from.a);
+  if (newton_constants.few * equations.stick_below(newton_constants.undecided_below * at.largest(), from.p, at) <=
+      equations.problem().pairs())
+    return std::nullopt;
+  Vector d;
+  if (!NewtonDirection(equations).find(at, 0.0, d)) return std::nullopt;
+  return Point{from.p + d.head(n), from.a + d.tail(from.a.size())};
 }
 
 }  // namespace scabo::contact

@@ -5,23 +5,21 @@
 #include <cmath>
 #include <utility>
 
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
-#include "scabo/contact/newton/undecided_pairs.hpp"
 #include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
-constexpr const NewtonConstants& constants = newton_constants;
-
 /// How far the iterations have come.
 struct Progress {
-  std::array<double, constants.memory> merits;  // the last few
-  double best = HUGE_VAL;                       // merit
-  double halved = HUGE_VAL;                     // the best one when it was last halved,
-  int halved_at = 0;                            // and the iteration
-  int unchecked = 0;                            // whole steps that did not pass the search
+  std::array<double, newton_constants.memory> merits;  // the last few
+  double best = HUGE_VAL;                              // merit
+  double halved = HUGE_VAL;                            // the best one when it was last halved,
+  int halved_at = 0;                                   // and the iteration
+  int unchecked = 0;                                   // whole steps that did not pass the search
   bool regularised = false;
   double step = 0.0;  // the last one
 };
@@ -58,7 +56,7 @@ class Newton {
       const double step = found ? passing_step() : 0.0;
       if (step > 0.0) return take(step);
       if (!progress_.regularised) continue;
-      if (found && ++progress_.unchecked <= constants.unchecked) return take(1.0);
+      if (found && ++progress_.unchecked <= newton_constants.unchecked) return take(1.0);
       end_.singular = !found;
       return false;
     }
@@ -67,18 +65,19 @@ class Newton {
   /// Where the iterations go around, and many pairs have forces and motions as small as |H|, as at crack tips: the step
   /// to where these stick, without a search.
   bool settle() {
-    if (end_.iterations - progress_.halved_at != constants.going_around) return false;
+    if (end_.iterations - progress_.halved_at != newton_constants.going_around) return false;
     trial_ = at_;
-    const int undecided = equations_.stick_below(undecided_pairs.below * at_.largest(), at_point_.p, trial_);
-    if (undecided_pairs.few * undecided <= equations_.problem().pairs()) return false;
+    const int undecided = equations_.stick_below(newton_constants.undecided_below * at_.largest(), at_point_.p, trial_);
+    if (newton_constants.few * undecided <= equations_.problem().pairs()) return false;
     return direction_.find(trial_, 0.0, d_) && take(1.0);
   }
 
   double regularisation() const {
     if (!progress_.regularised) return 0.0;
     const double force = at_point_.p.size() > 0 ? at_point_.p.lpNorm<Eigen::Infinity>() : 0.0;
-    return force > 0.0 ? std::clamp(constants.part * at_.largest() / force, constants.least, constants.most)
-                       : constants.most;
+    return force > 0.0 ? std::clamp(newton_constants.part * at_.largest() / force, newton_constants.least,
+                                    newton_constants.most)
+                       : newton_constants.most;
   }
 
   /// The longest step 2^-k along d that passes the search; 0 where there is none.
@@ -86,11 +85,11 @@ class Newton {
     const double largest = *std::max_element(progress_.merits.begin(), progress_.merits.end()), merit = at_.merit();
     equations_.motion_along(d_, change_);
     double step = 1.0;
-    for (int k = 0; k <= constants.halvings; ++k, step *= 0.5) {
+    for (int k = 0; k <= newton_constants.halvings; ++k, step *= 0.5) {
       trial_p_ = at_point_.p + step * d_.head(at_point_.p.size());
       trial_.motion = at_.motion + step * change_;
       equations_.evaluate_at_motion(trial_p_, trial_);
-      if (trial_.merit() <= largest - 2.0 * constants.sufficient * step * merit)
+      if (trial_.merit() <= largest - 2.0 * newton_constants.sufficient * step * merit)
         return step;  // theta'(z; d) = -2 theta
     }
     return 0.0;
@@ -117,7 +116,7 @@ class Newton {
     }
     end_.converged = content || (!options_.content && end_.residual <= aim());
     if (end_.iterations == 0) progress_.merits.fill(merit);
-    progress_.merits[static_cast<std::size_t>(end_.iterations % constants.memory)] = merit;
+    progress_.merits[static_cast<std::size_t>(end_.iterations % newton_constants.memory)] = merit;
   }
 
   /// Short steps from kink to kink, which lead on but not to an end; or what is left is small and may be rounding.
@@ -132,8 +131,8 @@ class Newton {
 
   /// |H| is near its aim and was not halved: what is left may be rounding.
   bool no_longer_falls(double merit) const {
-    return at_.largest() <= constants.near * std::max(aim(), options_.rounding) &&
-           merit > constants.halved * progress_.best;
+    return at_.largest() <= newton_constants.near * std::max(aim(), options_.rounding) &&
+           merit > newton_constants.halved * progress_.best;
   }
 
   double aim() const {

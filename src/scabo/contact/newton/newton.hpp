@@ -22,20 +22,6 @@
 
 namespace scabo::contact {
 
-/// Of the method; none has a unit.
-struct NewtonConstants {
-  int memory = 6;            ///< merits of which the largest must be undercut
-  double sufficient = 1e-4;  ///< descent of the merit, of what the direction promises
-  int halvings = 12;         ///< of a step, most
-  int unchecked = 8;         ///< whole steps that did not pass the search, most: a step may lead past a kink
-  int going_around = 3;      ///< iterations since the merit was halved, after which undecided pairs are settled
-  double part = 0.1;         ///< alpha over |H| / largest force, within ...
-  double least = 1e-8, most = 1e-2;
-  double near = 1e3;     ///< of the aim: |H| below it that is not halved any more may be rounding, ...
-  double halved = 0.25;  ///< ... halved as a part of the merit
-};
-inline constexpr NewtonConstants newton_constants;
-
 struct NewtonOptions {
   double small = 0.0;     ///< converged when the largest |H| is not above it,
   double relative = 0.0;  ///< or not above this part of the largest force,

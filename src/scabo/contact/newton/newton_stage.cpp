@@ -1,22 +1,18 @@
 #include <optional>
 #include <utility>
 
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/interior/interior_points.hpp"
 #include "scabo/contact/newton/bonded_start.hpp"
 #include "scabo/contact/newton/coarse_start.hpp"
 #include "scabo/contact/newton/kept_states.hpp"
-#include "scabo/contact/newton/undecided_pairs.hpp"
 #include "scabo/contact/stages.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
-/// Iterations without halving |H| after which Newton's method creeps from kink to kink, and another start or stage is
-/// better, if there is one.
-constexpr int patience = 16;
-
-int patience_of(const Problem& problem) { return may_take_interior_points(problem) ? patience : 0; }
+int patience_of(const Problem& problem) { return may_take_interior_points(problem) ? newton_constants.patience : 0; }
 
 std::string why_of(const NewtonEnd& end, const Search& search) {
   if (search.late()) return "Newton's method was ended by its limit";

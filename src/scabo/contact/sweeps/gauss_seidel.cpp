@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 namespace scabo::contact {
 
-namespace {
-
 using Index = Eigen::Index;
 
-}  // namespace
-
 template <int d>
-PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {
+PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem), pairs_(pair_problems<d>(problem)) {
   if (problem.W.is_sparse()) {
     const Eigen::SparseMatrix<double>& W = problem.W.sparse();
     columns_ = W.outerIndexPtr();
@@ -26,35 +21,12 @@ PairSweeps<d>::PairSweeps(const Problem& problem) : problem_(&problem) {
   } else {
     values_ = problem.W.dense().data();
   }
-  pairs_.reserve(static_cast<std::size_t>(problem.pairs()));
-  for (Index i = 0; i < problem.pairs(); ++i) {
-    double block[d * d];
-    read_block(i, block);
-    const typename PairProblem<d>::Friction mu{problem.mu_against(i, -1.0), problem.mu_against(i, 1.0)};
-    pairs_.emplace_back(block, mu, problem.cohesion_of(i), problem.tension_of(i));
-  }
 }
 
+/// The motion grows by W (columns of pair i) change.
 template <int d>
-void PairSweeps<d>::read_block(Index i, double* block) const {
-  const Index size = problem_->q.size(), first = d * i;
-  for (int k = 0; k < d; ++k) {
-    double* const column = block + d * k;
-    if (columns_ == nullptr) {
-      for (int j = 0; j < d; ++j) column[j] = factor_ * values_[(first + k) * size + first + j];
-      continue;
-    }
-    for (int j = 0; j < d; ++j) column[j] = 0.0;
-    for (int t = columns_[first + k]; t < columns_[first + k + 1]; ++t) {
-      const Index row = rows_[t] - first;
-      if (row >= 0 && row < d) column[row] += values_[t];
-    }
-  }
-}
-
-/// motion += W (columns of pair i) change.
-template <int d>
-void PairSweeps<d>::add(Index i, const double* change, double* motion) const {
+void PairSweeps<d>::add(Index i, const double* change) {
+  double* const motion = motion_.data();
   const Index size = problem_->q.size(), first = d * i;
   if (columns_ == nullptr) {
     const double *W_n = values_ + first * size, *W_t = W_n + size, *W_s = W_n + (d - 1) * size;
@@ -71,37 +43,24 @@ void PairSweeps<d>::add(Index i, const double* change, double* motion) const {
 }
 
 template <int d>
-void PairSweeps<d>::start(const Vector& p, Vector& motion) const {
-  motion = problem_->q;
-  for (Index i = 0; i < problem_->pairs(); ++i) add(i, p.data() + d * i, motion.data());
+void PairSweeps<d>::start(const Vector& p) {
+  motion_ = problem_->q;
+  for (Index i = 0; i < problem_->pairs(); ++i) add(i, p.data() + d * i);
 }
 
 template <int d>
-double PairSweeps<d>::sweep(Vector& p, Vector& motion) {
+double PairSweeps<d>::sweep(Vector& p) {
   double largest = 0.0;
   for (Index i = 0; i < problem_->pairs(); ++i) {
     double change[d];
-    if (pairs_[static_cast<std::size_t>(i)].step(motion.data() + d * i, p.data() + d * i, change, largest))
-      add(i, change, motion.data());
+    if (pairs_[static_cast<std::size_t>(i)].step(motion_.data() + d * i, p.data() + d * i, change, largest))
+      add(i, change);
   }
   return largest;
 }
 
 template class PairSweeps<2>;
 template class PairSweeps<3>;
-
-namespace {
-
-template <int d>
-constexpr bool of_pairs(const PairSweeps<d>*) {
-  return true;
-}
-template <int d>
-constexpr bool of_pairs(const JointSweeps<d>*) {
-  return false;
-}
-
-}  // namespace
 
 GaussSeidel::Sweeps GaussSeidel::sweeps_of(const Problem& problem, Form form) {
   if (form == Form::of_joints) {
@@ -118,38 +77,19 @@ GaussSeidel::Sweeps GaussSeidel::sweeps_of(const Problem& problem, Form form) {
 GaussSeidel::GaussSeidel(const Problem& problem, Form form) : sweeps_(sweeps_of(problem, form)) {}
 
 void GaussSeidel::start(const Vector& p) {
-  std::visit(
-      [&](auto& sweeps) {
-        if constexpr (of_pairs(static_cast<std::decay_t<decltype(sweeps)>*>(nullptr)))
-          sweeps.start(p, motion_);
-        else
-          sweeps.start(p);
-      },
-      sweeps_);
+  std::visit([&](auto& sweeps) { sweeps.start(p); }, sweeps_);
 }
 
 double GaussSeidel::sweep(Vector& p) {
-  return std::visit(
-      [&](auto& sweeps) {
-        if constexpr (of_pairs(static_cast<std::decay_t<decltype(sweeps)>*>(nullptr)))
-          return sweeps.sweep(p, motion_);
-        else
-          return sweeps.sweep(p);
-      },
-      sweeps_);
+  return std::visit([&](auto& sweeps) { return sweeps.sweep(p); }, sweeps_);
 }
 
-const Vector& GaussSeidel::motion() {
-  std::visit(
-      [&](auto& sweeps) {
-        if constexpr (!of_pairs(static_cast<std::decay_t<decltype(sweeps)>*>(nullptr))) sweeps.read_motion(motion_);
-      },
-      sweeps_);
-  return motion_;
+Vector GaussSeidel::motion() const {
+  return std::visit([](const auto& sweeps) { return sweeps.motion(); }, sweeps_);
 }
 
 Vector gauss_seidel(const Problem& problem, Vector p, int sweeps) {
-  GaussSeidel iteration(problem);
+  GaussSeidel iteration(problem, GaussSeidel::Form::of_pairs);
   iteration.start(p);
   for (int sweep = 0; sweep < sweeps; ++sweep)
     if (iteration.sweep(p) <= 1e-12 * p.lpNorm<Eigen::Infinity>()) break;

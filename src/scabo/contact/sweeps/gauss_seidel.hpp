@@ -18,18 +18,18 @@ template <int d>
 class PairSweeps {
  public:
   [[gnu::hot]] explicit PairSweeps(const Problem& problem);
-  /// Computes motion = q + W p anew: for a start, and when rounding has accumulated.
-  [[gnu::hot]] void start(const Vector& p, Vector& motion) const;
-  /// Performs one sweep on forces and motions and returns the largest change of a force component.
-  [[gnu::hot]] double sweep(Vector& p, Vector& motion);
-  const std::vector<PairProblem<d>>& pairs() const { return pairs_; }
+  /// Computes the motion q + W p anew: for a start, and when rounding has accumulated.
+  [[gnu::hot]] void start(const Vector& p);
+  /// Performs one sweep and returns the largest change of a force component.
+  [[gnu::hot]] double sweep(Vector& p);
+  const Vector& motion() const { return motion_; }
 
  private:
-  [[gnu::hot]] void read_block(Eigen::Index i, double* block) const;
-  [[gnu::hot]] void add(Eigen::Index i, const double* change, double* motion) const;
+  [[gnu::hot]] void add(Eigen::Index i, const double* change);
 
   const Problem* problem_;
   std::vector<PairProblem<d>> pairs_;
+  Vector motion_;
   const double* values_ = nullptr;
   double factor_ = 1.0;                             // of the values
   const int *columns_ = nullptr, *rows_ = nullptr;  // of a sparse W
@@ -38,15 +38,15 @@ class PairSweeps {
 extern template class PairSweeps<2>;
 extern template class PairSweeps<3>;
 
-/// The same for two or three components, with the motions included.
+/// The same for two or three components.
 class GaussSeidel {
  public:
   /// of_joints: joints of rigid bodies are looked for (joints.hpp), which costs as much as some tens of sweeps.
   enum class Form { of_pairs, of_joints };
-  explicit GaussSeidel(const Problem& problem, Form form = Form::of_pairs);
+  explicit GaussSeidel(const Problem& problem, Form form = Form::of_joints);
   void start(const Vector& p);
   double sweep(Vector& p);
-  const Vector& motion();
+  Vector motion() const;
   bool of_joints() const { return sweeps_.index() >= 2; }
 
  private:
@@ -54,7 +54,6 @@ class GaussSeidel {
   static Sweeps sweeps_of(const Problem& problem, Form form);
 
   Sweeps sweeps_;
-  Vector motion_;
 };
 
 /// Forces after `sweeps` sweeps from `p`, or fewer if they no longer change.

@@ -6,20 +6,11 @@
 
 namespace scabo::contact {
 
-namespace {
-
 using Index = Eigen::Index;
 
-}  // namespace
-
 template <int d>
-JointSweeps<d>::JointSweeps(const Problem& problem, Joints<d> joints) : problem_(&problem), joints_(std::move(joints)) {
-  const Matrix blocks = problem.W.diagonal_blocks(d);
-  pairs_.reserve(static_cast<std::size_t>(problem.pairs()));
-  for (Index i = 0; i < problem.pairs(); ++i) {
-    const typename PairProblem<d>::Friction mu{problem.mu_against(i, -1.0), problem.mu_against(i, 1.0)};
-    pairs_.emplace_back(blocks.data() + d * d * i, mu, problem.cohesion_of(i), problem.tension_of(i));
-  }
+JointSweeps<d>::JointSweeps(const Problem& problem, Joints<d> joints)
+    : problem_(&problem), joints_(std::move(joints)), pairs_(pair_problems<d>(problem)) {
   const auto count = static_cast<std::size_t>(joints_.count());
   own_.resize(count);
   motion_.assign(count, Components::Zero());
@@ -76,11 +67,12 @@ double JointSweeps<d>::sweep(Vector& p) {
 }
 
 template <int d>
-void JointSweeps<d>::read_motion(Vector& motion) const {
-  motion = problem_->q;
+Vector JointSweeps<d>::motion() const {
+  Vector motion = problem_->q;
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     motion.segment<d>(d * static_cast<Index>(i)).noalias() +=
         joints_.A[i] * motion_[static_cast<std::size_t>(joints_.joint[i])];
+  return motion;
 }
 
 template class JointSweeps<2>;

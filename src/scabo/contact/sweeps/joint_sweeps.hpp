@@ -20,7 +20,7 @@ class JointSweeps {
   /// One sweep; returns the largest change of a force component.
   double sweep(Vector& p);
   /// q + W p after the last sweep.
-  void read_motion(Vector& motion) const;
+  Vector motion() const;
 
  private:
   static constexpr int R = Joints<d>::R;

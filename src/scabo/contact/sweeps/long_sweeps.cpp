@@ -6,47 +6,40 @@
 #include <utility>
 
 #include "scabo/base/interruption.hpp"
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
-namespace {
-
-constexpr int round_of = 20;            // sweeps
-constexpr int depth = 8;                // changes remembered
-constexpr double part_of_joints = 0.1;  // work of a sweep over joints, of one over pairs
-constexpr int least_patience = 500;     // sweeps in which the natural map is halved: they gain
-
-}  // namespace
-
-LongSweeps::LongSweeps(const Problem& problem, Vector p, Form form)
+LongSweeps::LongSweeps(const Problem& problem, Vector p)
     : problem_(problem),
       measure_(problem),
-      iteration_(problem, GaussSeidel::Form::of_joints),
+      iteration_(problem),
       p_(std::move(p)),
       best_(p_),
-      changes_f_(p_.size(), depth),
-      changes_p_(p_.size(), depth),
+      changes_f_(p_.size(), sweep_constants.depth),
+      changes_p_(p_.size(), sweep_constants.depth),
       least_(HUGE_VAL),
-      halved_(HUGE_VAL),
-      extrapolates_(form == Form::extrapolated) {
+      halved_(HUGE_VAL) {
   iteration_.start(p_);
 }
 
 bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadline) {
   const auto go_on = [&] {
-    return sweeps_ < most || (sweeps_ < 4 * most && sweeps_ - gained_ <= std::max(least_patience, sweeps_ / 2));
+    return sweeps_ < most ||
+           (sweeps_ < 4 * most && sweeps_ - gained_ <= std::max(sweep_constants.least_patience, sweeps_ / 2));
   };
   while (!deadline.passed() && go_on()) {
     const Vector before = p_;
     iteration_.start(p_);  // afresh, without what rounding added from pair to pair
     bool moved = false;
-    for (int sweep = 0; sweep < round_of; ++sweep) {
+    for (int sweep = 0; sweep < sweep_constants.round; ++sweep) {
       interruption_point();
       moved = iteration_.sweep(p_) > 0.0 || moved;
     }
-    sweeps_ += round_of;
-    deadline.spend(round_of * (iteration_.of_joints() ? part_of_joints : 1.0) * operations_of_sweep(problem_));
+    sweeps_ += sweep_constants.round;
+    deadline.spend(sweep_constants.round * (iteration_.of_joints() ? sweep_constants.part_of_joints : 1.0) *
+                   operations_of_sweep(problem_));
     const Vector& motion = iteration_.motion();
     const double map = measure_.natural_map(problem_, p_, motion);
     if (extrapolated_ && !(map <= map_of_round_)) {
@@ -69,7 +62,6 @@ bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadli
       halved_ = least_;
       gained_ = sweeps_;
     }
-    if (!extrapolates_) continue;
     remember(before);
     round_ = p_;
     map_of_round_ = map;
@@ -83,8 +75,8 @@ void LongSweeps::remember(const Vector& before) {
   if (has_last_) {
     changes_f_.col(next_) = f - last_f_;
     changes_p_.col(next_) = p_ - last_p_;
-    next_ = (next_ + 1) % depth;
-    count_ = std::min(count_ + 1, depth);
+    next_ = (next_ + 1) % sweep_constants.depth;
+    count_ = std::min(count_ + 1, sweep_constants.depth);
   }
   last_f_ = std::move(f);
   last_p_ = p_;

@@ -23,9 +23,8 @@ namespace scabo::contact {
 
 class LongSweeps {
  public:
-  enum class Form { extrapolated, plain };
   /// Keeps a reference to `problem`: as for GaussSeidel. From the forces `p`.
-  LongSweeps(const Problem& problem, Vector p, Form form = Form::extrapolated);
+  LongSweeps(const Problem& problem, Vector p);
 
   /// Goes on where it ended before, until `content` accepts forces and motions (true), the deadline has passed, or
   /// `most` sweeps are done in all; up to four times as many where the second half of them, or the last 500, halved the
@@ -35,8 +34,7 @@ class LongSweeps {
   const Vector& p() const { return best_; }      ///< accepted, or of the least natural map
   double natural_map() const { return least_; }  ///< the least one met after a round
   int sweeps() const { return sweeps_; }
-  bool of_joints() const { return iteration_.of_joints(); }  ///< of rigid bodies: joints.hpp
-  int extrapolations() const { return extrapolations_; }     ///< that were kept
+  int extrapolations() const { return extrapolations_; }  ///< that were kept
 
  private:
   void remember(const Vector& before);
@@ -51,7 +49,7 @@ class LongSweeps {
   Vector last_f_, last_p_;
   double map_of_round_ = 0.0, least_ = 0.0, halved_ = 0.0;
   int sweeps_ = 0, gained_ = 0, extrapolations_ = 0, count_ = 0, next_ = 0;
-  bool extrapolates_, has_last_ = false, extrapolated_ = false;
+  bool has_last_ = false, extrapolated_ = false;
 };
 
 }  // namespace scabo::contact

@@ -168,7 +168,20 @@ bool PairProblem<d>::step(const double* motion, double* force, double* change, d
   return true;
 }
 
+template <int d>
+std::vector<PairProblem<d>> pair_problems(const Problem& problem) {
+  const Matrix blocks = problem.W.diagonal_blocks(d);
+  std::vector<PairProblem<d>> pairs;
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    const typename PairProblem<d>::Friction mu{problem.mu_against(i, -1.0), problem.mu_against(i, 1.0)};
+    pairs.emplace_back(blocks.data() + d * d * i, mu, problem.cohesion_of(i), problem.tension_of(i));
+  }
+  return pairs;
+}
+
 template class PairProblem<2>;
 template class PairProblem<3>;
+template std::vector<PairProblem<2>> pair_problems<2>(const Problem&);
+template std::vector<PairProblem<3>> pair_problems<3>(const Problem&);
 
 }  // namespace scabo::contact

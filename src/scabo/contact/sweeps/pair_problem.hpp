@@ -16,6 +16,10 @@
 // (large mu, W not positive definite), p_n = -free_n / W_nn without friction.
 #pragma once
 
+#include <vector>
+
+#include "scabo/contact/problem.hpp"
+
 namespace scabo::contact {
 
 template <int d>
@@ -62,5 +66,9 @@ class PairProblem {
 
 extern template class PairProblem<2>;
 extern template class PairProblem<3>;
+
+/// Of all pairs of a problem with d components.
+template <int d>
+std::vector<PairProblem<d>> pair_problems(const Problem& problem);
 
 }  // namespace scabo::contact
