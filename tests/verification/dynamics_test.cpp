@@ -346,5 +346,20 @@ initial: [{{on: column, velocity: [{5}, 0]}}]
   }
 }
 
+TEST(Dynamics, TenThousandStepsKeepTheEnergy) {
+  const StaticSolution solution = run(R"(
+scabo: 1
+analysis: {type: dynamic, plane: stress}
+materials: {bar: {young: 1, poisson: 0, density: 1}}
+bodies: {bar: {material: bar, shape: {rectangle: {corner: [0, 0], size: [1, 0.25]}}, mesh: {kind: fem, size: 0.25, order: 1}}}
+supports: [{on: bar.left, fix: [x, y]}]
+initial: [{on: bar, velocity: [0.1, 0.05], rotation: 0.1}]
+steps: [{dynamic: {duration: 1000, step: 0.1}, increments: 20}]
+)");
+  const double begin = solution.increments.front().energy.external;
+  for (const IncrementResult& at : solution.increments)
+    EXPECT_NEAR(at.energy.kinetic + at.energy.elastic, begin, 1e-10 * begin);
+}
+
 }  // namespace
 }  // namespace scabo::verification
