@@ -37,7 +37,7 @@ PLAIN_VALUES = ["linalg/parallel.hpp", "contact/delassus.hpp", "contact/rigid_ma
 # Rooms of a part, in order: each includes itself and those before it, and never a file beside the rooms, which composes
 # them. Schemes of the march never include each other.
 ROOMS = {"element": ["sbfem", "facet", "plane", "space"],
-         "analysis": ["state", "diagnostics", "march", "quasistatic", "dynamics", "modal", "adaptive", "space"]}
+         "analysis": ["state", "diagnostics", "march", "quasistatic", "dynamics", "modal", "growth", "adaptive", "space"]}
 SCHEMES = ["quasistatic", "dynamics", "modal"]
 # A room that may include fewer parts than the part it belongs to: the algebra of super-elements knows no coordinates.
 ALLOWED_IN_ROOM = {"element/sbfem": ["base", "linalg"]}

@@ -81,7 +81,7 @@ void Progress::plan(const run::Plan& plan) {
 
 void Progress::meshed(const analysis::Discretisation& discretisation) {
   increments_ = run::increments_of(discretisation.model);
-  for (const model::Step& step : discretisation.model.steps) automatic_ = automatic_ || step.automatic.has_value();
+  for (const model::Step& step : discretisation.model.steps) automatic_ = automatic_ || !model::is_counted(step);
   time_left_.begin();
   const run::Sizes sizes = run::sizes_of(discretisation.model, discretisation.mesh);
   if (style_ == Style::lines && sizes.dofs != planned_dofs_) show(run::describe_sizes(sizes));

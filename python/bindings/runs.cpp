@@ -54,7 +54,7 @@ class Watch {
 
   void begin(const model::Model& model) {
     bool automatic = false;
-    for (const model::Step& step : model.steps) automatic = automatic || step.automatic.has_value();
+    for (const model::Step& step : model.steps) automatic = automatic || !model::is_counted(step);
     if (!automatic) now_.increments = run::increments_of(model);
   }
 

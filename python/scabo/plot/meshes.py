@@ -12,7 +12,8 @@ MOST_DOTS = 700  # nodes that are marked
 
 @style.styled
 def mesh(results, units=None, window=None):
-    """The cells of all bodies as they were divided, undeformed, with a tint for each material and a dot at each node where they are few."""
+    """The cells of all bodies as they were divided, undeformed, with a tint for each material and a dot at each node where they are few;
+    cracks that grew are drawn over them, with a mark at each point."""
     units = units or Units()
     grid = results.cells()
     if grid is None:
@@ -44,6 +45,8 @@ def mesh(results, units=None, window=None):
         style.draw_outline(axis, points, boundary, linewidths=1.6, colors=style.BLUE)
     if len(points) <= MOST_DOTS:
         axis.plot(*points[np.unique(grid.connectivity)].T, ".", color="black", markersize=2.5, markeredgewidth=0)
+    for path in results.summary.get("growth", {}).get("paths", {}).values():
+        axis.plot(*place.factor * np.array(path).T, "o-", color=style.RED, linewidth=1.2, markersize=2.5, markeredgewidth=0)
     finish_mesh(axis, results, place, window, height)
     return figure
 

@@ -4,6 +4,8 @@
 
 #include "scabo/analysis/adaptive/adaptive.hpp"
 #include "scabo/analysis/adaptive/goal.hpp"
+#include "scabo/analysis/growth/grow.hpp"
+#include "scabo/analysis/growth/tips.hpp"
 #include "scabo/analysis/in_time.hpp"
 #include "scabo/analysis/march/steps.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
@@ -24,7 +26,8 @@ mesh::Mesh check(const model::Model& model) {
     system::constraints_of(apart, mesh, system::Dofs(apart, mesh));
     return mesh;
   }
-  mesh::Mesh mesh = mesh::make_mesh(model);
+  check_growth(model);
+  mesh::Mesh mesh = mesh::make_mesh(model::has_growth(model) ? with_fine_tips(model) : model);
   if (!model::is_all_dynamic(model)) system::check_supports(model, mesh);
   check_references(model, mesh);
   check_refinable(model, mesh);
@@ -64,7 +67,7 @@ model::Model with_its_increments(const model::Model& model, const mesh::Mesh& me
 
 bool can_use_ranks(const model::Model& model) {
   return model.analysis.type == model::AnalysisType::static_ && !wants_bars(model) && !wants_refinement(model) &&
-         !model.output.error && !model::is_dynamic(model);
+         !model.output.error && !model::is_dynamic(model) && !model::has_growth(model);
 }
 
 namespace {
@@ -74,6 +77,17 @@ StaticSolution solve_in_time(model::Model model, mesh::Mesh mesh, const Options&
                        [](Quasistatic& statics, StaticSolution& solution, const Options& with) {
                          StaticThenDynamic scheme(statics, solution);
                          march(scheme, solution, with);
+                       });
+}
+
+/// Quasi-static steps, then one in which cracks grow.
+StaticSolution solve_with_growth(model::Model model, mesh::Mesh mesh, const Options& options) {
+  return solve_on_mesh(std::move(model), std::move(mesh), options,
+                       [](Quasistatic& statics, StaticSolution& solution, const Options& with) {
+                         Options before = with;
+                         before.on_end = {};
+                         march(statics, solution, before, solution.model.steps.size() - 1);
+                         if (solution.outcome == Outcome::solved) grow(solution, with);
                        });
 }
 
@@ -94,11 +108,12 @@ StaticSolution solve_static(model::Model model, const Options& options) {
   Options here = options;  // several meshes: by this process alone
   here.ranks = nullptr;
   const bool in_time = model::is_dynamic(model);
-  StaticSolution solution = in_time                   ? solve_in_time(std::move(model), std::move(mesh), here)
-                            : wants_bars(model)       ? solve_with_bars(std::move(model), std::move(mesh), here)
-                            : wants_refinement(model) ? solve_refined(std::move(model), here)
-                            : model.output.error      ? solve_with_error(std::move(model), std::move(mesh), here)
-                                                      : solve_on_mesh(std::move(model), std::move(mesh), options);
+  StaticSolution solution = in_time                    ? solve_in_time(std::move(model), std::move(mesh), here)
+                            : model::has_growth(model) ? solve_with_growth(std::move(model), std::move(mesh), here)
+                            : wants_bars(model)        ? solve_with_bars(std::move(model), std::move(mesh), here)
+                            : wants_refinement(model)  ? solve_refined(std::move(model), here)
+                            : model.output.error       ? solve_with_error(std::move(model), std::move(mesh), here)
+                                                       : solve_on_mesh(std::move(model), std::move(mesh), options);
   solution.timing.mesh += seconds;
   return solution;
 }

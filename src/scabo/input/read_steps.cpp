@@ -273,15 +273,30 @@ void divide_at_corners(const Reading& reading, Step& step) {
   step.ends = std::move(ends);
 }
 
+void read_loads_of_step(Reading& reading, const Index& supports, const MapReader& map, Step& step, std::size_t number) {
+  const auto loads = map.get("loads");
+  if (!loads && !step.friction.empty() && map.has("friction") && number > 1) return;  // the loads stay as they are
+  if (!loads) {
+    apply_everything(step);
+    return;
+  }
+  for (std::size_t i = 0; number == 1 && i < step.support_factors.size(); ++i) {
+    if (!reading.support_is_named[i]) step.support_factors[i] = 1.0;
+  }
+  read_factors(reading, supports, step, *loads);
+  divide_at_corners(reading, step);
+}
+
 /// The step that follows one that ends with the factors of `before`.
 Step read_step(Reading& reading, const Index& supports, const Value& value, const Step& before, std::size_t number) {
-  const MapReader map(reading.report, value, {"name", "dynamic", "increments", "loads", "friction", "cycles"},
+  const MapReader map(reading.report, value, {"name", "dynamic", "growth", "increments", "loads", "friction", "cycles"},
                       "{name: press, increments: 10, loads: {tip: 1.0}}");
   Step step = before;
   step.name = fmt::format("step_{}", number);
   step.increments = 1;
   step.automatic.reset();
   step.dynamic.reset();
+  step.growth.reset();
   step.ends.clear();
   step.load_curves.clear();
   step.support_curves.clear();
@@ -297,17 +312,8 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
         value, "needs 'dynamic', as in dynamic: {duration: 10}: every step of a dynamic analysis is one in time");
   if (const auto increments = map.get("increments")) read_increments(reading, *increments, step);
   if (const auto friction = map.get("friction")) read_friction_of_step(reading, *friction, step);
-  const auto loads = map.get("loads");
-  if (!loads && !step.friction.empty() && map.has("friction") && number > 1) return step;  // the loads stay as they are
-  if (!loads) {
-    apply_everything(step);
-    return step;
-  }
-  for (std::size_t i = 0; number == 1 && i < step.support_factors.size(); ++i) {
-    if (!reading.support_is_named[i]) step.support_factors[i] = 1.0;
-  }
-  read_factors(reading, supports, step, *loads);
-  divide_at_corners(reading, step);
+  read_loads_of_step(reading, supports, map, step, number);
+  if (const auto growth = map.get("growth")) read_growth(reading, *growth, supports, before, step);
   return step;
 }
 

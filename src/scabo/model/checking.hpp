@@ -94,6 +94,8 @@ void check_never_applied(Checking& checking);
 void check_conflicting_supports(Checking& checking);
 /// Steps over which interferences grow.
 void check_fits(Checking& checking);
+/// Steps in which cracks grow.
+void check_growth_steps(Checking& checking);
 /// Bodies that are added or removed in steps.
 void check_stages(Checking& checking);
 

@@ -14,6 +14,7 @@ constexpr Range iterations{1, 10'000};        ///< Newton iterations in one atte
 constexpr Range halvings{0, 30};              ///< of an increment
 constexpr Range order{1, 16};                 ///< of a boundary element
 constexpr Range increments{1, 100'000};       ///< of a step
+constexpr Range growth_steps{1, 100'000};     ///< of growing cracks
 constexpr Range cycles{1, 10'000};            ///< of a step
 constexpr double smallest_increment = 1e-6;   ///< automatic, part of a step
 constexpr Range line_points{2, 1'000'000};    ///< of an output line

@@ -92,6 +92,9 @@ inline bool is_dynamic(const Model& model) {
   return std::any_of(model.steps.begin(), model.steps.end(), [](const Step& step) { return step.dynamic.has_value(); });
 }
 
+/// Whether cracks grow, which they do in the last step.
+inline bool has_growth(const Model& model) { return !model.steps.empty() && model.steps.back().growth.has_value(); }
+
 /// Whether every step is one in time.
 inline bool is_all_dynamic(const Model& model) {
   return !model.steps.empty() &&

@@ -9,6 +9,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/model/curve.hpp"
+#include "scabo/model/growth.hpp"
 
 namespace scabo::model {
 
@@ -46,6 +47,8 @@ struct Step {
   std::vector<double> friction;  ///< coefficient of every contact at the end of the step; empty if no step changes one
   std::vector<double> backward_friction;  ///< the same against backward slip; as many as `friction`
   std::optional<DynamicStep> dynamic;     ///< empty: the step is quasi-static
+  /// Cracks grow in this step, in as many increments as it takes: `increments` has no meaning.
+  std::optional<GrowthStep> growth;
   Source source;
 };
 
@@ -62,6 +65,9 @@ std::vector<double> coefficients_of(const Step& step);
 
 /// Parts of a step, between 0 and 1, at which an increment ends so that no corner of a curve is passed over, ascending.
 std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves);
+
+/// Whether the number of its increments is known before.
+inline bool is_counted(const Step& step) { return !step.automatic && !step.growth; }
 
 /// Number of increments of a step; if it is not known before, what it may be.
 int expected_increments(const Step& step);

@@ -49,7 +49,7 @@ std::vector<std::string> columns_of(const model::HistoryItem& item) {
 }
 
 /// Body and position of a displacement.
-mesh::OutputPoint place_of(const model::Model& model, const model::Quantity& quantity) {
+mesh::OutputPoint point_of(const model::Model& model, const model::Quantity& quantity) {
   mesh::OutputPoint point;
   point.at = quantity.at;
   point.body = quantity.index;
@@ -94,7 +94,7 @@ void History::prepare(const analysis::StaticSolution& solution) {
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (const auto* quantity = point_of(items_[i])) {
       place_[i] = points.size();
-      points.push_back(place_of(solution.model, *quantity));
+      points.push_back(point_of(solution.model, *quantity));
       continue;
     }
     if (!std::holds_alternative<model::Section>(items_[i].of)) continue;

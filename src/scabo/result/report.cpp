@@ -122,15 +122,17 @@ std::string report_passes(const analysis::StaticSolution& solution) {
 
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment) {
   const model::Step& step = model.steps.at(static_cast<std::size_t>(increment.step - 1));
-  std::string text = step.automatic ? fmt::format("step {}, increment {}, {:.4g} % of the step:", increment.step_name,
-                                                  increment.increment, 100.0 * increment.reached)
-                                    : fmt::format("step {}, increment {} of {}:", increment.step_name,
-                                                  increment.increment, step.increments);
+  std::string text = step.growth      ? fmt::format("step {}, increment {}:", increment.step_name, increment.increment)
+                     : step.automatic ? fmt::format("step {}, increment {}, {:.4g} % of the step:", increment.step_name,
+                                                    increment.increment, 100.0 * increment.reached)
+                                      : fmt::format("step {}, increment {} of {}:", increment.step_name,
+                                                    increment.increment, step.increments);
   for (const auto& [name, factor] : increment.factors) text += fmt::format(" {} = {:.6g},", name, factor);
   if (increment.factors.empty())
     text += ' ';
   else
     text.back() = ';', text += ' ';
+  if (increment.growth) text += fmt::format("load factor {:.6g}, ", increment.growth->load_factor);
   text += count(increment.newton_iterations, "iteration");
   if (increment.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", increment.coarse_iterations);
   if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));
@@ -314,6 +316,11 @@ std::string report_timing(const analysis::Timing& timing) {
   return text;
 }
 
+std::string report_growth(const analysis::StaticSolution& solution) {
+  if (!solution.grown || solution.grown->ended.empty() || solution.outcome != analysis::Outcome::solved) return {};
+  return fmt::format("Growth ended: {}\n", solution.grown->ended);
+}
+
 std::string report_end(const analysis::StaticSolution& solution, const analysis::Timing& timing) {
   std::string text = "\n";
   switch (solution.outcome) {
@@ -332,6 +339,7 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
       text += fmt::format("Interrupted: {}\n", solution.reason);
       break;
   }
+  text += report_growth(solution);
   if (const analysis::IncrementResult* last = last_converged(solution)) {
     text += fmt::format("\nAfter step {}, increment {}:\n", last->step_name, last->increment);
     text += report_totals(solution.model, *last);

@@ -51,6 +51,9 @@ std::string report_warnings(const analysis::StaticSolution& solution);
 /// `mechanism.vtu shows the motion: 3 of 17 bodies move, most of all 'b_3_1'`; empty without a mechanism.
 std::string report_mechanism(const analysis::StaticSolution& solution);
 
+/// Why the growth of cracks ended, one line; empty if none grew, or if it ended without a solution.
+std::string report_growth(const analysis::StaticSolution& solution);
+
 /// Seconds of every stage and the peak of memory.
 std::string report_timing(const analysis::Timing& timing);
 

@@ -12,6 +12,7 @@
 #include "scabo/base/stopwatch.hpp"
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/convergence.hpp"
+#include "scabo/result/crack_table.hpp"
 #include "scabo/result/old_results.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/summary.hpp"
@@ -141,6 +142,7 @@ void ResultsDirectory::open_files(const model::Model& model, const analysis::Wri
   };
   open("contact.csv", contact_table_, contact_table_header);
   open("convergence.csv", convergence_table_, convergence_table_header);
+  if (model::has_growth(model)) open("cracks.csv", crack_table_, crack_table_header);
   if (history_.wanted()) open("history.csv", history_table_, history_.header());
   if (history_table_ && written) {  // its last row is that of the checkpoint
     std::ifstream stream(history_table_->path(), std::ios::binary);
@@ -159,7 +161,7 @@ void ResultsDirectory::open_files(const model::Model& model, const analysis::Wri
 
 std::vector<GrowingFile*> ResultsDirectory::growing_files() {
   std::vector<GrowingFile*> files;
-  for (auto* file : {&contact_table_, &convergence_table_, &history_table_, &log_})
+  for (auto* file : {&contact_table_, &convergence_table_, &crack_table_, &history_table_, &log_})
     if (*file) files.push_back(&**file);
   for (PointFile& of : point_files_) files.push_back(&*of.file);
   for (auto* collection : {&fields_collection_, &contact_collection_})
@@ -245,6 +247,7 @@ void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const
     if (with_fields) write_fields(solution, increment, fields);
     const Stopwatch writing(write_seconds_);
     contact_table_->append(contact_table_rows(increment));
+    if (crack_table_) crack_table_->append(crack_table_rows(increment));
     if (history_table_) history_table_->append(history_.row(solution, increment));
     for (std::size_t i = 0; i < points.size(); ++i) point_files_[i].file->append(points[i]);
   }

@@ -2,7 +2,7 @@
 // with one .vtu of the contacts for each (both as requested by `output`), convergence.csv and .svg, log.txt, of a
 // mechanism or collapse mechanism.vtu, and if requested history.csv, points.csv, lines.csv, grid.csv and problems/
 // (docs/results.md). Increments are added as they finish, so that they can be read while the run continues and after it
-// was interrupted or killed.
+// was interrupted or killed. Where cracks grow also cracks.csv.
 #pragma once
 
 #include <chrono>
@@ -121,7 +121,7 @@ class ResultsDirectory {
   Clock::time_point next_summary_;
   std::vector<std::string> point_rows(const analysis::StaticSolution& solution,
                                       const analysis::IncrementResult& increment);
-  std::optional<GrowingFile> contact_table_, convergence_table_, history_table_, log_;
+  std::optional<GrowingFile> contact_table_, convergence_table_, crack_table_, history_table_, log_;
   History history_;
   struct PointFile {
     PointTable table{};

@@ -123,6 +123,26 @@ Json json_of(const element::StressIntensity& crack) {
   return json;
 }
 
+Json json_of(const analysis::GrowthResult& growth) {
+  Json json = {{"load_factor", number_or_null(growth.load_factor)}, {"tips", Json::object()}};
+  for (const analysis::TipResult& tip : growth.tips)
+    json["tips"][tip.name] = {{"position", json_of(tip.position)},
+                              {"length", number_or_null(tip.length)},
+                              {"kink", number_or_null(tip.kink)},
+                              {"critical_at", number_or_null(tip.load_factor)},
+                              {"grows", tip.grows}};
+  return json;
+}
+
+Json json_of(const analysis::GrownCracks& grown) {
+  Json json = {{"ended", grown.ended.empty() ? Json() : Json(grown.ended)}, {"paths", Json::object()}};
+  for (const analysis::GrownCracks::Path& path : grown.paths) {
+    json["paths"][path.crack] = Json::array();
+    for (const Vec2& point : path.points) json["paths"][path.crack].push_back(json_of(point));
+  }
+  return json;
+}
+
 Json json_of(const analysis::ErrorEstimate& error, const model::Model& model) {
   Json json = {{"relative_energy_norm", number_or_null(error.relative)}, {"bodies", Json::object()}};
   for (std::size_t b = 0; b < error.bodies.size(); ++b) {
@@ -177,6 +197,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   if (model::has_stages(model.bodies)) json["absent"] = Json::array();
   for (const int body : increment.absent) json["absent"].push_back(model.bodies[static_cast<std::size_t>(body)].name);
   for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);
+  if (increment.growth) json["growth"] = json_of(*increment.growth);
   json["certificate"] = json_of(increment.certificate);
   json["energy"] = json_of(increment.energy);
   if (increment.time) {
@@ -336,6 +357,7 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
   json["increments"] = Json::array();
   for (std::size_t i = 0; i < std::min(most, solution.increments.size()); ++i)
     json["increments"].push_back(json_of(solution.increments[i], solution.model));
+  if (solution.grown) json["growth"] = json_of(*solution.grown);
   if (!history.empty()) {
     json["history"] = Json::object();
     for (const HistoryExtremes& column : history) json["history"][column.column] = json_of(column);

@@ -57,10 +57,11 @@ RunState continued_run(const Prepared& prepared, const Continuation& from, Stati
 void tell_begin(const Options& options, const model::Step& step, std::size_t index, int number) {
   if (options.on_increment_begin)
     options.on_increment_begin({static_cast<int>(index) + 1, step.name, number,
-                                step.automatic ? std::nullopt : std::optional(step.increments)});
+                                model::is_counted(step) ? std::optional(step.increments) : std::nullopt});
   if (options.on_stage)
-    options.on_stage(step.automatic ? fmt::format("step {}, increment {}", step.name, number)
-                                    : fmt::format("step {}, increment {} of {}", step.name, number, step.increments));
+    options.on_stage(model::is_counted(step)
+                         ? fmt::format("step {}, increment {} of {}", step.name, number, step.increments)
+                         : fmt::format("step {}, increment {}", step.name, number));
 }
 
 IncrementResult result_of(const Prepared& prepared, Reached& reached, StaticSolution& solution) {

@@ -84,9 +84,9 @@ bool advance(Scheme& scheme, RunState& run, StaticSolution& solution, const Opti
   return true;
 }
 
-/// All steps, from where the run starts; at an EndAtOnce the solution is interrupted.
+/// The first `steps` steps, from where the run starts; at an EndAtOnce the solution is interrupted.
 template <typename Scheme>
-void march(Scheme& scheme, StaticSolution& solution, const Options& options) {
+void march(Scheme& scheme, StaticSolution& solution, const Options& options, std::size_t steps) {
   try {
     RunState run = start_of_run(scheme, solution, options);
     do {
@@ -94,7 +94,7 @@ void march(Scheme& scheme, StaticSolution& solution, const Options& options) {
         ++run.step;
         run.progress = {};
       }
-      if (run.step == solution.model.steps.size()) {
+      if (run.step == steps) {
         if (options.on_end) options.on_end(end_state(scheme.now(), run.state));
         return;
       }
@@ -108,6 +108,12 @@ void march(Scheme& scheme, StaticSolution& solution, const Options& options) {
   } catch (const EndAtOnce&) {
     interrupt(solution);
   }
+}
+
+/// All steps.
+template <typename Scheme>
+void march(Scheme& scheme, StaticSolution& solution, const Options& options) {
+  march(scheme, solution, options, solution.model.steps.size());
 }
 
 }  // namespace scabo::analysis

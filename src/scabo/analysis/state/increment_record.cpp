@@ -169,6 +169,19 @@ void exchange(Io& io, PairsFound& of) {
   io(of.times), io(of.jump);
 }
 template <typename Io>
+void exchange(Io& io, TipResult& of) {
+  exchange(io, of.name);
+  exchange(io, of.position);
+  io(of.length), io(of.K_I), io(of.K_II);
+  exchange(io, of.T), exchange(io, of.G);
+  io(of.kink), io(of.load_factor), io(of.grows);
+}
+template <typename Io>
+void exchange(Io& io, GrowthResult& of) {
+  io(of.load_factor);
+  exchange(io, of.tips);
+}
+template <typename Io>
 void exchange(Io& io, IncrementResult& of) {
   io(of.step);
   exchange(io, of.step_name);
@@ -187,6 +200,7 @@ void exchange(Io& io, IncrementResult& of) {
   io(of.lost_to_rounding);
   exchange(io, of.energy);
   exchange(io, of.cracks);
+  exchange(io, of.growth);
   exchange(io, of.reason);
   exchange(io, of.uniqueness);
   exchange(io, of.attempts);

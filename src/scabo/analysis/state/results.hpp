@@ -143,6 +143,24 @@ struct PairsFound {
   double jump = 0.0;  ///< largest change of the force of a contact by it, relative to the force before
 };
 
+/// A tip that may grow, in the state in which the leading one is critical.
+struct TipResult {
+  std::string name;              ///< `plate.flaw.end`
+  Vec2 position = Vec2::Zero();  ///< undeformed
+  double length = 0.0;           ///< of its crack
+  double K_I = 0.0, K_II = 0.0;  ///< force / length^(3/2)
+  std::optional<double> T, G;
+  double kink = 0.0;         ///< counter-clockwise from the direction of the crack, radians
+  double load_factor = 0.0;  ///< at which it would be critical
+  bool grows = false;        ///< in the step that follows
+};
+
+/// Where cracks stand in an increment of a step in which they grow.
+struct GrowthResult {
+  double load_factor = 0.0;     ///< lambda, at which the leading tip is critical
+  std::vector<TipResult> tips;  ///< in the order of bodies and cracks, the start of a crack before its end
+};
+
 struct IncrementResult {
   int step = 0;  ///< from 1
   std::string step_name;
@@ -176,6 +194,7 @@ struct IncrementResult {
   std::vector<QuantityResult> quantities;  ///< numbers with an error bar, if requested
   FieldState fields;
   std::vector<CrackResult> cracks;             ///< of all bounded open super-elements
+  std::optional<GrowthResult> growth;          ///< of a step in which cracks grow
   std::string reason;                          ///< why it did not converge
   std::optional<UniquenessResult> uniqueness;  ///< if requested
   std::vector<AttemptResult> attempts;         ///< one, or more if the increment was halved

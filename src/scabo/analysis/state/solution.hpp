@@ -82,10 +82,20 @@ struct Mechanism {
   std::size_t most() const;
 };
 
+/// Cracks at the end of an analysis in which they grow.
+struct GrownCracks {
+  struct Path {
+    std::string crack;  ///< `plate.flaw`
+    std::vector<Vec2> points;
+  };
+  std::vector<Path> paths;  ///< of the cracks that may grow, up to what they meet
+  std::string ended;        ///< why growth ended, as a sentence without full stop
+};
+
 /// A discretisation, and the increments on it.
 struct StaticSolution : Discretisation {
-  /// Number of times that the discretisation was replaced because pairs were found anew. Fields of increments before
-  /// the last time are not kept.
+  /// Number of times that the discretisation was replaced because pairs were found anew or a crack grew. Fields of
+  /// increments before the last time are not kept.
   int pairings = 0;
   std::vector<IncrementResult> increments;  ///< converged increments, then at most one that is not
   std::vector<RefinementPass> passes;       ///< if the mesh was refined for a tolerance
@@ -93,6 +103,7 @@ struct StaticSolution : Discretisation {
   Outcome outcome = Outcome::solved;
   std::string reason;                  ///< if not solved
   std::optional<Mechanism> mechanism;  ///< of outcomes mechanism and collapse
+  std::optional<GrownCracks> grown;    ///< if cracks grow
   Timing timing;
 };
 

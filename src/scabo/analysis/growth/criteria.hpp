@@ -1,0 +1,42 @@
+// Where a crack grows, and when: from its stress intensity factors K_I and K_II at the tip, isotropic material.
+//
+// Angles a are counter-clockwise from the direction of the crack. In its frame (element/plane/stress_intensity.hpp)
+// K_II > 0 turns the crack clockwise. K* is the equivalent factor: the tip is critical at K* = K_Ic. In pure mode I
+// a = 0 and K* = K_I by all criteria.
+//
+// hoop_stress. Maximum hoop stress (Erdogan and Sih 1963):
+//
+//     tan(a / 2) = -2 K_II / (K_I + (K_I^2 + 8 K_II^2)^1/2),   K* = cos(a / 2) (K_I cos^2(a / 2) - 3/2 K_II sin a)  (1)
+//
+// Factors of an infinitesimal kink at the angle a, F_ij as series in a / pi (Amestoy and Leblond 1992):
+//
+//     k_1 = F11 K_I + F12 K_II,   k_2 = F21 K_I + F22 K_II                                                          (2)
+//
+// energy_release:   a maximises k_1^2 + k_2^2, whose root is K* (G = (k_1^2 + k_2^2) / E')                          (3)
+// zero_K_II:        k_2 = 0, K* = k_1                                                                               (4)
+//
+// strain_energy_density. Sih (1974), with kappa = 3 - 4 nu (plane strain), (3 - nu) / (1 + nu) (plane stress):
+//
+//     S = A K_I^2 + 2 B K_I K_II + C K_II^2,   A = (1 + c)(kappa - c),  B = s (2 c - kappa + 1),
+//     C = (kappa + 1)(1 - c) + (1 + c)(3 c - 1),   c = cos a,  s = sin a                                            (5)
+//
+// up to a factor; a is its minimum that is next to 0, and K* = (S / (2 (kappa - 1)))^1/2.
+#pragma once
+
+#include "scabo/base/types.hpp"
+#include "scabo/model/growth.hpp"
+
+namespace scabo::analysis {
+
+struct Kink {
+  double angle = 0.0;       ///< radians, counter-clockwise from the direction of the crack
+  double equivalent = 0.0;  ///< K*, force / length^(3/2)
+};
+
+/// `factors`: [K_I, K_II] with K_I >= 0, not both zero. `kappa` > 1.
+Kink kink_of(model::GrowthCriterion criterion, const Vec2& factors, double kappa);
+
+/// Eq. (2): [k_1, k_2] at a kink of up to 90 degrees either way.
+Vec2 factors_at_kink(const Vec2& factors, double angle);
+
+}  // namespace scabo::analysis

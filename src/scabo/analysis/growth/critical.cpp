@@ -1,0 +1,129 @@
+#include "scabo/analysis/growth/critical.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "scabo/analysis/growth/criteria.hpp"
+#include "scabo/analysis/quasistatic/attempt.hpp"
+#include "scabo/analysis/state/cracks.hpp"
+#include "scabo/analysis/state/step_factors.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+/// The material around a tip.
+const model::Material& material_at(const Prepared& prepared, const Tip& tip) {
+  const mesh::BodyMesh& mesh = prepared.mesh.bodies[static_cast<std::size_t>(tip.body)];
+  const Vec2 here = position_of(prepared.model, tip);
+  const auto cell = std::find_if(mesh.cells.begin(), mesh.cells.end(),
+                                 [&](const mesh::Cell& one) { return one.is_open() && one.centre == here; });
+  ensure(cell != mesh.cells.end(), "a tip with factors has a cell");
+  return prepared.model.materials[static_cast<std::size_t>(cell->materials.front())];
+}
+
+bool is_loaded(const Factors& factors) {
+  const auto acts = [](double factor) { return factor != 0.0; };
+  return std::any_of(factors.loads.begin(), factors.loads.end(), acts) ||
+         std::any_of(factors.supports.begin(), factors.supports.end(), acts);
+}
+
+}  // namespace
+
+Factors factors_at(const model::Model& model, double lambda) {
+  const model::GrowthStep& growth = *model.steps.back().growth;
+  Factors factors = factors_in(model, model.steps.size() - 1, 1.0);
+  for (std::size_t i = 0; i < factors.loads.size(); ++i)
+    if (growth.loads[i]) factors.loads[i] *= lambda;
+  for (std::size_t i = 0; i < factors.supports.size(); ++i)
+    if (growth.supports[i]) factors.supports[i] *= lambda;
+  return factors;
+}
+
+Reached reach_from_rest(const Prepared& prepared, const Factors& factors, const Options& options) {
+  Reached reached;
+  reached.state = initial_state(prepared);
+  Attempt tried = attempt(prepared, reached.state, factors);
+  reached.iterations = tried.solution.iterations;
+  record(prepared, tried, options, reached);
+  if (tried.accepted)
+    accept(std::move(tried), 1.0, reached);
+  else
+    give_up(prepared, tried, 1.0, reached);
+  return reached;
+}
+
+std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
+                                                             const Factors& factors, const Options& options) {
+  const Reached reached = reach_from_rest(prepared, factors, options);
+  if (!reached.reason.empty()) return reached.reason;
+  const std::vector<CrackResult> cracks = crack_results(prepared.discretisation, describe(prepared, reached.state));
+  std::vector<Vec2> found;
+  for (const Tip& tip : tips) {
+    const std::string name = name_of(prepared.model, tip);
+    const auto crack =
+        std::find_if(cracks.begin(), cracks.end(), [&](const CrackResult& one) { return one.name == name; });
+    if (crack == cracks.end())
+      return fmt::format("the mesh has no cell around the tip '{}': use smaller cells there", name);
+    if (crack->factors.kind != element::CornerKind::crack)
+      return fmt::format("the tip '{}' lies where materials meet, from where growth is not known", name);
+    found.emplace_back(crack->factors.K_I, crack->factors.K_II);
+    if (!found.back().allFinite())
+      return fmt::format("the stress intensity factors of '{}' are undefined under these loads", name);
+  }
+  return found;
+}
+
+std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& prepared, const std::vector<Tip>& tips,
+                                                                const Options& options) {
+  const model::GrowthStep& growth = *prepared.model.steps.back().growth;
+  std::vector<Vec2> constant(tips.size(), Vec2(0.0, 0.0));
+  if (const Factors none = factors_at(prepared.model, 0.0); is_loaded(none)) {
+    auto found = factors_of_tips(prepared, tips, none, options);
+    if (auto* reason = std::get_if<std::string>(&found)) return *reason;
+    constant = std::get<std::vector<Vec2>>(found);
+  }
+  auto found = factors_of_tips(prepared, tips, factors_at(prepared.model, 1.0), options);
+  if (auto* reason = std::get_if<std::string>(&found)) return *reason;
+  const std::vector<Vec2>& whole = std::get<std::vector<Vec2>>(found);
+  std::vector<TipPattern> patterns;
+  for (std::size_t t = 0; t < tips.size(); ++t) {
+    const model::Material& material = material_at(prepared, tips[t]);
+    const bool strain = prepared.model.analysis.plane == model::Plane::strain;
+    const double nu = material.poisson, modulus = strain ? material.young / (1.0 - nu * nu) : material.young;
+    patterns.push_back({constant[t], whole[t] - constant[t], strain ? 3.0 - 4.0 * nu : (3.0 - nu) / (1.0 + nu),
+                        growth.K_Ic ? *growth.K_Ic : std::sqrt(modulus * *growth.G_c)});
+  }
+  return patterns;
+}
+
+double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip) {
+  const auto equivalent = [&](double lambda) {
+    const Vec2 K = tip.at(lambda);
+    const Vec2 open(std::max(K[0], 0.0), K[1]);
+    return open.norm() > 0.0 ? kink_of(criterion, open, tip.kappa).equivalent : 0.0;
+  };
+  if (tip.constant == Vec2(0.0, 0.0)) {
+    const double at_one = equivalent(1.0);
+    return at_one > 0.0 ? tip.toughness / at_one : std::numeric_limits<double>::infinity();
+  }
+  if (equivalent(0.0) >= tip.toughness) return 0.0;
+  double low = 0.0, high = tip.toughness / tip.per_lambda.norm();
+  for (int doublings = 0; !(equivalent(high) >= tip.toughness); ++doublings) {
+    constexpr int most = 40;
+    if (doublings == most || !std::isfinite(high)) return std::numeric_limits<double>::infinity();
+    low = high;
+    high *= 2.0;
+  }
+  while (true) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) return high;
+    (equivalent(middle) < tip.toughness ? low : high) = middle;
+  }
+}
+
+}  // namespace scabo::analysis

@@ -1,0 +1,43 @@
+// The load factor at which tips are critical (grow.hpp, eq. 1).
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scabo/analysis/growth/tips.hpp"
+#include "scabo/analysis/march/options.hpp"
+#include "scabo/analysis/march/reached.hpp"
+#include "scabo/analysis/state/state.hpp"
+
+namespace scabo::analysis {
+
+/// Tips that are critical at load factors up to so much above that of the leading one grow with it.
+constexpr double together = 1e-3;
+
+/// Of loads and supports in the last step.
+Factors factors_at(const model::Model& model, double lambda);
+
+/// The state at these factors, from rest.
+Reached reach_from_rest(const Prepared& prepared, const Factors& factors, const Options& options);
+
+/// Stress intensity factors of all tips at these factors of the loads, [K_I, K_II], or why there are none.
+std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
+                                                             const Factors& factors, const Options& options);
+
+/// Factors at a tip: constant + lambda per_lambda.
+struct TipPattern {
+  Vec2 constant = Vec2::Zero(), per_lambda = Vec2::Zero();  ///< [K_I, K_II]
+  double kappa = 0.0, toughness = 0.0;                      ///< criteria.hpp; K_Ic
+
+  Vec2 at(double lambda) const { return constant + lambda * per_lambda; }
+};
+/// Of all tips, or why there is none.
+std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& prepared, const std::vector<Tip>& tips,
+                                                                const Options& options);
+
+/// The smallest lambda > 0 at which a tip is critical; infinite if there is none, 0 if it is critical without any load
+/// that is scaled.
+double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip);
+
+}  // namespace scabo::analysis

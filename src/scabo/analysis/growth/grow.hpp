@@ -1,0 +1,29 @@
+// Cracks that grow, with their length as the parameter: in every state the load factor lambda is that at which the
+// leading tip is critical; then the crack is made longer, and the body divided anew.
+//
+// Bodies are linearly elastic and nothing is in contact. Factors of loads and supports are those at the end of the
+// step, lambda times those that are scaled, so that at every tip
+//
+//     K(lambda) = K_0 + lambda K_1,        K*(K(lambda)) = K_Ic, or (E' G_c)^1/2                                    (1)
+//
+// (K*: criteria.hpp). The tip with the smallest lambda leads. It grows, together with those within a thousandth of it,
+// by equal parts of the step: where several are critical at once, the symmetric growth is taken. The state at lambda is
+// solved from rest on the present crack, as nothing depends on the history. The direction is that at the middle of the
+// step: the kink at the tip, and the one that is left where the crack has gone half of the way that this shows.
+//
+// It ends at a length, at a place, at a load factor, after a number of steps, or where the crack meets an edge, a
+// region, another crack or itself within one and a half steps; with a reason in the result where no load makes the
+// crack grow, or where its faces overlap.
+#pragma once
+
+#include "scabo/analysis/march/options.hpp"
+
+namespace scabo::analysis {
+
+/// Throws InputError for a model with steps in which nothing can grow.
+void check_growth(const model::Model& model);
+
+/// Goes through the last step of the solution, in which cracks grow, from its first mesh with its systems.
+void grow(StaticSolution& solution, const Options& options);
+
+}  // namespace scabo::analysis

@@ -1,0 +1,171 @@
+// Validation of steps in which cracks grow.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scabo/model/checking.hpp"
+
+namespace scabo::model {
+
+namespace {
+
+std::string path_of_step(const Model& model, std::size_t index) {
+  return path_of("steps", model.steps[index].source, index) + ".growth";
+}
+
+double length_of(const std::vector<Vec2>& path) {
+  double length = 0.0;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) length += (path[k + 1] - path[k]).norm();
+  return length;
+}
+
+/// Bodies with cracks that grow.
+std::vector<char> bodies_of(const Model& model, const GrowthStep& growth) {
+  std::vector<char> bodies(model.bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    bodies[b] = !model.bodies[b].cracks.empty() &&
+                (growth.cracks.empty() || std::any_of(growth.cracks.begin(), growth.cracks.end(), [&](const auto& one) {
+                   return one.body == static_cast<int>(b);
+                 }));
+  return bodies;
+}
+
+bool check_names(Checking& checking, const std::string& path, const GrowthStep& growth) {
+  const Model& model = checking.model;
+  for (const GrowingCrack& crack : growth.cracks)
+    if (!checking.is_body(crack.body) || crack.crack < 0 ||
+        crack.crack >= static_cast<int>(checking.body(crack.body).cracks.size()))
+      return checking.error(path, "cracks", "refers to a crack that does not exist"), false;
+  if (growth.loads.size() != model.loads.size() || growth.supports.size() != model.supports.size())
+    return checking.error(path, "scale", "must say of every load and support whether it is scaled"), false;
+  const std::vector<char> bodies = bodies_of(model, growth);
+  if (std::find(bodies.begin(), bodies.end(), 1) == bodies.end() && !checking.gaps.bodies)
+    return checking.error(path, "", "the model has no crack that could grow: give a body 'cracks' with a path"), false;
+  return true;
+}
+
+void check_bodies_of(Checking& checking, const GrowthStep& growth) {
+  const Model& model = checking.model;
+  const std::vector<char> bodies = bodies_of(model, growth);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]) continue;
+    const Body& body = model.bodies[b];
+    const std::string path = path_of("bodies", body.name, b);
+    checking.enter(body.source);
+    if (body.imported || body.image || (body.mesh.kind != MeshKind::polygons && body.mesh.kind != MeshKind::quadtree) ||
+        !has_divided_faces(body))
+      checking.error(path, "mesh",
+                     "cracks grow between the cells of kind: polygons or kind: quadtree, with a 'path', in bodies with "
+                     "a shape of their own");
+    std::vector<int> materials{body.material};
+    for (const Region& region : body.regions) materials.push_back(region.material);
+    for (const int material : materials)
+      if (material >= 0 && material < static_cast<int>(model.materials.size()) &&
+          model.materials[static_cast<std::size_t>(material)].law)
+        checking.error(path, "material",
+                       fmt::format("'{}' is not isotropic, and where cracks grow then is not available in this version",
+                                   model.materials[static_cast<std::size_t>(material)].name));
+  }
+}
+
+/// The factors that lambda multiplies, and those along curves.
+void check_scaled(Checking& checking, const std::string& path, const Step& step) {
+  const GrowthStep& growth = *step.growth;
+  const auto any = [](const std::vector<char>& scaled, const std::vector<double>& factors) {
+    for (std::size_t i = 0; i < scaled.size(); ++i)
+      if (scaled[i] && factors[i] != 0.0) return true;
+    return false;
+  };
+  if (!any(growth.loads, step.load_factors) && !any(growth.supports, step.support_factors))
+    checking.error(path, "scale",
+                   "names no load or support with a factor in this step: name in the 'loads' of the step what makes "
+                   "the crack grow");
+  if (!step.load_curves.empty() || !step.support_curves.empty())
+    checking.error(path, "",
+                   "a factor follows a curve, which it cannot where the load follows from the growth: give a number");
+}
+
+/// Limits of growth, and what is left until them.
+void check_until(Checking& checking, const std::string& path, const GrowthStep& growth) {
+  if (growth.tip) checking.vector(path, "until.tip", *growth.tip);
+  if (growth.load_factor) checking.positive(path, "until.load_factor", *growth.load_factor);
+  if (growth.steps) checking.whole(path, "until.steps", *growth.steps, limits::growth_steps);
+  if (!growth.length || !checking.positive(path, "until.length", *growth.length)) return;
+  for (std::size_t b = 0; b < checking.model.bodies.size(); ++b)
+    for (std::size_t c = 0; c < checking.model.bodies[b].cracks.size(); ++c) {
+      const Crack& crack = checking.model.bodies[b].cracks[c];
+      const double left = *growth.length - length_of(crack.path);
+      const bool grows = growth.cracks.empty() ||
+                         std::any_of(growth.cracks.begin(), growth.cracks.end(), [&](const GrowingCrack& one) {
+                           return one.body == static_cast<int>(b) && one.crack == static_cast<int>(c);
+                         });
+      if (!grows || !(growth.step > left * (1.0 + 1e-9))) continue;
+      checking.error(path, "step",
+                     fmt::format("is longer than what is left until the length {} of crack '{}', which is {:.6g} long",
+                                 number_text(*growth.length), crack.name, length_of(crack.path)));
+      return;
+    }
+}
+
+/// What a model in which cracks grow cannot have.
+void check_beside_growth(Checking& checking) {
+  const Model& model = checking.model;
+  const auto refuse = [&](const Source& at, const std::string& path, std::string message) {
+    checking.enter(at);
+    checking.error(path, "", std::move(message));
+  };
+  for (std::size_t c = 0; c < model.contacts.size(); ++c)
+    refuse(model.contacts[c].source, path_of_joint("contacts", model.contacts[c].source, model.contacts[c].name, c),
+           "cracks grow without contacts in this version, as their history would have to follow: leave it out");
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const std::string path = path_of("bodies", model.bodies[b].name, b);
+    if (model.bodies[b].is_staged())
+      refuse(model.bodies[b].source, path, "comes or goes in a step, which is not available where cracks grow");
+    if (model.bodies[b].mesh.tolerance)
+      refuse(model.bodies[b].source, path + ".mesh",
+             "has a tolerance, for which growth is not repeated on finer meshes: give 'size', and halve it to compare");
+  }
+  if (model.restart) refuse(model.restart->source, "restart", "is not available where cracks grow");
+  if (model.tolerance || model.output.error || !model.output.error_of.empty())
+    refuse(
+        {}, model.tolerance ? "tolerance" : "output",
+        "an error bar needs finer meshes, on which growth is not repeated: leave it out, and halve 'size' and 'step' "
+        "to compare");
+  if (model.output.discrete_problems)
+    refuse({}, "output.discrete_problems", "is for contacts, and cracks grow without: leave it out");
+  if (model.solver.uniqueness)
+    refuse({}, "solver.uniqueness", "is a question to contacts, and cracks grow without: leave it out");
+}
+
+}  // namespace
+
+void check_growth_steps(Checking& checking) {
+  const Model& model = checking.model;
+  if (model.analysis.type == AnalysisType::modal || checking.gaps.steps) return;
+  for (std::size_t i = 0; i < model.steps.size(); ++i) {
+    const Step& step = model.steps[i];
+    if (!step.growth) continue;
+    const GrowthStep& growth = *step.growth;
+    const std::string path = path_of_step(model, i);
+    checking.enter(step.source);
+    if (i + 1 != model.steps.size())
+      checking.error(path, "", "is followed by another step: cracks grow in the last one");
+    if (step.dynamic || is_dynamic(model))
+      checking.error(path, "", "is quasi-static and does not go with steps in time");
+    if (step.automatic || step.increments != 1)
+      checking.error(path, "", "has as many increments as it takes: leave 'increments' out");
+    if (growth.K_Ic.has_value() == growth.G_c.has_value())
+      checking.error(path, "toughness", "must be one of K_Ic and G_c, as in {K_Ic: 1e6}");
+    if (growth.K_Ic) checking.positive(path, "toughness.K_Ic", *growth.K_Ic);
+    if (growth.G_c) checking.positive(path, "toughness.G_c", *growth.G_c);
+    checking.positive(path, "step", growth.step);
+    if (!check_names(checking, path, growth)) continue;
+    if (!checking.gaps.conditions) check_scaled(checking, path, step);
+    check_until(checking, path, growth);
+    check_bodies_of(checking, growth);
+    check_beside_growth(checking);
+  }
+}
+
+}  // namespace scabo::model

@@ -1,0 +1,38 @@
+// A step in which cracks grow: where to, against which toughness, and until when (analysis/growth).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scabo/base/error.hpp"
+#include "scabo/base/types.hpp"
+
+namespace scabo::model {
+
+/// What decides the direction of growth and when it begins (analysis/growth/criteria.hpp).
+enum class GrowthCriterion { hoop_stress, energy_release, strain_energy_density, zero_K_II };
+
+/// A crack between cells that may grow, at one of its ends or at both. An end on the boundary or on another crack does
+/// not grow.
+struct GrowingCrack {
+  int body = -1, crack = -1;  ///< Body::cracks
+  bool at_start = true, at_end = true;
+  Source source;
+};
+
+/// Loads are lambda times a pattern plus constants. In every state lambda is such that the leading tip is critical;
+/// then the crack grows by a given length.
+struct GrowthStep {
+  GrowthCriterion criterion = GrowthCriterion::hoop_stress;
+  std::optional<double> K_Ic, G_c;    ///< force / length^(3/2), force / length; > 0, one of the two
+  double step = 0.0;                  ///< length, > 0: sum of the growth of all tips between two states
+  std::vector<GrowingCrack> cracks;   ///< empty: all of the model
+  std::vector<char> loads, supports;  ///< for each of the model: lambda multiplies its factor
+  // When it ends, besides where a tip meets something:
+  std::optional<double> length;       ///< of one crack, length
+  std::optional<Vec2> tip;            ///< a tip is within half a step of this point
+  std::optional<double> load_factor;  ///< lambda would have to be larger
+  std::optional<int> steps;           ///< growth steps
+};
+
+}  // namespace scabo::model

@@ -1,0 +1,85 @@
+// Kink angles and equivalent factors of growth criteria against closed forms and converged numbers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scabo/analysis/growth/criteria.hpp"
+
+namespace scabo::analysis {
+namespace {
+
+using model::GrowthCriterion;
+
+constexpr GrowthCriterion all[] = {GrowthCriterion::hoop_stress, GrowthCriterion::energy_release,
+                                   GrowthCriterion::strain_energy_density, GrowthCriterion::zero_K_II};
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double kappa = 3.0 - 4.0 * 0.3;  // plane strain, nu = .3
+
+double degrees(GrowthCriterion criterion, const Vec2& K) { return kink_of(criterion, K, kappa).angle / degree; }
+
+// Under K_II/K_I = .1, .5, 1 and infinite: angles towards negative K_II.
+TEST(GrowthCriteria, KinkAnglesFromPureOpeningToPureShear) {
+  const struct {
+    Vec2 K;
+    double hoop_stress, strain_energy_density, zero_K_II, energy_release, release;  // degrees; G / G_0
+  } rows[] = {{{1.0, 0.1}, 11.2029, 11.0695, 11.2515, 11.2514, 1.019594},
+              {{1.0, 0.5}, 40.2078, 37.6272, 42.1259, 42.0294, 1.334254},
+              {{1.0, 1.0}, 53.1301, 51.9067, 56.9580, 56.5654, 1.668040},
+              {{0.0, 1.0}, 70.5288, 82.3377, 77.3301, 75.7568, 1.517224}};
+  for (const auto& row : rows) {
+    EXPECT_NEAR(degrees(GrowthCriterion::hoop_stress, row.K), -row.hoop_stress, 1e-4);
+    EXPECT_NEAR(degrees(GrowthCriterion::strain_energy_density, row.K), -row.strain_energy_density, 1e-4);
+    EXPECT_NEAR(degrees(GrowthCriterion::zero_K_II, row.K), -row.zero_K_II, 1e-3);
+    EXPECT_NEAR(degrees(GrowthCriterion::energy_release, row.K), -row.energy_release, 1e-3);
+    const double equivalent = kink_of(GrowthCriterion::energy_release, row.K, kappa).equivalent;
+    EXPECT_NEAR(equivalent * equivalent / row.K.squaredNorm(), row.release, 2e-6);
+  }
+}
+
+// Pure shear: hoop stress tan(a/2) = 2^-1/2, so that K* = 2/3^1/2 K_II; strain energy density cos a = (1 - 2 nu)/3.
+TEST(GrowthCriteria, PureShear) {
+  const Vec2 K(0.0, -3.0);
+  const Kink hoop = kink_of(GrowthCriterion::hoop_stress, K, kappa);
+  EXPECT_NEAR(hoop.angle, 2.0 * std::atan(std::sqrt(0.5)), 1e-15);
+  EXPECT_NEAR(hoop.equivalent, 3.0 * 2.0 / std::sqrt(3.0), 1e-14);
+  for (const double nu : {0.0, 0.2, 0.45})
+    EXPECT_NEAR(kink_of(GrowthCriterion::strain_energy_density, K, 3.0 - 4.0 * nu).angle,
+                std::acos((1.0 - 2.0 * nu) / 3.0), 1e-12);
+}
+
+TEST(GrowthCriteria, PureOpeningGoesOnAndScalesMirrorsAndUnitsDoNotMatter) {
+  for (const GrowthCriterion criterion : all) {
+    const Kink straight = kink_of(criterion, {2.0, 0.0}, kappa);
+    EXPECT_EQ(straight.angle, 0.0);
+    EXPECT_NEAR(straight.equivalent, 2.0, 1e-14);
+    for (const double ratio : {1e-9, 1e-3, 0.3, 2.0, 1e9}) {
+      const Kink one = kink_of(criterion, {1.0, ratio}, kappa), mirrored = kink_of(criterion, {1.0, -ratio}, kappa),
+                 other = kink_of(criterion, {1e6, 1e6 * ratio}, kappa);
+      EXPECT_EQ(one.angle, -mirrored.angle);
+      EXPECT_LT(one.angle, 0.0);
+      EXPECT_NEAR(other.angle, one.angle, 1e-7);
+      EXPECT_NEAR(other.equivalent, 1e6 * one.equivalent, 1e-6 * one.equivalent);
+    }
+  }
+}
+
+// The angle of maximum energy release leaves K_II < 0 at small kinks (Amestoy, Leblond 1992).
+TEST(GrowthCriteria, FactorsAtKinks) {
+  const struct {
+    double angle, F11, F21, F12, F22;
+  } rows[] = {{30.0, .901738, .240249, .729842, .797161},
+              {60.0, .655670, .369250, 1.167992, .307871},
+              {70.529, .554370, .378112, 1.223318, .117709}};
+  for (const auto& row : rows) {
+    const Vec2 I = factors_at_kink({1.0, 0.0}, -row.angle * degree),
+               II = factors_at_kink({0.0, 1.0}, -row.angle * degree);
+    EXPECT_NEAR(I[0], row.F11, 5e-6);
+    EXPECT_NEAR(I[1], -row.F21, 5e-6);
+    EXPECT_NEAR(II[0], row.F12, 5e-6);
+    EXPECT_NEAR(II[1], row.F22, 5e-6);
+  }
+}
+
+}  // namespace
+}  // namespace scabo::analysis
