@@ -16,11 +16,14 @@ namespace scabo::system {
 
 ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const std::vector<Vec2>& nodes,
                          std::vector<Constraint> constraints)
-    : factored_(std::move(factored)), motions_(nodes), free_(static_cast<std::size_t>(places_of(nodes.size())), true) {
+    : factored_(std::move(factored)),
+      motions_(nodes, factored_->stiffness.revolved),
+      free_(static_cast<std::size_t>(places_of(nodes.size())), true) {
   constraints_ = std::move(constraints);
   inclined_ = InclinedNodes(constraints_);
   find_rigid_motions(nodes);
   for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
+  for (const int dof : stiffness().on_axis) free_[static_cast<std::size_t>(dof)] = false;
   solved_ = free_;
   further_ = further_dofs();
   for (int dof : further_) solved_[static_cast<std::size_t>(dof)] = false;
@@ -31,7 +34,8 @@ ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const std::vector<V
 }
 
 void ElasticBody::find_rigid_motions(const std::vector<Vec2>& nodes) {
-  rigid_coordinates_ = free_motions(nodes, constraints_, stiffness().springs.directions, reference_, lever_);
+  rigid_coordinates_ =
+      free_motions(nodes, constraints_, stiffness().springs.directions, reference_, lever_, is_revolved());
   if (stiffness().resists_rigid_motions) rigid_coordinates_ = Matrix::Zero(3, 0);
   rigid_motions_.resize(size(), rigid_coordinates_.cols());
   for (std::size_t i = 0; i < nodes.size(); ++i)

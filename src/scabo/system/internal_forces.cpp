@@ -12,7 +12,7 @@ linalg::Twofold sum_of(const linalg::Twofold (&parts)[lanes]) { return (parts[0]
 
 }  // namespace
 
-NodalRigidMotions::NodalRigidMotions(const std::vector<Vec2>& nodes) {
+NodalRigidMotions::NodalRigidMotions(const std::vector<Vec2>& nodes, bool revolved) : revolved_(revolved) {
   for (const Vec2& x : nodes) {
     turn_.push_back({-x.y(), 0.0});
     turn_.push_back({x.x(), 0.0});
@@ -35,21 +35,24 @@ void NodalRigidMotions::take_out_of(linalg::TwofoldVector& v) const {
     x[i % lanes] = x[i % lanes] + v[2 * i];
     y[i % lanes] = y[i % lanes] + v[2 * i + 1];
   }
-  const linalg::Twofold mean_x = sum_of(x) / count, mean_y = sum_of(y) / count;
+  const linalg::Twofold mean_x = revolved_ ? linalg::Twofold{} : sum_of(x) / count, mean_y = sum_of(y) / count;
   for (std::size_t i = 0; i < nodes; ++i) {
     v[2 * i] = v[2 * i] - mean_x;
     v[2 * i + 1] = v[2 * i + 1] - mean_y;
     linalg::Twofold& sum = turned[i % lanes];
     sum = sum + (v[2 * i] * turn_[2 * i] + v[2 * i + 1] * turn_[2 * i + 1]);
   }
+  if (revolved_) return;
   const linalg::Twofold angle = sum_of(turned) / turn_square_;
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = v[i] - angle * turn_[i];
 }
 
 Vector NodalRigidMotions::taken_out_of(Vector u) const {
   auto by_node = u.reshaped(2, u.size() / 2);
-  const Vec2 mean = by_node.rowwise().mean();
+  Vec2 mean = by_node.rowwise().mean();
+  if (revolved_) mean.x() = 0.0;
   by_node.colwise() -= mean;
+  if (revolved_) return u;
   double product = 0.0, square = 0.0;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const double turn = turn_[static_cast<std::size_t>(i)].high;
@@ -68,13 +71,14 @@ Eigen::Vector3d NodalRigidMotions::resultants_of(const Vector& forces) const {
     sums[i % 2] += force;
     moment += force * turn_[i].high;
   }
-  return {sums[0], sums[1], moment};
+  return revolved_ ? Eigen::Vector3d(0.0, sums[1], 0.0) : Eigen::Vector3d(sums[0], sums[1], moment);
 }
 
 bool is_large(const Stiffness& stiffness) { return stiffness.size() >= 20000; }
 
 bool by_differences(const Stiffness& stiffness) {
-  return is_large(stiffness) && !stiffness.resists_rigid_motions && !stiffness.divided && !stiffness.dense;
+  return is_large(stiffness) && !stiffness.resists_rigid_motions && !stiffness.revolved && !stiffness.divided &&
+         !stiffness.dense;
 }
 
 Vector internal_forces(const Stiffness& stiffness, const NodalRigidMotions& motions, Vector u) {
@@ -83,7 +87,8 @@ Vector internal_forces(const Stiffness& stiffness, const NodalRigidMotions& moti
   const Vector springs = stiffness.springs.none() ? Vector() : stiffness.springs.times(u);
   if (!stiffness.resists_rigid_motions) {
     auto by_node = u.reshaped(2, u.size() / 2);
-    const Vec2 mean = by_node.rowwise().mean();
+    Vec2 mean = by_node.rowwise().mean();
+    if (stiffness.revolved) mean.x() = 0.0;
     by_node.colwise() -= mean;
   }
   Vector forces = stiffness.times(u);

@@ -12,10 +12,11 @@
 namespace scabo::system {
 
 /// Rigid motions of the nodes of a body, two components for each node: the translations, and the rotation about the
-/// mean of the nodes, which is orthogonal to them.
+/// mean of the nodes, which is orthogonal to them. `revolved`: of a body of revolution, the motion along its axis
+/// alone.
 class NodalRigidMotions {
  public:
-  explicit NodalRigidMotions(const std::vector<Vec2>& nodes);
+  explicit NodalRigidMotions(const std::vector<Vec2>& nodes, bool revolved = false);
 
   /// By sums in twice the working precision: those of half a million forces of weight lose 1e-10 of the largest
   /// otherwise.
@@ -28,6 +29,7 @@ class NodalRigidMotions {
  private:
   linalg::TwofoldVector turn_;  // displacements by a unit rotation
   linalg::Twofold turn_square_;
+  bool revolved_;
 };
 
 /// Whether a solve takes so long that one less counts.
