@@ -109,7 +109,7 @@ Bytes pack_state(const analysis::Discretisation& discretisation, const analysis:
 /// Sums at points of nodes that several ranks have.
 struct SharedSum {
   int number = 0, material = 0, cells = 0;
-  double values[4] = {0.0, 0.0, 0.0, 0.0};  // stress, temperature
+  double values[5] = {};  // stress, temperature, strain zz
 };
 
 }  // namespace
@@ -244,7 +244,7 @@ std::vector<std::string> Process::write_fields(const analysis::Discretisation* d
       mine.push_back({numbers[node],
                       materials[point],
                       cells[point],
-                      {sums(0, column), sums(1, column), sums(2, column), sums(3, column)}});
+                      {sums(0, column), sums(1, column), sums(2, column), sums(3, column), sums(4, column)}});
       point_of[{numbers[node], materials[point]}] = point;
       sums.col(column).setZero();
       cells[point] = 0;
@@ -256,7 +256,7 @@ std::vector<std::string> Process::write_fields(const analysis::Discretisation* d
       for (const SharedSum& sum : of_rank.get_list<SharedSum>()) {
         const auto found = point_of.find({sum.number, sum.material});
         if (found == point_of.end()) continue;
-        sums.col(static_cast<Eigen::Index>(found->second)) += Eigen::Map<const Eigen::Vector4d>(sum.values);
+        sums.col(static_cast<Eigen::Index>(found->second)) += Eigen::Map<const Eigen::Vector<double, 5>>(sum.values);
         cells[found->second] += sum.cells;
       }
     }

@@ -67,7 +67,7 @@ model::Model with_its_increments(const model::Model& model, const mesh::Mesh& me
 
 bool can_use_ranks(const model::Model& model) {
   return model.analysis.type == model::AnalysisType::static_ && !wants_bars(model) && !wants_refinement(model) &&
-         !model.output.error && !model::is_dynamic(model) && !model::has_growth(model);
+         !model.output.error && !model::is_dynamic(model) && !model::has_growth(model) && !model.analysis.revolved();
 }
 
 namespace {

@@ -13,7 +13,8 @@ mesh::Mesh check(const model::Model& model);
 /// Whether large bodies can be divided among ranks (Options::ranks); otherwise `why_no_ranks` says why not.
 bool can_use_ranks(const model::Model& model);
 inline constexpr const char* why_no_ranks =
-    "modal analyses and those on several meshes (error bars, `tolerance`, `error`) are not divided among ranks";
+    "modal analyses, steps in time, cracks that grow, bodies of revolution and analyses on several meshes (error bars, "
+    "`tolerance`, `error`) are not divided among ranks";
 
 /// Runs all steps. Throws InputError for models that cannot be analysed; an increment that does not converge is part of
 /// the result.

@@ -81,8 +81,10 @@ MeshOptions read_mesh(Reading& reading, const Value& value, const Outline* outli
                       "{size: 0.1, order: 2}");
   MeshOptions mesh;
   mesh.source = value.source();
+  if (reading.model.analysis.revolved()) mesh.kind = MeshKind::fem;
   if (const auto kind = map.get("kind")) {
     const auto choice = read_choice(report, *kind, {"superelement", "polygons", "quadtree", "fem"});
+    if (choice && *choice == "superelement") mesh.kind = MeshKind::superelement;
     if (choice && *choice == "fem") mesh.kind = MeshKind::fem;
     if (choice && *choice == "polygons") mesh.kind = MeshKind::polygons;
     if (choice && *choice == "quadtree") mesh.kind = MeshKind::quadtree;

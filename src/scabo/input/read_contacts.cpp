@@ -158,6 +158,12 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
   int rigid_body = -1;  // the first that a tie would join
   for (const geometry::TouchingEdges& pair : geometry::touching_edges(outlines, touching.reach)) {
     const int rigid = reading.body(pair.body_a).rigid + reading.body(pair.body_b).rigid;
+    const auto is_straight = [&](int body, int edge) {
+      return geometry::runs_straight(reading.body(body).outline.edges[static_cast<std::size_t>(edge)]);
+    };
+    if (rigid == 2 && (!is_straight(pair.body_a, pair.edge_a) || !is_straight(pair.body_b, pair.edge_b) ||
+                       reading.model.analysis.revolved()))
+      continue;  // of two rigid bodies only straight lines are in contact
     if (is_tie && rigid > 0) {
       if (rigid_body < 0) rigid_body = reading.body(pair.body_a).rigid ? pair.body_a : pair.body_b;
       continue;

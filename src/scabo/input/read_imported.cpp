@@ -263,11 +263,11 @@ std::vector<ReadBody> read_imported_bodies(Reading& reading, const MapReader& of
       {"file", "elements", "region", "order", "size", "min_size", "refine", "kind", "centre", "tolerance"},
       "{file: part.msh}");
   body.mesh.source = value.source();
-  body.mesh.kind = MeshKind::imported;
+  body.mesh.kind = reading.model.analysis.revolved() ? MeshKind::fem : MeshKind::imported;
   body.mesh.order = 1;
   if (const auto elements = map.get("elements")) {
     const auto choice = read_choice(report, *elements, {"superelement", "fem"});
-    if (choice && *choice == "fem") body.mesh.kind = MeshKind::fem;
+    if (choice) body.mesh.kind = *choice == "fem" ? MeshKind::fem : MeshKind::imported;
   }
   const bool cad = is_of_cad(value);
   refuse_other_keys(of_body, map, body.mesh.kind == MeshKind::fem, cad);

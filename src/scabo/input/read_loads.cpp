@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* load_example = "{on: upper.top_right, force: [0, -100e3]}";
 
-const std::vector<std::string> load_keys = {"on",    "in",      "force",      "moment",      "traction", "pressure",
-                                            "water", "gravity", "body_force", "temperature", "field"};
+const std::vector<std::string> load_keys = {"on",    "in",      "force", "moment",     "traction",    "pressure",
+                                            "water", "gravity", "spin",  "body_force", "temperature", "field"};
 
 constexpr const char* table_example[2] = {"{at: [[0, 0], [0, 3]], values: [[1e3, 0], [0, 0]]}",
                                           "{at: [[0, 0], [0, 3]], values: [30e3, 0]}"};
@@ -126,10 +126,11 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
     return read_table(reading, value, *on, kind == "pressure");
   if ((kind == "traction" || kind == "pressure") && is_map)
     return read_face_traction(reading, value, kind == "pressure");
-  if (kind == "pressure") {
-    const auto pressure = read_number(reading.report, value);
-    if (!pressure) return {};
-    return Pressure{*pressure};
+  if (kind == "pressure" || kind == "spin") {
+    const auto number = read_number(reading.report, value);
+    if (!number) return {};
+    if (kind == "spin") return Spin{*number};
+    return Pressure{*number};
   }
   const auto vector = read_vector(reading.report, value);
   if (!vector) return {};
@@ -142,7 +143,7 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
 std::optional<Load> read_load_in_contact(Reading& reading, const Entry& entry, const MapReader& map) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  for (const char* key : {"on", "force", "moment", "traction", "gravity", "body_force", "temperature", "field"})
+  for (const char* key : {"on", "force", "moment", "traction", "gravity", "spin", "body_force", "temperature", "field"})
     map.refuse(key, "does not go together with in: in contacts there are pressure and water");
   if (map.has("pressure") == map.has("water")) {
     if (report.count() == before && map.all_known())
@@ -179,13 +180,13 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   load.source = entry.key_source;
   std::vector<std::string> kinds;
   for (const char* kind :
-       {"force", "moment", "traction", "pressure", "water", "gravity", "body_force", "temperature", "field"}) {
+       {"force", "moment", "traction", "pressure", "water", "gravity", "spin", "body_force", "temperature", "field"}) {
     if (map.has(kind)) kinds.emplace_back(kind);
   }
   if (kinds.size() > 1) {
     report.error(entry.key_source,
                  fmt::format("needs exactly one of force, moment, traction, pressure, water, gravity, "
-                             "body_force, temperature and field, not both {} and "
+                             "spin, body_force, temperature and field, not both {} and "
                              "{}",
                              kinds[0], kinds[1]));
     return {};
@@ -193,12 +194,12 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   if (kinds.empty()) {
     if (report.count() == before)
       report.error(entry.key_source,
-                   "needs exactly one of force, moment, traction, pressure, water, gravity, body_force, temperature "
-                   "and field");
+                   "needs exactly one of force, moment, traction, pressure, water, gravity, spin, body_force, "
+                   "temperature and field");
     return {};
   }
   const std::string& kind = kinds.front();
-  const bool of_all = kind == "gravity" || kind == "temperature" || kind == "field";
+  const bool of_all = kind == "gravity" || kind == "spin" || kind == "temperature" || kind == "field";
   const auto on = of_all ? map.get("on") : map.need("on");
   if (on) {
     load.on = read_place(reading, *on).place;

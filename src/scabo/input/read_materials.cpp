@@ -16,7 +16,7 @@ Orthotropic read_orthotropic(Reading& reading, const Value& value) {
   const MapReader map(reading.report, value, {"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "angle"},
                       "{E1: 40e9, E2: 10e9, nu12: 0.25, G12: 5e9, angle: 30}");
   const auto number = [&](const char* key) { return number_or_unread(reading, map.need(key)); };
-  const bool strain = reading.model.analysis.plane == Plane::strain;
+  const bool strain = reading.model.analysis.plane != Plane::stress;
   Orthotropic o;
   o.E1 = number("E1");
   o.E2 = number("E2");

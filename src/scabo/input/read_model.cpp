@@ -25,7 +25,7 @@ void read_analysis(Reading& reading, const Value& value) {
                                     {{"harmonic", remedy},
                                      {"buckling", remedy},
                                      {"fracture", remedy},
-                                     {"axisymmetric", "write static, and see 'plane'"}});
+                                     {"axisymmetric", "write type: static and plane: axisymmetric"}});
     if (choice && *choice == "modal") analysis.type = AnalysisType::modal;
     reading.all_dynamic = choice && *choice == "dynamic";
     type_known = choice.has_value();
@@ -38,15 +38,13 @@ void read_analysis(Reading& reading, const Value& value) {
     }
   }
   if (const auto plane = map.get("plane")) {
-    const auto choice =
-        read_choice(reading.report, *plane, {"stress", "strain"},
-                    {{"axisymmetric",
-                      "model the section at right angles to the axis by stress or strain where load and shape do "
-                      "not change along the axis; the section along the axis has no plane "
-                      "equivalent (docs/model_file.md, Bodies of revolution)"}});
+    const auto choice = read_choice(reading.report, *plane, {"stress", "strain", "axisymmetric"});
     if (choice && *choice == "strain") reading.model.analysis.plane = Plane::strain;
+    if (choice && *choice == "axisymmetric") reading.model.analysis.plane = Plane::revolution;
   }
-  if (const auto thickness = map.get("thickness")) {
+  if (analysis.revolved()) {
+    map.refuse("thickness", "bodies of revolution go around the axis as a whole: leave 'thickness' out");
+  } else if (const auto thickness = map.get("thickness")) {
     reading.model.analysis.thickness = read_number(reading.report, *thickness).value_or(1.0);
   }
 }

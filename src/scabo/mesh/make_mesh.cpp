@@ -13,6 +13,7 @@
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/mesh/divide.hpp"
 #include "scabo/mesh/division.hpp"
+#include "scabo/mesh/fan.hpp"
 #include "scabo/mesh/grid.hpp"
 #include "scabo/mesh/imported_cells.hpp"
 #include "scabo/mesh/interface.hpp"
@@ -229,6 +230,8 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
   add(close_mouths(model, mesh.bodies));
   add(match_and_pair(model, mesh));
   add(ambiguous_points(model, mesh));
+  for (std::size_t b = 0; model.analysis.revolved() && b < mesh.bodies.size(); ++b)
+    if (auto mistake = divide_into_triangles(mesh.bodies[b], model.bodies[b])) mistakes.push_back(std::move(*mistake));
   if (!mistakes.empty()) throw InputError(model.file, without_repetitions(std::move(mistakes)));
   return mesh;
 }

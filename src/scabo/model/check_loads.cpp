@@ -23,18 +23,19 @@ Cases(Functions...) -> Cases<Functions...>;
 
 /// The key of a load in a model file.
 const char* key_of(const Load& load) {
-  return std::visit(
-      Cases{
-          [](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
-          [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
-          [](const BodyForce&) { return "body_force"; }, [](const Temperature&) { return "temperature"; },
-          [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; },
-          [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
-          [](const Water&) { return "water"; }, [](const UniformStress&) { return "field"; },
-          [](const GroundStress&) { return "field"; }, [](const Moment&) { return "moment"; },
-          [](const AtRest&) { return "at_rest"; },
-          [](const PorePressure& pores) { return std::holds_alternative<Water>(pores.value) ? "water" : "pressure"; }},
-      load.kind);
+  return std::visit(Cases{[](const Force&) { return "force"; }, [](const Traction&) { return "traction"; },
+                          [](const Pressure&) { return "pressure"; }, [](const Gravity&) { return "gravity"; },
+                          [](const Spin&) { return "spin"; }, [](const BodyForce&) { return "body_force"; },
+                          [](const Temperature&) { return "temperature"; },
+                          [](const FaceTraction& face) { return face.pressure ? "pressure" : "traction"; },
+                          [](const EdgeTable& table) { return table.pressure ? "pressure" : "traction"; },
+                          [](const Water&) { return "water"; }, [](const UniformStress&) { return "field"; },
+                          [](const GroundStress&) { return "field"; }, [](const Moment&) { return "moment"; },
+                          [](const AtRest&) { return "at_rest"; },
+                          [](const PorePressure& pores) {
+                            return std::holds_alternative<Water>(pores.value) ? "water" : "pressure";
+                          }},
+                    load.kind);
 }
 
 const char* kind_text(Place::Kind kind) {
@@ -78,7 +79,7 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
                : "a moment on an elastic body acts on a straight edge, as a linear traction along its normal: name "
                  "one, or give two opposite forces";
   }
-  if (kind == "gravity" || kind == "body_force" || kind == "temperature") {
+  if (kind == "gravity" || kind == "spin" || kind == "body_force" || kind == "temperature") {
     if (place.kind != Place::Kind::body) return fmt::format("{} acts on a whole body: write on: {}", kind, body);
     if (of.rigid && kind == "temperature") return fmt::format("'{}' is rigid: temperature has no effect on it", body);
     if (of.rigid && kind == "body_force") return fmt::format("'{}' is rigid: apply a force to it instead", body);
@@ -276,6 +277,7 @@ bool check_values(Checking& checking, const std::string& path, const Load& load)
   return std::visit(Cases{[&](const Force& force) { return of_vector(force); },
                           [&](const Traction& traction) { return of_vector(traction); },
                           [&](const Gravity& gravity) { return of_vector(gravity); },
+                          [&](const Spin& spin) { return checking.number(path, kind, spin.value); },
                           [&](const Pressure& pressure) { return checking.number(path, kind, pressure.value); },
                           [&](const FaceTraction& face) { return check_terms(checking, path, kind, face); },
                           [&](const BodyForce& force) {
@@ -322,7 +324,7 @@ bool check_on(Checking& checking, const std::string& path, const Load& load) {
     return false;
   }
   if (!load.on) {
-    if (kind == "gravity" || kind == "temperature" || kind == "field") return true;
+    if (kind == "gravity" || kind == "spin" || kind == "temperature" || kind == "field") return true;
     checking.error(path, "", "'on' is missing");
     return false;
   }

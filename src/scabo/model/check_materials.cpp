@@ -14,10 +14,12 @@ namespace {
 
 void check_poisson(Checking& checking, const std::string& path, double poisson) {
   if (!checking.number(path, "poisson", poisson)) return;
-  const bool strain = checking.model.analysis.plane == Plane::strain;
+  const Plane plane = checking.model.analysis.plane;
+  const bool strain = plane != Plane::stress;
   if (poisson > -1.0 && (poisson < 0.5 || (!strain && poisson == 0.5))) return;
-  const char* range =
-      strain ? "greater than -1 and less than 0.5 (plane strain)" : "greater than -1 and at most 0.5 (plane stress)";
+  const char* range = plane == Plane::revolution ? "greater than -1 and less than 0.5"
+                      : strain                   ? "greater than -1 and less than 0.5 (plane strain)"
+                                                 : "greater than -1 and at most 0.5 (plane stress)";
   checking.error(path, "poisson",
                  fmt::format("must be {}, not {}{}", range, number_text(poisson),
                              poisson == 0.5 ? ": use 0.4999 for incompressible material" : ""),
@@ -194,7 +196,8 @@ void check_density(Checking& checking) {
   if (is_dynamic(model)) check_density_in_time(checking);
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     const Load& load = model.loads[l];
-    if (!checking.load[l] || !std::holds_alternative<Gravity>(load.kind)) continue;
+    const bool spins = std::holds_alternative<Spin>(load.kind);
+    if (!checking.load[l] || !(spins || std::holds_alternative<Gravity>(load.kind))) continue;
     std::set<int> told;
     const auto [first, last] = bodies_under(checking, load);
     for (std::size_t i = first; i < last; ++i) {

@@ -198,7 +198,7 @@ bool check_mesh_options(Checking& checking, const std::string& path, const Body&
       checking.error(path, "mesh.order",
                      fmt::format("fem uses elements of order 1 or 2, not {}: leave 'order' out", mesh.order)),
           good = false;
-    if (body.outside)
+    if (body.outside && !checking.model.analysis.revolved())
       checking.error_of_key(path, "outside", "finite elements cannot model an unbounded body: use superelement"),
           good = false;
   }

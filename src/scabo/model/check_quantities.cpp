@@ -87,8 +87,8 @@ void check_moment_of(Checking& checking, const std::string& path, const Quantity
 /// What loads inside a super-element store inside it is in no energy of the results.
 void check_energy(Checking& checking, const std::string& path) {
   const auto acts_inside = [](const Load& load) {
-    return std::holds_alternative<Gravity>(load.kind) || std::holds_alternative<BodyForce>(load.kind) ||
-           std::holds_alternative<Temperature>(load.kind);
+    return std::holds_alternative<Gravity>(load.kind) || std::holds_alternative<Spin>(load.kind) ||
+           std::holds_alternative<BodyForce>(load.kind) || std::holds_alternative<Temperature>(load.kind);
   };
   const std::vector<Load>& loads = checking.model.loads;
   const std::vector<Body>& bodies = checking.model.bodies;

@@ -81,6 +81,8 @@ void check_loads(Checking& checking);
 void check_contacts_and_ties(Checking& checking);
 void check_steps(Checking& checking);
 void check_output(Checking& checking);
+/// What bodies of revolution cannot have.
+void check_revolution(Checking& checking);
 /// Numbers with an error bar, and the tolerance of one.
 void check_quantities(Checking& checking);
 // These need the whole model.

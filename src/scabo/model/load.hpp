@@ -29,6 +29,11 @@ struct Gravity {
   Vec2 value;
 };
 
+/// Rotation of a body with a density about the axis of revolution: its centrifugal force at this angular velocity.
+struct Spin {
+  double value;  ///< radians / time
+};
+
 /// A quantity linear in x and y.
 struct Linear {
   double constant = 0.0, per_x = 0.0, per_y = 0.0;
@@ -126,7 +131,7 @@ struct AtRest {
 struct Load {
   std::string name;
   std::optional<Place> on;  ///< empty: gravity, temperature or stress of every elastic body, or in contacts
-  std::variant<Force, Traction, Pressure, Gravity, FaceTraction, BodyForce, Temperature, EdgeTable, Water,
+  std::variant<Force, Traction, Pressure, Gravity, Spin, FaceTraction, BodyForce, Temperature, EdgeTable, Water,
                UniformStress, GroundStress, Moment, PorePressure, AtRest>
       kind;
   Source source;

@@ -11,7 +11,9 @@
 
 namespace scabo::model {
 
-enum class Plane { stress, strain };
+/// Plane stress, plane strain, or the half plane x >= 0 that is turned about the axis x = 0: x is the radius, y runs
+/// along the axis, and zz goes around it.
+enum class Plane { stress, strain, revolution };
 
 /// Engineering constants along axes 1, 2 (in the plane) and 3. Axis 1 is turned by `angle` from x.
 struct Orthotropic {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scabo/base/error.hpp"
+#include "scabo/base/extent.hpp"
 #include "scabo/base/types.hpp"
 #include "scabo/base/warning.hpp"
 #include "scabo/model/body.hpp"
@@ -33,6 +34,9 @@ struct Analysis {
   int modes = 10;  ///< modal: number of modes, the lowest first, rigid-body modes included
   Plane plane = Plane::stress;
   double thickness = 1.0;  ///< length, > 0
+
+  bool revolved() const { return plane == Plane::revolution; }  ///< forces are those of the whole circumference
+  Extent extent() const { return {thickness, revolved()}; }
 };
 
 /// Library that factorises sparse stiffness matrices.

@@ -236,6 +236,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   check_steps(checking);
   check_output(checking);
   check_quantities(checking);
+  check_revolution(checking);
 
   check_density(checking);
   check_expansion(checking);

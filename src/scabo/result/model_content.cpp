@@ -42,7 +42,9 @@ ModelJson content_of(const model::Model& model, const model::Body& body, const m
 
 nlohmann::ordered_json model_content(const model::Model& model, const mesh::Mesh& mesh) {
   ModelJson json;
-  json["plane"] = model.analysis.plane == model::Plane::stress ? "stress" : "strain";
+  json["plane"] = model.analysis.revolved()                      ? "axisymmetric"
+                  : model.analysis.plane == model::Plane::stress ? "stress"
+                                                                 : "strain";
   json["thickness"] = model.analysis.thickness;
   json["materials"] = ModelJson::array();
   for (const model::Material& material : model.materials) json["materials"].push_back(content_of(material));

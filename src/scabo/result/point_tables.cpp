@@ -35,6 +35,14 @@ bool singular_at_centre(const element::ModalSolution& modes) {
                      [](const auto& exponent) { return exponent.real() > 1e-9 && exponent.real() < 1.0 - 1e-6; });
 }
 
+/// What strain around the axis of a body of revolution adds to the energy density.
+double hoop_energy(const PointResult& point, const model::Material& material, const model::Analysis& analysis,
+                   double temperature) {
+  if (!analysis.revolved()) return 0.0;
+  const double free = material.expansion ? (*material.expansion)[2] * temperature : 0.0;
+  return 0.5 * point.stress_zz * (point.values.strain_zz - free);
+}
+
 void append(fmt::memory_buffer& to, double value) { fmt::format_to(std::back_inserter(to), ",{}", value); }
 
 }  // namespace
@@ -163,10 +171,11 @@ std::vector<PointResult> PointEvaluation::at(const analysis::Discretisation& dis
       const model::Material& of_point = discretisation.model.materials[static_cast<std::size_t>(material)];
       const element::InitialStress& initial = increment.fields.initial_of(b);
       const element::Vec3 change = result.values.stress - initial.at(x);
-      result.stress_zz = element::stress_zz(change, of_point, discretisation.model.analysis.plane, temperature) +
+      result.stress_zz = element::stress_zz(change, of_point, discretisation.model.analysis.plane, temperature,
+                                            result.values.strain_zz) +
                          initial.zz_at(x, of_point, discretisation.model.analysis.plane);
       result.energy_density =
-          0.5 * change.dot(elastic) +
+          0.5 * change.dot(elastic) + hoop_energy(result, of_point, discretisation.model.analysis, temperature) +
           0.5 * element::heat_across(of_point, discretisation.model.analysis.plane) * temperature * temperature;
     }
   }

@@ -29,16 +29,14 @@ FiniteElementState::FiniteElementState(const analysis::Discretisation& discretis
   u_ = state.displacements[body](element::dofs_of(element_));
   const model::Material& material =
       discretisation.model.materials[static_cast<std::size_t>(mesh.cells[cell].materials.front())];
-  D_ = element::elasticity_matrix(material, discretisation.model.analysis.plane);
-  unit_strain_ = element::thermal_strain(material, discretisation.model.analysis.plane);
+  law_ = element::section_law(material, discretisation.model.analysis.plane);
+  revolved_ = discretisation.model.analysis.revolved();
 }
 
 element::PointValues FiniteElementState::at(const Vec2& natural) const {
-  const element::Vec3 free =
-      interior_.is_zero()
-          ? element::Vec3(element::Vec3::Zero())
-          : element::Vec3(unit_strain_ * interior_.temperature_at(element::position_in(element_, natural)));
-  return element::finite_element_values(element_, u_, D_, natural, free);
+  const double temperature =
+      interior_.is_zero() ? 0.0 : interior_.temperature_at(element::position_in(element_, natural));
+  return element::finite_element_values(element_, u_, law_, natural, temperature, revolved_);
 }
 
 struct Probe::CellField {

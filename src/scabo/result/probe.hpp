@@ -70,8 +70,8 @@ class FiniteElementState {
  private:
   element::FiniteElement element_;
   element::ElementVector u_;
-  element::Mat3 D_;
-  element::Vec3 unit_strain_;
+  element::SectionLaw law_;
+  bool revolved_ = false;
   const element::InteriorLoads& interior_;
 };
 

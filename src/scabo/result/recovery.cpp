@@ -17,10 +17,10 @@ namespace {
 /// Sets the values of a point at x, of whose stress `change` is what came with the deformation.
 void set_values(Fields& fields, std::size_t point, const Vec2& u, const element::Vec3& change, const Vec2& x,
                 const analysis::Discretisation& discretisation, int material, double temperature,
-                const element::InitialStress& initial) {
+                const element::InitialStress& initial, double strain_zz = 0.0) {
   const model::Material& of_point = discretisation.model.materials[static_cast<std::size_t>(material)];
   const model::Plane plane = discretisation.model.analysis.plane;
-  const double zz = element::stress_zz(change, of_point, plane, temperature);
+  const double zz = element::stress_zz(change, of_point, plane, temperature, strain_zz);
   if (initial.is_zero())
     fields.set(point, u, change, zz);
   else
@@ -75,9 +75,9 @@ Eigen::Matrix3Xd recover_mapped_cell(Fields& fields, std::size_t point, const an
   return values.tail(3 * outer).reshaped(3, outer);
 }
 
-/// Stresses and temperatures of points on the sides of cells.
+/// Stresses and temperatures of points on the sides of cells, without strains zz.
 SharedValues with_temperatures(const Eigen::Matrix3Xd& stresses, const std::function<double(Eigen::Index)>& of_point) {
-  SharedValues values(4, stresses.cols());
+  SharedValues values = SharedValues::Zero(5, stresses.cols());
   values.topRows<3>() = stresses;
   for (Eigen::Index i = 0; i < stresses.cols(); ++i) values(3, i) = of_point(i);
   return values;
@@ -92,12 +92,13 @@ SharedValues recover_cell(Fields& fields, std::size_t first, const analysis::Dis
   if (!super_element) {
     const FiniteElementState finite(discretisation, state, body, c);
     const auto natural = element::natural_nodes(finite.element().kind);
-    Eigen::Matrix3Xd stresses(3, static_cast<Eigen::Index>(natural.size()));
-    for (std::size_t i = 0; i < natural.size(); ++i)
-      stresses.col(static_cast<Eigen::Index>(i)) = finite.at(natural[i]).stress;
-    return with_temperatures(stresses, [&](Eigen::Index i) {
-      return interior.temperature_at(finite.element().x[static_cast<std::size_t>(i)]);
-    });
+    SharedValues values(5, static_cast<Eigen::Index>(natural.size()));
+    for (std::size_t i = 0; i < natural.size(); ++i) {
+      const element::PointValues at = finite.at(natural[i]);
+      values.col(static_cast<Eigen::Index>(i)) << at.stress, interior.temperature_at(finite.element().x[i]),
+          at.strain_zz;
+    }
+    return values;
   }
   const mesh::Cell& cell = discretisation.mesh.bodies[body].cells[c];
   const std::size_t inner = first + static_cast<std::size_t>(of_cell.inner);
@@ -123,7 +124,7 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::Discretisa
                    const analysis::FieldState& state, std::size_t body, const CellsBody& made, const Grid& grid,
                    const CompleteSums& complete) {
   const mesh::BodyMesh& mesh = discretisation.mesh.bodies[body];
-  SharedValues sums = SharedValues::Zero(4, static_cast<Eigen::Index>(made.nodes.size()));
+  SharedValues sums = SharedValues::Zero(5, static_cast<Eigen::Index>(made.nodes.size()));
   std::vector<int> cells_at(made.nodes.size(), 0);
   constexpr std::size_t at_once = 4096;  // the sums are made in the order of the cells, whatever the threads
   std::vector<SharedValues> of_part(std::min(at_once, mesh.cells.size()));
@@ -145,10 +146,10 @@ void recover_cells(Fields& fields, std::size_t first, const analysis::Discretisa
   const Vector& u = state.displacements[body];
   for (std::size_t point = 0; point < made.nodes.size(); ++point) {
     const int node = made.nodes[point];
-    const Eigen::Vector4d values = sums.col(static_cast<Eigen::Index>(point)) / cells_at[point];
+    const Eigen::Vector<double, 5> values = sums.col(static_cast<Eigen::Index>(point)) / cells_at[point];
     set_values(fields, first + point, u.segment<2>(place_of(node)), values.head<3>(),
                mesh.nodes[static_cast<std::size_t>(node)], discretisation, made.materials[point], values[3],
-               state.initial_of(body));
+               state.initial_of(body), values[4]);
   }
 }
 

@@ -17,8 +17,8 @@
 
 namespace scabo::result {
 
-/// Stress and temperature at points on the sides of cells, 4 x points.
-using SharedValues = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+/// Stress, temperature and strain zz at points on the sides of cells, 5 x points.
+using SharedValues = Eigen::Matrix<double, 5, Eigen::Dynamic>;
 
 /// Values at the points that the cells of a body share are sums over these cells, divided by their number. Where other
 /// processes have cells of the body, it adds what they have: `nodes` and `materials` of every point, the sums and the

@@ -105,6 +105,7 @@ std::string report_header(const model::Model& model, const ModelSizes& sizes) {
   if (sizes.super_elements > 0) text += ", " + count(sizes.super_elements, "super-element");
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
   text += ", " + count(sizes.contact_pairs, "contact pair") + '\n';
+  if (model.analysis.revolved()) text += "bodies of revolution: forces are those of the whole circumference\n";
   for (const model::Contact& contact : model.contacts)
     text +=
         fmt::format("contact {}: {} on {}; {}\n", contact.name, contact.b.text, contact.a.text, describe_law(contact));

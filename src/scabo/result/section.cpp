@@ -117,7 +117,8 @@ std::vector<SectionPoint> points_of_section(const analysis::Discretisation& disc
         point.at.at = section.from + t * along;
         point.normal = n;
         point.arm = (t - 0.5) * along;
-        point.weight = 0.5 * rule.weights[g] * (part.second - part.first) * length * model.analysis.thickness;
+        point.weight =
+            0.5 * rule.weights[g] * (part.second - part.first) * length * model.analysis.extent().at(point.at.at.x());
         points.push_back(std::move(point));
       }
     }

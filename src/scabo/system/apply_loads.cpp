@@ -45,7 +45,7 @@ class Applied {
     }
     const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
     if (!at.elements.empty()) {
-      const Vec2 traction = force.value / (length_of(at.elements, body_mesh_.nodes) * thickness());
+      const Vec2 traction = force.value / area_of(at.elements, body_mesh_.nodes, extent());
       apply_traction(at, [&](const Vec2&, const Vec2&) { return traction; });
     } else {
       nodal = Vector::Zero(size());
@@ -75,7 +75,8 @@ class Applied {
   void operator()(const model::Gravity& gravity) {
     if (body_.rigid) {
       nodal = Vector::Zero(3);
-      const double mass = body_.density.value_or(0.0) * body_.outline.area() * thickness();
+      const double mass =
+          body_.density.value_or(0.0) * body_.outline.area() * extent().at(body_.outline.centroid().x());
       return add_to_rigid(body_.outline.centroid(), mass * gravity.value);
     }
     const auto density_of = [&](int material) {
@@ -90,8 +91,15 @@ class Applied {
         },
         [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads&) {
           const Vec2 force = material.density.value_or(0.0) * gravity.value;
-          return element::finite_element_body_force(cell, {force.x()}, {force.y()}, thickness());
+          return element::finite_element_body_force(cell, {force.x()}, {force.y()}, extent());
         });
+  }
+
+  void operator()(const model::Spin& spin) {
+    for_each_cell([](const auto&...) {},
+                  [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads&) {
+                    return element::finite_element_spin_force(cell, material.density.value_or(0.0), spin.value);
+                  });
   }
 
   void operator()(const model::FaceTraction& traction) {
@@ -132,7 +140,7 @@ class Applied {
               element::body_force_loads(cell.ring, about(centre, force.x), about(centre, force.y), thickness());
         },
         [&](const element::FiniteElement& cell, const model::Material&, element::InteriorLoads&) {
-          return element::finite_element_body_force(cell, linear(force.x), linear(force.y), thickness());
+          return element::finite_element_body_force(cell, linear(force.x), linear(force.y), extent());
         });
   }
 
@@ -147,10 +155,8 @@ class Applied {
         },
         [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads& loads) {
           loads.temperature = linear(change);
-          const model::Plane plane = model_.analysis.plane;
-          return element::finite_element_thermal_force(cell, element::elasticity_matrix(material, plane),
-                                                       element::thermal_strain(material, plane), loads.temperature,
-                                                       thickness());
+          return element::finite_element_thermal_force(cell, element::section_law(material, model_.analysis.plane),
+                                                       loads.temperature, extent());
         });
   }
 
@@ -190,7 +196,6 @@ class Applied {
   /// Every cell takes the nearest linear field; a super-element of one material, without side faces, also the
   /// remainder.
   void apply(const model::TemperatureTable& table) {
-    const model::Plane plane = model_.analysis.plane;
     for_each_cell(
         [&](const element::SolvedSuperElement& cell, const Vec2& centre, element::InteriorLoads& loads) {
           element::TableInCell in_cell = element::in_cell(table, polygon_of(cell, centre));
@@ -211,9 +216,8 @@ class Applied {
               polygon.push_back(cell.x[static_cast<std::size_t>(corner + cell.corners())]);
           }
           loads.temperature = element::in_cell(table, polygon).linear;
-          return element::finite_element_thermal_force(cell, element::elasticity_matrix(material, plane),
-                                                       element::thermal_strain(material, plane), loads.temperature,
-                                                       thickness());
+          return element::finite_element_thermal_force(cell, element::section_law(material, model_.analysis.plane),
+                                                       loads.temperature, extent());
         });
     for (std::size_t c = 0; c < interior.size(); ++c)
       for (const element::TemperatureRemainder& remainder : interior[c].remainders)
@@ -274,7 +278,7 @@ class Applied {
     const auto released = [&](const Vec2& x, const Vec2& n) {
       return Vec2(sign * element::traction_of(stress.at(x), n));
     };
-    nodal += traction_forces(boundary, body_mesh_.nodes, thickness(), released, {[](const Vec2&) { return 0.0; }, {}});
+    nodal += traction_forces(boundary, body_mesh_.nodes, extent(), released, {[](const Vec2&) { return 0.0; }, {}});
     release_side_faces(stress);
   }
 
@@ -360,19 +364,20 @@ class Applied {
   }
   Eigen::Index size() const { return places_of(body_mesh_.nodes.size()); }
   double thickness() const { return model_.analysis.thickness; }
+  Extent extent() const { return model_.analysis.extent(); }
   void apply_traction(const mesh::PlaceNodes& at, const TractionField& traction) {
-    nodal = traction_forces(at.elements, body_mesh_.nodes, thickness(), traction);
+    nodal = traction_forces(at.elements, body_mesh_.nodes, extent(), traction);
   }
 
   void apply(const VaryingTraction& varying) {
     if (body_.rigid) return apply_to_rigid(varying);
-    nodal = traction_forces(mesh::nodes_of(*place_, mesh_).elements, body_mesh_.nodes, thickness(), varying.traction,
+    nodal = traction_forces(mesh::nodes_of(*place_, mesh_).elements, body_mesh_.nodes, extent(), varying.traction,
                             varying.breaks);
   }
   /// Force and moment of a traction on the edge of a rigid body.
   void apply_to_rigid(const VaryingTraction& varying) {
     const EdgeElements edge = elements_of(body_.outline.edges[static_cast<std::size_t>(place_->index)]);
-    const Vector forces = traction_forces(edge.elements, edge.nodes, thickness(), varying.traction, varying.breaks);
+    const Vector forces = traction_forces(edge.elements, edge.nodes, extent(), varying.traction, varying.breaks);
     nodal = Vector::Zero(3);
     for (std::size_t i = 0; i < edge.nodes.size(); ++i) add_to_rigid(edge.nodes[i], forces.segment<2>(place_of(i)));
   }

@@ -249,8 +249,8 @@ linalg::SparseMatrix stiffness_of(const model::Model& model, std::size_t nodes, 
   return assembled(
       nodes, bodies, threads, [](const element::SolvedSuperElement& cell) -> const Matrix& { return cell.K(); },
       [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
-        const element::Mat3 D = element::elasticity_matrix(material_of(model, cell), model.analysis.plane);
-        return element::finite_element_stiffness(finite, D, model.analysis.thickness);
+        const element::SectionLaw law = element::section_law(material_of(model, cell), model.analysis.plane);
+        return element::finite_element_stiffness(finite, law, model.analysis.extent());
       });
 }
 
@@ -259,7 +259,7 @@ linalg::SparseMatrix mass_of(const model::Model& model, std::size_t nodes, const
   return assembled(
       nodes, bodies, 1, [&](const element::SolvedSuperElement& cell) -> const Matrix& { return *masses.of(cell); },
       [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
-        return element::finite_element_mass(finite, *material_of(model, cell).density, model.analysis.thickness);
+        return element::finite_element_mass(finite, *material_of(model, cell).density, model.analysis.extent());
       });
 }
 
@@ -297,6 +297,9 @@ Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
     stiffness.sparse = stiffness_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), threads);
   }
   stiffness.resists_rigid_motions = dofs.is_unbounded(part);
+  stiffness.revolved = dofs.revolved();
+  for (std::size_t i = 0; i < dofs.nodes(part).size(); ++i)
+    if (dofs.is_on_axis(part, dofs.nodes(part)[i])) stiffness.on_axis.push_back(static_cast<int>(place_of(i)));
   return stiffness;
 }
 
@@ -346,11 +349,11 @@ std::optional<Stiffness> part_damping(const model::Model& model, const mesh::Mes
       [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
         const model::Material& material = material_of(model, cell);
         const model::Damping damping = damping_of(cell.materials.front());
-        const element::Mat3 D = element::elasticity_matrix(material, model.analysis.plane);
-        const double thickness = model.analysis.thickness;
+        const element::SectionLaw law = element::section_law(material, model.analysis.plane);
+        const Extent extent = model.analysis.extent();
         return element::ElementMatrix(damping.of_mass() *
-                                          element::finite_element_mass(finite, *material.density, thickness) +
-                                      damping.of_stiffness() * element::finite_element_stiffness(finite, D, thickness));
+                                          element::finite_element_mass(finite, *material.density, extent) +
+                                      damping.of_stiffness() * element::finite_element_stiffness(finite, law, extent));
       });
   return C;
 }

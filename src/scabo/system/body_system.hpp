@@ -91,6 +91,8 @@ class BodySystem {
   /// Whether its stiffness resists rigid motions, so that its forces need not be in balance: an unbounded body, and any
   /// body in time (inertia.hpp).
   virtual bool resists_rigid_motions() const { return false; }
+  /// Whether it is a body of revolution, of whose motions only that along the axis is free.
+  virtual bool is_revolved() const = 0;
   /// Whether several processes have its stiffness.
   virtual bool is_divided() const { return false; }
   /// Not of a divided one.
@@ -162,16 +164,17 @@ struct NotPositiveDefinitePart : linalg::NotPositiveDefinite {
   std::size_t part;
 };
 
-/// A rigid body with reference point `reference` and extent `size`; the matrix of its springs is 3 x 3. If constraints
+/// A rigid body with reference point `reference` and extent `size`; the matrix of its springs is 3 x 3. `revolved`: it
+/// moves along y only, the axis of revolution. If constraints
 /// contradict each other, `contradiction` is set to a description of the first that does, which the caller must report;
 /// otherwise it is empty.
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
-                                       Springs springs, std::string& contradiction);
+                                       Springs springs, std::string& contradiction, bool revolved = false);
 
 /// Rigid motions that constraints and springs leave free in an elastic body, as [u_x, u_y, L rotation], 3 x m; sets the
-/// centre of rotation and L.
+/// centre of rotation and L. `revolved`: of a body of revolution.
 Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints,
-                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever);
+                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever, bool revolved = false);
 
 /// Displacement of a point `x` of a rigid body per unit [u_x, u_y, L rotation], 2 x 3.
 Eigen::Matrix<double, 2, 3> rigid_point(const Vec2& x, const Vec2& reference, double lever);

@@ -65,7 +65,7 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
   laws.area = Vector::Ones(static_cast<Eigen::Index>(pairs.size()));
   int contact_before = -1;
   std::vector<double> positions;
-  std::vector<double> lengths;
+  std::vector<double> areas;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const ContactSystem::Pair& at = pairs[k];
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(at.contact)];
@@ -73,11 +73,11 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
     if (at.contact != contact_before) {
       contact_before = at.contact;
       positions = positions_along(interface);
-      lengths = tributary_lengths(at.contact, model, mesh);
+      areas = tributary_areas(at.contact, model, mesh);
     }
     const auto index = static_cast<std::size_t>(at.index);
     laws.of_pair.push_back(law_of(contact, positions[index]));
-    laws.area[static_cast<Eigen::Index>(k)] = lengths[index] * model.analysis.thickness;
+    laws.area[static_cast<Eigen::Index>(k)] = areas[index];
   }
   return laws;
 }

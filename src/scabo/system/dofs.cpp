@@ -10,7 +10,10 @@
 namespace scabo::system {
 
 Dofs::Dofs(const model::Model& model, const mesh::Mesh& mesh)
-    : components_(mesh.components()), part_of_(model.bodies.size()), numbers_(model.bodies.size()) {
+    : components_(mesh.components()),
+      revolved_(model.analysis.revolved()),
+      part_of_(model.bodies.size()),
+      numbers_(model.bodies.size()) {
   DisjointSets bodies(model.bodies.size());
   for (const model::Tie& tie : model.ties)
     bodies.join(static_cast<std::size_t>(tie.a.body), static_cast<std::size_t>(tie.b.body));
@@ -48,6 +51,8 @@ Dofs::Dofs(const model::Model& model, const mesh::Mesh& mesh)
         if (part.bodies.size() > 1) numbers_[b].push_back(of_root);
       }
     }
+  for (Part& part : parts_)
+    for (const Vec2& x : part.nodes) part.rounding = std::max(part.rounding, 1e-9 * x.lpNorm<Eigen::Infinity>());
 }
 
 std::string Dofs::name_of(std::size_t part, const model::Model& model) const {

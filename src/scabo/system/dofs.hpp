@@ -32,6 +32,10 @@ class Dofs {
   Eigen::Index size(std::size_t part) const {
     return parts_[part].rigid ? components_.rigid_motions() : components_.count(parts_[part].nodes.size());
   }
+  /// Whether bodies are of revolution, about x = 0.
+  bool revolved() const { return revolved_; }
+  /// Whether a point of an elastic part lies on the axis of revolution.
+  bool is_on_axis(std::size_t part, const Vec2& x) const { return revolved_ && x.x() <= parts_[part].rounding; }
   /// `body 'upper'`, or `the tied bodies 'wall', 'base'`; of many the first four, and how many others.
   std::string name_of(std::size_t part, const model::Model& model) const;
 
@@ -60,9 +64,11 @@ class Dofs {
     std::vector<int> bodies;
     std::vector<Vec2> nodes;
     bool rigid = false, unbounded = false;
+    double rounding = 0.0;  // of positions, length
   };
 
   Components components_;
+  bool revolved_ = false;
   std::vector<Part> parts_;
   std::vector<std::size_t> part_of_;       // of every body
   std::vector<std::vector<int>> numbers_;  // [body][node]: number in its part; empty: the same

@@ -17,11 +17,14 @@ namespace scabo::system {
 
 ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const Positions& nodes,
                          std::vector<Constraint> constraints)
-    : factored_(std::move(factored)), motions_(nodes), free_(static_cast<std::size_t>(nodes.columns().size()), true) {
+    : factored_(std::move(factored)),
+      motions_(nodes, factored_->stiffness.revolved),
+      free_(static_cast<std::size_t>(nodes.columns().size()), true) {
   constraints_ = std::move(constraints);
   inclined_ = InclinedNodes(constraints_);
   find_rigid_motions(nodes);
   for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
+  for (const int dof : stiffness().on_axis) free_[static_cast<std::size_t>(dof)] = false;
   solved_ = free_;
   further_ = further_dofs();
   for (int dof : further_) solved_[static_cast<std::size_t>(dof)] = false;
@@ -48,7 +51,7 @@ void ElasticBody::find_rigid_motions(const Positions& nodes) {
     find_rigid_motions_in_space(nodes.columns());
   } else {
     const std::vector<Vec2> in_plane = nodes.in_plane();
-    rigid_coordinates_ = free_motions(in_plane, constraints_, stiffness().springs.directions, reference_, lever_);
+    rigid_coordinates_ = free_motions(in_plane, constraints_, stiffness().springs.directions, reference_, lever_, is_revolved());
     if (stiffness().resists_rigid_motions) rigid_coordinates_ = Matrix::Zero(3, 0);
     rigid_motions_.resize(size(), rigid_coordinates_.cols());
     for (std::size_t i = 0; i < in_plane.size(); ++i)

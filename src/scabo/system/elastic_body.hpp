@@ -32,6 +32,7 @@ class ElasticBody final : public BodySystem {
   bool is_flexible() const override { return true; }
   bool has_springs() const override { return !stiffness().springs.none(); }
   bool resists_rigid_motions() const override { return stiffness().resists_rigid_motions; }
+  bool is_revolved() const override { return stiffness().revolved; }
   bool is_divided() const override { return stiffness().divided != nullptr; }
   Eigen::Index size() const override { return stiffness().size(); }
   double operations() const override;

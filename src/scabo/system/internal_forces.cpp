@@ -13,11 +13,12 @@ constexpr std::size_t lanes = 4;  // sums at a time: the additions of one sum wa
 
 linalg::Twofold sum_of(const linalg::Twofold (&parts)[lanes]) { return (parts[0] + parts[1]) + (parts[2] + parts[3]); }
 
-/// Takes the mean displacement of all nodes out of u.
+/// Takes the mean displacement of all nodes out of u, in the components from `first` on.
 template <int d>
-void take_mean_out(Vector& u) {
+void take_mean_out(Vector& u, int first) {
   auto by_node = u.reshaped(d, u.size() / d);
-  const Eigen::Matrix<double, d, 1> mean = by_node.rowwise().mean();
+  Eigen::Matrix<double, d, 1> mean = by_node.rowwise().mean();
+  mean.head(first).setZero();
   by_node.colwise() -= mean;
 }
 
@@ -43,10 +44,11 @@ linalg::Twofold dot(const linalg::TwofoldVector& a, const linalg::TwofoldVector&
 
 }  // namespace
 
-NodalRigidMotions::NodalRigidMotions(const Positions& nodes) : components_(nodes.components()) {
+NodalRigidMotions::NodalRigidMotions(const Positions& nodes, bool revolved)
+    : components_(nodes.components()), revolved_(revolved) {
   const auto d = static_cast<std::size_t>(components_.dimension);
   const linalg::Twofold count{static_cast<double>(nodes.count()), 0.0};
-  for (int axis = 0; axis < components_.rigid_motions() - components_.dimension; ++axis) {
+  for (int axis = 0; axis < components_.rigid_motions() - components_.dimension && !revolved; ++axis) {
     linalg::TwofoldVector turn = turned_about_origin(nodes.columns(), axis);
     for (std::size_t k = 0; k < d; ++k) {  // about the mean of the nodes: orthogonal to translations
       linalg::Twofold sum;
@@ -74,7 +76,7 @@ void NodalRigidMotions::take_out(linalg::TwofoldVector& v) const {
   linalg::Twofold sums[d][lanes], mean[d];
   for (std::size_t i = 0; i < nodes; ++i)
     for (std::size_t k = 0; k < d; ++k) sums[k][i % lanes] = sums[k][i % lanes] + v[d * i + k];
-  for (std::size_t k = 0; k < d; ++k) mean[k] = sum_of(sums[k]) / count;
+  for (std::size_t k = revolved_ ? 1 : 0; k < d; ++k) mean[k] = sum_of(sums[k]) / count;
   linalg::Twofold turned[most_rotations][lanes];
   for (std::size_t i = 0; i < nodes; ++i) {
     for (std::size_t k = 0; k < d; ++k) v[d * i + k] = v[d * i + k] - mean[k];
@@ -97,7 +99,7 @@ Vector NodalRigidMotions::taken_out_of(Vector u) const {
 
 template <int d>
 Vector NodalRigidMotions::taken_out(Vector u) const {
-  take_mean_out<d>(u);
+  take_mean_out<d>(u, revolved_ ? 1 : 0);
   for (const Rotation& rotation : rotations_) {
     double product = 0.0, square = 0.0;
     for (Eigen::Index i = 0; i < u.size(); ++i) {
@@ -119,6 +121,7 @@ Vector NodalRigidMotions::resultants_of(const Vector& forces) const {
     for (std::size_t k = 0; k < rotations_.size(); ++k)
       sums[d + static_cast<Eigen::Index>(k)] += forces[i] * rotations_[k].turn[static_cast<std::size_t>(i)].high;
   }
+  if (revolved_) sums[0] = 0.0;
   return sums;
 }
 
@@ -126,14 +129,17 @@ bool is_large(const Stiffness& stiffness) { return stiffness.size() >= 20000; }
 
 bool by_differences(const Stiffness& stiffness, const NodalRigidMotions& motions) {
   return motions.components().dimension == 2 && is_large(stiffness) && !stiffness.resists_rigid_motions &&
-         !stiffness.divided && !stiffness.dense;
+         !stiffness.revolved && !stiffness.divided && !stiffness.dense;
 }
 
 Vector internal_forces(const Stiffness& stiffness, const NodalRigidMotions& motions, Vector u) {
   if (by_differences(stiffness, motions))
     return forces_left(stiffness, motions, linalg::twofold(u), Vector::Zero(u.size()), Product::by_differences);
   const Vector springs = stiffness.springs.none() ? Vector() : stiffness.springs.times(u);
-  if (!stiffness.resists_rigid_motions) motions.components().dimension == 2 ? take_mean_out<2>(u) : take_mean_out<3>(u);
+  if (!stiffness.resists_rigid_motions) {
+    const int first = stiffness.revolved ? 1 : 0;
+    motions.components().dimension == 2 ? take_mean_out<2>(u, first) : take_mean_out<3>(u, first);
+  }
   Vector forces = stiffness.times(u);
   if (!stiffness.springs.none()) forces += springs;
   return forces;

@@ -13,10 +13,11 @@
 namespace scabo::system {
 
 /// Rigid motions of the nodes of a body, in the plane or in space: the translations, and rotations about the mean of
-/// the nodes (one, or three), which are orthogonal to them and to each other.
+/// the nodes (one, or three), which are orthogonal to them and to each other. `revolved`: of a body of revolution, the
+/// motion along its axis alone.
 class NodalRigidMotions {
  public:
-  explicit NodalRigidMotions(const Positions& nodes);
+  explicit NodalRigidMotions(const Positions& nodes, bool revolved = false);
   const Components& components() const { return components_; }
 
   /// By sums in twice the working precision: those of half a million forces of weight lose 1e-10 of the largest
@@ -38,6 +39,7 @@ class NodalRigidMotions {
   Vector taken_out(Vector u) const;
 
   Components components_;
+  bool revolved_;
   std::vector<Rotation> rotations_;
 };
 

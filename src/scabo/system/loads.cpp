@@ -62,8 +62,8 @@ std::vector<double> parts_of(const mesh::LineElement& element, const geometry::L
 
 }  // namespace
 
-Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
-                       const TractionField& traction, const Breaks& breaks) {
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
+                       const Extent& extent, const TractionField& traction, const Breaks& breaks) {
   Vector f = Vector::Zero(places_of(nodes.size()));
   for (const mesh::LineElement& element : elements) {
     const int order = static_cast<int>(element.nodes.size()) - 1;
@@ -82,7 +82,7 @@ Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std
         }
         const double length = x_eta.norm();
         const Vec2 force =
-            traction(x, Vec2(x_eta.y(), -x_eta.x()) / length) * (half * rule.weights[q] * length * thickness);
+            traction(x, Vec2(x_eta.y(), -x_eta.x()) / length) * (half * rule.weights[q] * length * extent.at(x.x()));
         for (std::size_t i = 0; i < element.nodes.size(); ++i)
           f.segment<2>(place_of(element.nodes[i])) += N[static_cast<Eigen::Index>(i)] * force;
       }
@@ -153,23 +153,24 @@ EdgeElements elements_of(const model::Edge& edge) {
   return made;
 }
 
-Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
-                       const TractionField& traction) {
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
+                       const Extent& extent, const TractionField& traction) {
   Vector f = Vector::Zero(places_of(nodes.size()));
   for (const mesh::LineElement& element : elements)
     integrate(element, nodes, [&](const auto& N, const Vec2& x, const Vec2& n, double ds) {
-      const Vec2 force = traction(x, n) * (ds * thickness);
+      const Vec2 force = traction(x, n) * (ds * extent.at(x.x()));
       for (std::size_t i = 0; i < element.nodes.size(); ++i)
         f.segment<2>(place_of(element.nodes[i])) += N[static_cast<Eigen::Index>(i)] * force;
     });
   return f;
 }
 
-double length_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes) {
-  double length = 0.0;
+double area_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, const Extent& extent) {
+  double area = 0.0;
   for (const mesh::LineElement& element : elements)
-    integrate(element, nodes, [&](const auto&, const Vec2&, const Vec2&, double ds) { length += ds; });
-  return length;
+    integrate(element, nodes,
+              [&](const auto&, const Vec2& x, const Vec2&, double ds) { area += ds * extent.at(x.x()); });
+  return area;
 }
 
 }  // namespace scabo::system

@@ -11,8 +11,8 @@ namespace scabo::system {
 using TractionField = std::function<Vec2(const Vec2& x, const Vec2& n)>;
 
 /// Nodal forces (two per node) of a traction on line elements, computed with their shape functions.
-Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
-                       const TractionField& traction);
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
+                       const Extent& extent, const TractionField& traction);
 
 /// The same of a traction that is smooth but where `position(x)` takes one of the values `breaks`: elements are
 /// integrated in parts there. Exact on straight elements for a traction that is linear between the breaks.
@@ -20,8 +20,8 @@ struct Breaks {
   std::function<double(const Vec2& x)> position;
   std::vector<double> at;
 };
-Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, double thickness,
-                       const TractionField& traction, const Breaks& breaks);
+Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
+                       const Extent& extent, const TractionField& traction, const Breaks& breaks);
 
 /// A traction on an edge that varies along it, and where it is not smooth.
 struct VaryingTraction {
@@ -38,7 +38,7 @@ struct EdgeElements {
 };
 EdgeElements elements_of(const model::Edge& edge);
 
-/// Length of the elements as divided.
-double length_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes);
+/// Area of the elements as divided.
+double area_of(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes, const Extent& extent);
 
 }  // namespace scabo::system

@@ -21,7 +21,7 @@ VaryingTraction traction_of(const model::PorePressure& pores) {
 
 /// Eq. (1) on one elastic side, by its nodes; without those of which it does not hold.
 std::map<int, Vec2> forces_of_side(const model::Place& place, const std::vector<int>& paired,
-                                   const VaryingTraction& load, double thickness, const mesh::Mesh& mesh) {
+                                   const VaryingTraction& load, const Extent& extent, const mesh::Mesh& mesh) {
   const std::vector<Vec2>& nodes = mesh.bodies[static_cast<std::size_t>(place.body)].nodes;
   std::map<int, int> pairs_of;
   for (const int node : paired) ++pairs_of[node];
@@ -29,7 +29,7 @@ std::map<int, Vec2> forces_of_side(const model::Place& place, const std::vector<
   for (const mesh::LineElement& element : mesh::nodes_of(place, mesh).elements)
     if (std::all_of(element.nodes.begin(), element.nodes.end(), [&](int node) { return pairs_of.contains(node); }))
       covered.push_back(element);
-  const Vector forces = traction_forces(covered, nodes, thickness, load.traction, load.breaks);
+  const Vector forces = traction_forces(covered, nodes, extent, load.traction, load.breaks);
   std::map<int, Vec2> of_nodes;
   for (const mesh::LineElement& element : covered)
     for (const int node : element.nodes)
@@ -46,7 +46,7 @@ double pressure_at(const model::PorePressure& pores, const Vec2& x) {
 Vector pore_forces(const model::PorePressure& pores, int contact, const model::Model& model, const mesh::Mesh& mesh) {
   const model::Contact& named = model.contacts[static_cast<std::size_t>(contact)];
   const std::vector<mesh::ContactPair>& pairs = mesh.interfaces[static_cast<std::size_t>(contact)].pairs;
-  const std::vector<double> lengths = tributary_lengths(contact, model, mesh);
+  const std::vector<double> areas = tributary_areas(contact, model, mesh);
   const VaryingTraction load = traction_of(pores);
   Vector sum = Vector::Zero(static_cast<Eigen::Index>(pairs.size()));
   std::vector<int> sides(pairs.size(), 0);
@@ -55,7 +55,7 @@ Vector pore_forces(const model::PorePressure& pores, int contact, const model::M
     if (model.bodies[static_cast<std::size_t>(place.body)].rigid) continue;
     std::vector<int> paired;
     for (const mesh::ContactPair& pair : pairs) paired.push_back(on_b ? pair.node_b : pair.node_a);
-    const std::map<int, Vec2> forces = forces_of_side(place, paired, load, model.analysis.thickness, mesh);
+    const std::map<int, Vec2> forces = forces_of_side(place, paired, load, model.analysis.extent(), mesh);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto found = forces.find(paired[i]);
       if (found == forces.end()) continue;
@@ -65,8 +65,7 @@ Vector pore_forces(const model::PorePressure& pores, int contact, const model::M
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     double& force = sum[static_cast<Eigen::Index>(i)];
-    force =
-        sides[i] > 0 ? force / sides[i] : pressure_at(pores, pairs[i].point_a) * lengths[i] * model.analysis.thickness;
+    force = sides[i] > 0 ? force / sides[i] : pressure_at(pores, pairs[i].point_a) * areas[i];
   }
   return sum;
 }

@@ -14,8 +14,8 @@ namespace {
 
 class RigidBody final : public BodySystem {
  public:
-  RigidBody(const Vec2& reference, double size, std::vector<Constraint> constraints, Springs springs)
-      : springs_(std::move(springs)) {
+  RigidBody(const Vec2& reference, double size, std::vector<Constraint> constraints, Springs springs, bool revolved)
+      : springs_(std::move(springs)), revolved_(revolved) {
     constraints_ = std::move(constraints);
     reference_ = reference;
     lever_ = size;
@@ -27,13 +27,15 @@ class RigidBody final : public BodySystem {
                               : Eigen::RowVector3d(constraint.direction().transpose() *
                                                    rigid_point(constraint.point, reference_, lever_));
     }
-    const Matrix left_by_supports = null_space(held_);
+    if (revolved_) held_.col(0).setZero(), held_.col(2).setZero();
+    const Matrix left_by_supports = left_free();
     rigid_motions_ = rigid_coordinates_ = at_rest(left_by_supports, springs_.directions, reference_, lever_);
     constrained_.compute(held_);
     if (!springs_.none()) find_flexibility(left_by_supports);
   }
 
   Eigen::Index size() const override { return 3; }
+  bool is_revolved() const override { return revolved_; }
 
   Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced&) const override {
     Vector u = Vector::Zero(3);
@@ -60,7 +62,7 @@ class RigidBody final : public BodySystem {
 
   /// v: the motions that springs resist, then the free ones.
   FreeStiffness free_stiffness() const override {
-    const Matrix Y = resisted_motions(null_space(held_));
+    const Matrix Y = resisted_motions(left_free());
     const Eigen::Index resisted = Y.cols(), m = rigid_motions_.cols();
     FreeStiffness free;
     Matrix map(3, resisted + m), K = Matrix::Zero(resisted + m, resisted + m);
@@ -75,7 +77,11 @@ class RigidBody final : public BodySystem {
   }
   double operations() const override { return 0.0; }
 
-  Vector unbalanced(const Vector& u, const Vector& f) const override { return -(f + spring_forces(u)); }
+  Vector unbalanced(const Vector& u, const Vector& f) const override {
+    Vector left = -(f + spring_forces(u));
+    if (revolved_) left[0] = left[2] = 0.0;  // in balance around the axis
+    return left;
+  }
 
   Vector reactions_of(const Vector& unbalanced) const override {
     if (held_.rows() == 0) return Vector();
@@ -106,6 +112,12 @@ class RigidBody final : public BodySystem {
   }
 
  private:
+  /// Motions that supports leave, and of a body of revolution its shape.
+  Matrix left_free() const {
+    if (!revolved_) return null_space(held_);
+    return held_.rows() > 0 ? Matrix(3, 0) : Matrix(Eigen::Vector3d::UnitY());
+  }
+
   /// Y: motions that supports leave free and springs resist, 3 x k.
   Matrix resisted_motions(const Matrix& left_by_supports) const {
     const Matrix along_rest = left_by_supports.transpose() * rigid_motions_;
@@ -125,6 +137,7 @@ class RigidBody final : public BodySystem {
 
   Matrix held_;  // constraints x 3
   Springs springs_;
+  bool revolved_;
   Matrix flexibility_;  // A, 3 x 3; empty: no force moves the body
   Eigen::CompleteOrthogonalDecomposition<Matrix> constrained_;
 };
@@ -132,8 +145,8 @@ class RigidBody final : public BodySystem {
 }  // namespace
 
 std::unique_ptr<BodySystem> rigid_body(const Vec2& reference, double size, std::vector<Constraint> constraints,
-                                       Springs springs, std::string& contradiction) {
-  auto body = std::make_unique<RigidBody>(reference, size, std::move(constraints), std::move(springs));
+                                       Springs springs, std::string& contradiction, bool revolved) {
+  auto body = std::make_unique<RigidBody>(reference, size, std::move(constraints), std::move(springs), revolved);
   const auto [amount, which] = body->contradiction();
   if (amount > 1e-9) contradiction = fmt::format("constraint {} cannot hold together with the others", which + 1);
   return body;

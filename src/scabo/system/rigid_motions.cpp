@@ -59,16 +59,18 @@ Matrix at_rest(const Matrix& free, const std::vector<HeldDirection>& springs, co
 }
 
 Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints,
-                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever) {
+                    const std::vector<HeldDirection>& springs, Vec2& reference, double& lever, bool revolved) {
   Vec2 low = nodes.front(), high = nodes.front();
   for (const Vec2& x : nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
   reference = 0.5 * (low + high);
   lever = 0.5 * (high - low).norm();
-  Matrix held(static_cast<Eigen::Index>(constraints.size()), 3);
+  const auto count = static_cast<Eigen::Index>(constraints.size());
+  Matrix held = Matrix::Zero(count + (revolved ? 2 : 0), 3);
   for (std::size_t c = 0; c < constraints.size(); ++c)
     held.row(static_cast<Eigen::Index>(c)) =
         constraints[c].direction().transpose() *
         rigid_point(nodes[static_cast<std::size_t>(plane_components.node_of(constraints[c].dof))], reference, lever);
+  if (revolved) held(count, 0) = held(count + 1, 2) = 1.0;
   return at_rest(null_space(held), springs, reference, lever);
 }
 

@@ -37,6 +37,8 @@ struct Stiffness {
   bool resists_rigid_motions =
       false;  ///< no rigid motion is free: it reaches to infinity, or has inertia (inertia.hpp)
   Springs springs = {};
+  bool revolved = false;          ///< body of revolution: of the rigid motions it resists all but that along its axis
+  std::vector<int> on_axis = {};  ///< then: radial degrees of freedom on the axis, which are 0
 
   Eigen::Index size() const;
   Vector times(const Vector& u) const;

@@ -53,7 +53,8 @@ class ConstraintCollector {
             support.at ? std::vector<Vec2>{*support.at} : rigid_points(support.on, model_.bodies[body]);
         for (const Vec2& point : points)
           constraints_[part].push_back(constraint_along(support, component, point, index, *value));
-        if (!support.rotation && support.on.kind == model::Place::Kind::body && !holds_rotation(part))
+        if (!support.rotation && support.on.kind == model::Place::Kind::body && !dofs_.revolved() &&
+            !holds_rotation(part))
           constraints_[part].push_back({-1, Vec2::Zero(), component, true, index, 0.0, Vec2::Zero()});
         continue;
       }
@@ -114,9 +115,31 @@ class ConstraintCollector {
     return made;
   }
 
+  /// Of a node on the axis of revolution, whose radius stays: whether the constraint says more, then of its motion
+  /// along the axis.
+  bool holds_along_axis(int body, int node, Constraint& made) {
+    const Vec2 d = made.direction();
+    if (std::abs(d.y()) > parallel) {
+      made.component = 1;
+      made.value /= d.y();
+      return true;
+    }
+    if (made.value != 0.0 && reported_.insert({made.support, made.support}).second) {
+      const model::Support& support = model_.supports[static_cast<std::size_t>(made.support)];
+      const Vec2& x = mesh_.bodies[static_cast<std::size_t>(body)].nodes[static_cast<std::size_t>(node)];
+      diagnostics_.push_back(
+          {support.source, fmt::format("support '{}' moves the point ({:.6g}, {:.6g}) away from the axis "
+                                       "of revolution, where the radius stays 0: let its edge end "
+                                       "beside the axis",
+                                       support.name, x.x(), x.y())});
+    }
+    return false;
+  }
+
   /// Adds a constraint of a node, unless others hold it already.
   void add(int body, int node, Constraint made) {
     const std::size_t part = dofs_.part_of(body);
+    if (dofs_.is_on_axis(part, made.point) && !holds_along_axis(body, node, made)) return;
     const int first = dofs_.of(body, node, 0);
     std::vector<std::size_t>& others = held_by_[part][first];
     const auto other = [&](std::size_t k) -> const Constraint& { return constraints_[part][others[k]]; };
@@ -178,13 +201,15 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
                                             std::vector<Constraint> constraints, const Springs& springs) {
   std::string contradiction;
   const int last_support = constraints.empty() ? -1 : constraints.back().support;
-  auto system =
-      rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), springs, contradiction);
+  auto system = rigid_body(body.outline.centroid(), half_size(body.outline), std::move(constraints), springs,
+                           contradiction, model.analysis.revolved());
   if (!contradiction.empty())
     throw InputError(model.file, {{model.supports[static_cast<std::size_t>(last_support)].source,
                                    fmt::format("the supports of rigid body '{}' contradict each other: a rigid body "
-                                               "can only translate and rotate as a whole",
-                                               body.name)}});
+                                               "can only {}",
+                                               body.name,
+                                               model.analysis.revolved() ? "move along the axis as a whole"
+                                                                         : "translate and rotate as a whole")}});
   return system;
 }
 
@@ -251,7 +276,8 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
       lever = system->lever();
       free = system->rigid_coordinates();
     } else {
-      free = free_motions(dofs.nodes(p), constraints[p], springs.of_part[p].directions, reference, lever);
+      free =
+          free_motions(dofs.nodes(p), constraints[p], springs.of_part[p].directions, reference, lever, dofs.revolved());
     }
     if (free.cols() == 0) continue;
     std::string motions;

@@ -194,12 +194,12 @@ std::vector<ThermalEnergy> thermal_energies(const model::Model& model, const mes
         }
         const element::FiniteElement finite = element::finite_element_of(cell, mesh.bodies[body].nodes);
         const model::Material& material = model.materials[static_cast<std::size_t>(cell.materials.front())];
+        const element::SectionLaw law = element::section_law(material, model.analysis.plane);
         const double heat =
-            heat_of(element::elasticity_matrix(material, model.analysis.plane),
-                    element::thermal_strain(material, model.analysis.plane), material, model.analysis.plane);
+            law.unit_strain.dot(law.D * law.unit_strain) + element::heat_across(material, model.analysis.plane);
         add([&](const InteriorLoads& one, const InteriorLoads& other) {
           return heat *
-                 element::finite_element_product(finite, one.temperature, other.temperature, model.analysis.thickness);
+                 element::finite_element_product(finite, one.temperature, other.temperature, model.analysis.extent());
         });
       }
     }

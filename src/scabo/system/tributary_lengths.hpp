@@ -22,6 +22,14 @@
 //     p (r - d / 2) / sqrt(r (r - d)),                                                                       (2)
 //
 // so that w_i is the integral of N_i times this amplification, and p is the pressure of all pairs.
+//
+// Of bodies of revolution pairs have areas instead, around the axis:
+//
+//     A_i = | int N_i 2 pi r x,eta d eta |                                                                   (3)
+//
+// which on the axis is 0 at order 2. A pair there has the area of the disc that is nearer to it than to the next pair,
+// and its pressure is not its force over that area, but extrapolated from the pairs beside it
+// (analysis/state/describe.cpp).
 #pragma once
 
 #include <vector>
@@ -32,5 +40,11 @@ namespace scabo::system {
 
 /// One for each pair of the interface of `contact` (index into Model::contacts); all are > 0.
 std::vector<double> tributary_lengths(int contact, const model::Model& model, const mesh::Mesh& mesh);
+
+/// Areas, likewise: lengths times the thickness, or of bodies of revolution (3).
+std::vector<double> tributary_areas(int contact, const model::Model& model, const mesh::Mesh& mesh);
+
+/// Whether a pair lies on the axis of revolution.
+bool is_on_axis(const mesh::ContactPair& pair, const mesh::Interface& interface, const model::Model& model);
 
 }  // namespace scabo::system

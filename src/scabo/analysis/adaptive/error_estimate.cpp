@@ -30,8 +30,8 @@ CellStiffness stiffness_of(const Discretisation& discretisation, std::size_t b, 
   const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
   const model::Material& material = discretisation.model.materials[static_cast<std::size_t>(cell.materials.front())];
   const auto& analysis = discretisation.model.analysis;
-  const element::ElementMatrix k = element::finite_element_stiffness(
-      finite, element::elasticity_matrix(material, analysis.plane), analysis.thickness);
+  const element::ElementMatrix k =
+      element::finite_element_stiffness(finite, element::section_law(material, analysis.plane), analysis.extent());
   std::vector<int> dofs;
   for (const int node : finite.nodes())
     for (const int component : {0, 1}) dofs.push_back(static_cast<int>(place_of(own.at(node), component)));

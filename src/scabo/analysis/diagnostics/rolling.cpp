@@ -59,7 +59,7 @@ struct Turning {
 
 bool may_turn(const Prepared& prepared, std::size_t p) {
   const system::BodySystem& part = *prepared.structure.parts[p];
-  return !prepared.is_absent(p) && !part.has_springs() && part.rigid_motions().cols() > 0 &&
+  return !prepared.is_absent(p) && !part.has_springs() && !part.is_revolved() && part.rigid_motions().cols() > 0 &&
          !part.rigid_coordinates().row(2).isZero(1e-9);
 }
 

@@ -256,6 +256,8 @@ const char* why_zero(const model::Load& load) {
   if (const auto* gravity = std::get_if<model::Gravity>(&load.kind); gravity && !gravity->value.isZero(0.0))
     return "has no effect because the density of all materials that it acts on is 0: give them a density, or leave the "
            "load out";
+  if (std::holds_alternative<model::Spin>(load.kind))
+    return "has no effect because the spin, or the density of all materials that it acts on, is 0";
   if (std::holds_alternative<model::Temperature>(load.kind))
     return "has no effect because the temperature does not change, or the expansion of all materials that it acts on "
            "is 0";

@@ -191,8 +191,9 @@ void certify_structure(const Prepared& prepared, const State& state, std::vector
     if (dofs.is_rigid(p) || part.resists_rigid_motions()) continue;
     system::add_reactions(part.constraints(), state.reactions[p], forces);
     if (part.has_springs()) forces += part.spring_forces(state.u[p]);
+    const Eigen::Vector3d sum = resultant(part, dofs.nodes(p), forces);
     // Against all forces on the part: those of a fine mesh are small, and many.
-    const double unbalanced = resultant(part, dofs.nodes(p), forces).lpNorm<Eigen::Infinity>();
+    const double unbalanced = part.is_revolved() ? std::abs(sum[1]) : sum.lpNorm<Eigen::Infinity>();
     certificate.rigid_balance = std::max(certificate.rigid_balance, unbalanced / std::max(scale, forces.lpNorm<1>()));
   }
 }

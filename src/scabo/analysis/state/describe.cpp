@@ -6,6 +6,7 @@
 
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/state.hpp"
+#include "scabo/system/tributary_lengths.hpp"
 
 namespace scabo::analysis {
 
@@ -20,14 +21,35 @@ Vec2 displacement_at(const Prepared& prepared, const State& state, int contact, 
   return {u.dot(pair.normal), u.dot(tangent_of(pair.normal))};
 }
 
-void add_totals(const Vec2& about, ContactResult& result) {
+/// Pressure on the axis of revolution, where nodal forces say nothing of it: that of the pairs beside it, with the
+/// slope 0 that it has there, a + b r^2 through two of them that are closed.
+void set_on_axis(std::size_t axis, ContactResult& result) {
+  std::vector<const PairResult*> others;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i)
+    if (i != axis) others.push_back(&result.pairs[i]);
+  PairResult& pair = result.pairs[axis];
+  pair.pressure = pair.shear = 0.0;
+  if (others.empty()) return;
+  const auto count = static_cast<std::ptrdiff_t>(std::min<std::size_t>(2, others.size()));
+  std::partial_sort(
+      others.begin(), others.begin() + count, others.end(),
+      [](const PairResult* one, const PairResult* other) { return one->position.x() < other->position.x(); });
+  const PairResult& first = *others[0];
+  pair.pressure = first.pressure;
+  if (count < 2 || others[1]->state == contact::ContactState::open) return;
+  const double near = std::pow(first.position.x(), 2), far = std::pow(others[1]->position.x(), 2);
+  pair.pressure += (first.pressure - others[1]->pressure) * near / (far - near);
+}
+
+/// `revolved`: forces around an axis have no moment.
+void add_totals(const Vec2& about, bool revolved, ContactResult& result) {
   Vec2 weighted = Vec2::Zero();  // relative to `about`, so that distant coordinates keep their digits
   double pressing = 0.0;
   for (const PairResult& pair : result.pairs) {
     const Vec2 force = pair.normal_force * pair.normal + pair.tangential_force * tangent_of(pair.normal);
     const Vec2 arm = pair.position - about;
     result.force += force;
-    result.moment += cross(arm, force);
+    if (!revolved) result.moment += cross(arm, force);
     weighted += pair.normal_force * arm;
     pressing += std::abs(pair.normal_force);
   }
@@ -47,12 +69,13 @@ void add_totals(const Vec2& about, ContactResult& result) {
     result.last_in_contact = pair.pair;
   }
   constexpr double rounding_of_sum = 1e-9;  // of a contact that is pulled as much as it is pressed
-  if (result.normal_force > rounding_of_sum * pressing)
+  if (!revolved && result.normal_force > rounding_of_sum * pressing)
     result.centre_of_pressure = about + Vec2(weighted / result.normal_force);
 }
 
 std::vector<ContactResult> contact_results(const Prepared& prepared, const State& state) {
   std::vector<ContactResult> results(prepared.model.contacts.size());
+  std::vector<int> on_axis(results.size(), -1);  // of each contact, the pair there
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
     const mesh::ContactPair& pair = mesh_pair(prepared, at);
@@ -73,16 +96,21 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     row.displacement_a = displacement_at(prepared, state, at.contact, pair, 0);
     row.displacement_b = displacement_at(prepared, state, at.contact, pair, 1);
     ContactResult& result = results[static_cast<std::size_t>(at.contact)];
+    const mesh::Interface& interface = prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)];
+    if (system::is_on_axis(pair, interface, prepared.model))
+      on_axis[static_cast<std::size_t>(at.contact)] = static_cast<int>(result.pairs.size());
     result.pairs.push_back(row);
     if (contact.cohesion > 0.0 || contact.tension > 0.0)
       result.broken = result.broken.value_or(0) + state.history[i].broken;
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     results[c].name = prepared.model.contacts[c].name;
+    for (std::size_t i = 0; i < results[c].pairs.size(); ++i)
+      if (on_axis[c] == static_cast<int>(i)) set_on_axis(i, results[c]);
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
       if (const auto& pores = prepared.structure.pores[load]; !pores.empty() && pores[c])
         results[c].pore_force = results[c].pore_force.value_or(0.0) + state.factors.loads[load] * *pores[c];
-    add_totals(prepared.model.contacts[c].about, results[c]);
+    add_totals(prepared.model.contacts[c].about, prepared.model.analysis.revolved(), results[c]);
   }
   return results;
 }

@@ -42,9 +42,9 @@ class SumOverEdge {
       }
       const element::FiniteElement finite = element::finite_element_of(cell, body_.nodes);
       const model::Material& material = prepared_.model.materials[static_cast<std::size_t>(cell.materials.front())];
-      const element::Mat3 D = element::elasticity_matrix(material, prepared_.model.analysis.plane);
+      const element::SectionLaw law = element::section_law(material, prepared_.model.analysis.plane);
       add_cell(element::dofs_of(finite),
-               element::finite_element_stiffness(finite, D, prepared_.model.analysis.thickness), u);
+               element::finite_element_stiffness(finite, law, prepared_.model.analysis.extent()), u);
     }
   }
 

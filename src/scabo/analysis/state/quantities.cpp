@@ -50,7 +50,7 @@ Vec2 displacement_at(const Discretisation& discretisation, std::size_t b, const 
     return relative + interior.particular_displacement(x);
   }
   const element::FiniteElement of = element::finite_element_of(mesh.cells[place.cell], mesh.nodes);
-  return element::finite_element_values(of, u, element::Mat3::Identity(), place.natural).displacement;
+  return element::finite_element_values(of, u, element::SectionLaw(), place.natural).displacement;
 }
 
 std::vector<int> dofs_at(const Discretisation& discretisation, std::size_t b, std::size_t cell) {

@@ -57,7 +57,9 @@ bool body_is_there(const Prepared& now, int body) { return !now.is_absent(now.st
 std::string fingerprint_of_body(const Prepared& now, std::size_t b) {
   Fingerprint of;
   const model::Body& body = now.model.bodies[b];
-  of.add(now.model.analysis.plane == model::Plane::strain ? "strain" : "stress");
+  of.add(now.model.analysis.revolved()                      ? "axisymmetric"
+         : now.model.analysis.plane == model::Plane::strain ? "strain"
+                                                            : "stress");
   of.add(now.model.analysis.thickness);
   const std::size_t part = now.structure.dofs.part_of(static_cast<int>(b));
   for (const int other : now.structure.dofs.bodies_of(part))

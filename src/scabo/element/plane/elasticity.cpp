@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/base/error.hpp"
+
 namespace scabo::element {
 
 namespace {
@@ -41,10 +43,13 @@ Mat3 strain_in_turned_axes(double angle) {
   return T;
 }
 
+/// Whether strain 3 is not free.
+bool holds_third_axis(model::Plane plane) { return plane != model::Plane::stress; }
+
 Mat3 orthotropic(const model::Orthotropic& o, model::Plane plane) {
   Mat3 S = Mat3::Zero();
   S << 1.0 / o.E1, -o.nu12 / o.E1, 0.0, -o.nu12 / o.E1, 1.0 / o.E2, 0.0, 0.0, 0.0, 1.0 / o.G12;
-  if (plane == model::Plane::strain) {  // strain 3 = 0 eliminates stress 3
+  if (holds_third_axis(plane)) {  // strain 3 = 0 eliminates stress 3
     const Vec3 S3(-o.nu13 / o.E1, -o.nu23 / o.E2, 0.0);
     S -= o.E3 * S3 * S3.transpose();
   }
@@ -64,7 +69,7 @@ Mat3 elasticity_matrix(const model::Material& material, model::Plane plane) {
 }
 
 double heat_across(const model::Material& material, model::Plane plane) {
-  if (!material.expansion) return 0.0;
+  if (!material.expansion || plane == model::Plane::revolution) return 0.0;
   const double stress = stress_zz(Vec3::Zero(), material, plane, 1.0);
   return std::isfinite(stress) ? -stress * (*material.expansion)[2] : 0.0;
 }
@@ -79,7 +84,28 @@ Vec3 thermal_strain(const model::Material& material, model::Plane plane) {
   return strain_in_turned_axes(-third->angle) * strain;
 }
 
-double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane, double temperature) {
+SectionLaw::SectionLaw(const Mat3& plane, const Vec3& of_temperature) {
+  D.topLeftCorner<3, 3>() = plane;
+  unit_strain.head<3>() = of_temperature;
+}
+
+SectionLaw section_law(const model::Material& material, model::Plane plane) {
+  SectionLaw law(elasticity_matrix(material, plane), thermal_strain(material, plane));
+  if (plane != model::Plane::revolution) return law;
+  // Strain 3 adds -E3 [S13, S23] to the stresses of a body in which it is 0, in the law without strain 3.
+  const auto third = third_axis(material);
+  ensure(third.has_value(), "a law of the plane alone has no hoop stress");
+  const Vec3 S3 = strain_in_turned_axes(-third->angle) * Vec3(third->S13, third->S23, 0.0);
+  const Vec3 coupling = -third->E3 * (law.D.topLeftCorner<3, 3>() * S3);
+  law.D.topRightCorner<3, 1>() = coupling;
+  law.D.bottomLeftCorner<1, 3>() = coupling.transpose();
+  law.D(3, 3) = third->E3 - third->E3 * S3.dot(coupling);
+  if (material.expansion) law.unit_strain[3] = (*material.expansion)[2];
+  return law;
+}
+
+double stress_zz(const Vec3& stress, const model::Material& material, model::Plane plane, double temperature,
+                 double strain_zz) {
   if (plane == model::Plane::stress) return 0.0;
   const auto third = third_axis(material);
   if (!third) return std::numeric_limits<double>::quiet_NaN();
@@ -87,7 +113,7 @@ double stress_zz(const Vec3& stress, const model::Material& material, model::Pla
   const double stress_1 = c * c * stress[0] + s * s * stress[1] + 2.0 * c * s * stress[2];
   const double stress_2 = stress[0] + stress[1] - stress_1;
   const double a3 = material.expansion ? (*material.expansion)[2] : 0.0;
-  return -third->E3 * (third->S13 * stress_1 + third->S23 * stress_2 + a3 * temperature);
+  return third->E3 * (strain_zz - third->S13 * stress_1 - third->S23 * stress_2 - a3 * temperature);
 }
 
 }  // namespace scabo::element

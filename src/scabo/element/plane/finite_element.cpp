@@ -113,6 +113,12 @@ Vec2 arm_to(const Shape<n>& shape, const FiniteElement& element) {
   return arm;
 }
 
+/// The radius at a point of an element of revolution.
+template <int n>
+double radius_at(const Shape<n>& shape, const FiniteElement& element) {
+  return element.x[0].x() + arm_to(shape, element).x();
+}
+
 /// With gradients in real coordinates; not numbers where the Jacobian is zero.
 template <FiniteElementKind kind>
 Shape<size_of(kind)> shape_at(const FiniteElement& element, double r, double s) {
@@ -126,13 +132,15 @@ Shape<size_of(kind)> shape_at(const FiniteElement& element, double r, double s) 
   return shape;
 }
 
-template <int n>
-Eigen::Matrix<double, 3, 2 * n> strain_matrix(const Shape<n>& shape) {
-  Eigen::Matrix<double, 3, 2 * n> B = Eigen::Matrix<double, 3, 2 * n>::Zero();
+/// `rows`: 3, or 4 with the hoop strain at the radius `x`.
+template <int rows, int n>
+Eigen::Matrix<double, rows, 2 * n> strain_matrix(const Shape<n>& shape, double x = 0.0) {
+  Eigen::Matrix<double, rows, 2 * n> B = Eigen::Matrix<double, rows, 2 * n>::Zero();
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vec2& g = shape.gradient[static_cast<std::size_t>(i)];
     B(0, 2 * i) = B(2, 2 * i + 1) = g.x();
     B(1, 2 * i + 1) = B(2, 2 * i) = g.y();
+    if constexpr (rows == 4) B(3, 2 * i) = shape.N[static_cast<std::size_t>(i)] / x;
   }
   return B;
 }
@@ -185,6 +193,21 @@ void integrate(const FiniteElement& element, const Visit& visit) {
     ensure(shape.jacobian > 0.0, "a finite element is turned inside out");
     visit(shape, point.weight * shape.jacobian);
   }
+}
+
+/// Integral of B' D B over the volume.
+template <FiniteElementKind kind, int rows>
+ElementMatrix integrated_stiffness(const FiniteElement& element, const SectionLaw& law, const Extent& extent) {
+  constexpr int n = size_of(kind);
+  using Square = Eigen::Matrix<double, 2 * n, 2 * n>;
+  const Eigen::Matrix<double, rows, rows> D = law.D.topLeftCorner<rows, rows>();
+  Square K = Square::Zero();
+  integrate<kind>(element, [&](const auto& shape, double weight) {
+    const double x = rows == 4 ? radius_at(shape, element) : 0.0;
+    const Eigen::Matrix<double, rows, 2 * n> B = strain_matrix<rows, n>(shape, x);
+    K.noalias() += B.transpose() * (D * (weight * extent.at(x))) * B;
+  });
+  return 0.5 * (K + K.transpose());
 }
 
 double jacobian_at(const FiniteElement& element, const Vec2& natural) {
@@ -312,27 +335,21 @@ bool is_well_shaped(const FiniteElement& element) {
                      [&](const Vec2& natural) { return at_least(natural, -rounding); });
 }
 
-ElementMatrix finite_element_stiffness(const FiniteElement& element, const Mat3& D, double thickness) {
-  return with_kind(element.kind, [&](auto kind) -> ElementMatrix {
-    constexpr int n = size_of(kind());
-    using Square = Eigen::Matrix<double, 2 * n, 2 * n>;
-    Square K = Square::Zero();
-    integrate<kind()>(element, [&](const auto& shape, double weight) {
-      const Eigen::Matrix<double, 3, 2 * n> B = strain_matrix<n>(shape);
-      K.noalias() += B.transpose() * (D * (weight * thickness)) * B;
-    });
-    return 0.5 * (K + K.transpose());
+ElementMatrix finite_element_stiffness(const FiniteElement& element, const SectionLaw& law, const Extent& extent) {
+  return with_kind(element.kind, [&](auto kind) {
+    return extent.revolved ? integrated_stiffness<kind(), 4>(element, law, extent)
+                           : integrated_stiffness<kind(), 3>(element, law, extent);
   });
 }
 
-ElementMatrix finite_element_mass(const FiniteElement& element, double density, double thickness) {
+ElementMatrix finite_element_mass(const FiniteElement& element, double density, const Extent& extent) {
   return with_kind(element.kind, [&](auto kind) -> ElementMatrix {
     constexpr int n = size_of(kind());
     using Square = Eigen::Matrix<double, n, n>;
     Square of_nodes = Square::Zero();
     integrate<kind()>(element, [&](const auto& shape, double weight) {
       const Eigen::Map<const Eigen::Matrix<double, n, 1>> N(shape.N.data());
-      of_nodes.noalias() += N * N.transpose() * (weight * density * thickness);
+      of_nodes.noalias() += N * N.transpose() * (weight * density * extent.at(radius_at(shape, element)));
     });
     ElementMatrix M = ElementMatrix::Zero(2 * n, 2 * n);  // equal for the two components
     for (Eigen::Index j = 0; j < n; ++j)
@@ -342,60 +359,66 @@ ElementMatrix finite_element_mass(const FiniteElement& element, double density, 
 }
 
 ElementVector finite_element_body_force(const FiniteElement& element, const LinearField& b_x, const LinearField& b_y,
-                                        double thickness) {
+                                        const Extent& extent) {
   return with_kind(element.kind, [&](auto kind) -> ElementVector {
     constexpr int n = size_of(kind());
     const Vec2 origin = element.x[0];  // moments about a node of the element have no large numbers that cancel
-    std::array<double, n> areas{};
+    std::array<double, n> volumes{};
     std::array<Vec2, n> moments;
     moments.fill(Vec2::Zero());
     integrate<kind()>(element, [&](const auto& shape, double weight) {
       const Vec2 arm = arm_to(shape, element);
+      const double across = extent.at(origin.x() + arm.x());
       for (std::size_t i = 0; i < n; ++i) {
-        areas[i] += shape.N[i] * weight;
-        moments[i] += shape.N[i] * weight * arm;
+        volumes[i] += shape.N[i] * weight * across;
+        moments[i] += shape.N[i] * weight * across * arm;
       }
     });
-    const Vec2 constant(b_x.at(origin), b_y.at(origin));
+    Mat2 slope;
+    slope << b_x.per_x, b_x.per_y, b_y.per_x, b_y.per_y;
     ElementVector f(2 * n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2 moment = thickness * moments[i];
-      f.template segment<2>(place_of(i)) =
-          areas[i] * thickness * constant +
-          Vec2(b_x.per_x * moment.x() + b_x.per_y * moment.y(), b_y.per_x * moment.x() + b_y.per_y * moment.y());
-    }
+    for (std::size_t i = 0; i < n; ++i)
+      f.template segment<2>(place_of(i)) = volumes[i] * Vec2(b_x.at(origin), b_y.at(origin)) + slope * moments[i];
     return f;
   });
 }
 
-ElementVector finite_element_thermal_force(const FiniteElement& element, const Mat3& D, const Vec3& unit_strain,
-                                           const LinearField& temperature, double thickness) {
+ElementVector finite_element_spin_force(const FiniteElement& element, double density, double spin) {
+  return finite_element_body_force(element, {0.0, density * spin * spin, 0.0}, {}, Extent(1.0, true));
+}
+
+ElementVector finite_element_thermal_force(const FiniteElement& element, const SectionLaw& law,
+                                           const LinearField& temperature, const Extent& extent) {
   return with_kind(element.kind, [&](auto kind) -> ElementVector {
     constexpr int n = size_of(kind());
     Eigen::Matrix<double, 2 * n, 1> f = Eigen::Matrix<double, 2 * n, 1>::Zero();
-    const Vec3 unit_stress = D * unit_strain;
+    const Vec4 unit_stress = law.D * law.unit_strain;
     integrate<kind()>(element, [&](const auto& shape, double weight) {
       const Vec2 x = element.x[0] + arm_to(shape, element);
-      f.noalias() += strain_matrix<n>(shape).transpose() * (unit_stress * (temperature.at(x) * weight * thickness));
+      const double part = temperature.at(x) * weight * extent.at(x.x());
+      if (extent.revolved)
+        f.noalias() += strain_matrix<4, n>(shape, x.x()).transpose() * (unit_stress * part);
+      else
+        f.noalias() += strain_matrix<3, n>(shape).transpose() * (unit_stress.head<3>() * part);
     });
     return f;
   });
 }
 
 double finite_element_product(const FiniteElement& element, const LinearField& one, const LinearField& other,
-                              double thickness) {
+                              const Extent& extent) {
   return with_kind(element.kind, [&](auto kind) {
     double sum = 0.0;
     integrate<kind()>(element, [&](const auto& shape, double weight) {
       const Vec2 x = element.x[0] + arm_to(shape, element);
-      sum += one.at(x) * other.at(x) * weight * thickness;
+      sum += one.at(x) * other.at(x) * weight * extent.at(x.x());
     });
     return sum;
   });
 }
 
-PointValues finite_element_values(const FiniteElement& element, const ElementVector& u, const Mat3& D,
-                                  const Vec2& natural, const Vec3& free_strain) {
+PointValues finite_element_values(const FiniteElement& element, const ElementVector& u, const SectionLaw& law,
+                                  const Vec2& natural, double temperature, bool revolved) {
   return with_kind(element.kind, [&](auto kind) {
     constexpr int n = size_of(kind());
     const auto shape = shape_at<kind()>(element, natural.x(), natural.y());
@@ -405,7 +428,14 @@ PointValues finite_element_values(const FiniteElement& element, const ElementVec
       point.displacement += shape.N[i] * of_node;
       point.strain += Vec3(g.x() * of_node.x(), g.y() * of_node.y(), g.y() * of_node.x() + g.x() * of_node.y());
     }
-    point.stress = D * (point.strain - free_strain);
+    if (revolved) {
+      const Box box = box_of(element);
+      const double x = radius_at(shape, element);
+      const bool on_axis = x <= 1e-9 * (box.high.x() - box.low.x());
+      point.strain_zz = on_axis ? point.strain[0] : point.displacement.x() / x;
+    }
+    const Vec4 strain(point.strain[0], point.strain[1], point.strain[2], point.strain_zz);
+    point.stress = law.D.topRows<3>() * (strain - law.unit_strain * temperature);
     return point;
   });
 }

@@ -13,12 +13,17 @@
 // Natural coordinates (r, s): corners (0, 0), (1, 0), (0, 1) of a triangle; [-1, 1]^2 of a quadrilateral.
 //
 //     K = int B' D B dA t,   M = int N' N rho dA t,   f = int N' b dA t,   f_T = int B' D eps_T dA t              (1)
+//
+// Of a body of revolution t is 2 pi x, and B has a fourth row, of the hoop strain N u_x / x. Integration points do not
+// lie on the axis. Full integration is exact for what a uniform stress with xx = zz does on sides of any shape.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <span>
 
+#include "scabo/base/extent.hpp"
+#include "scabo/element/plane/elasticity.hpp"
 #include "scabo/element/plane/interior_field.hpp"
 
 namespace scabo::element {
@@ -58,28 +63,31 @@ using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 1
 using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 16, 1>;
 
 /// Stiffness, force / length; `D` force / length^2.
-ElementMatrix finite_element_stiffness(const FiniteElement& element, const Mat3& D, double thickness);
+ElementMatrix finite_element_stiffness(const FiniteElement& element, const SectionLaw& law, const Extent& extent);
 
 /// Consistent mass; `density` mass / length^3.
-ElementMatrix finite_element_mass(const FiniteElement& element, double density, double thickness);
+ElementMatrix finite_element_mass(const FiniteElement& element, double density, const Extent& extent);
 
 /// Nodal forces of a body force, force / length^3, given as functions of absolute (x, y).
 ElementVector finite_element_body_force(const FiniteElement& element, const LinearField& b_x, const LinearField& b_y,
-                                        double thickness);
+                                        const Extent& extent);
 
-/// Nodal forces of a change of temperature as a function of absolute (x, y); `unit_strain`: free strain [xx, yy, xy]
-/// per unit of temperature.
-ElementVector finite_element_thermal_force(const FiniteElement& element, const Mat3& D, const Vec3& unit_strain,
-                                           const LinearField& temperature, double thickness);
+/// Nodal forces of the rotation of a body of revolution at the angular velocity `spin`, radians / time.
+ElementVector finite_element_spin_force(const FiniteElement& element, double density, double spin);
+
+/// Nodal forces of a change of temperature as a function of absolute (x, y).
+ElementVector finite_element_thermal_force(const FiniteElement& element, const SectionLaw& law,
+                                           const LinearField& temperature, const Extent& extent);
 
 /// Integral of the product of two changes of temperature over the volume, by the same rule.
 double finite_element_product(const FiniteElement& element, const LinearField& one, const LinearField& other,
-                              double thickness);
+                              const Extent& extent);
 
-/// Values at natural coordinates: stress = D (strain - free_strain). `u`: 2 size(). Strain and stress are not numbers
-/// where the Jacobian is zero.
-PointValues finite_element_values(const FiniteElement& element, const ElementVector& u, const Mat3& D,
-                                  const Vec2& natural, const Vec3& free_strain = Vec3::Zero());
+/// Values at natural coordinates: stress = D (strain - free strain at the change of `temperature`). `u`: 2 size().
+/// Strain and stress are not numbers where the Jacobian is zero. `revolved`: of a body of revolution, whose hoop strain
+/// u_x / x is the radial strain on the axis.
+PointValues finite_element_values(const FiniteElement& element, const ElementVector& u, const SectionLaw& law,
+                                  const Vec2& natural, double temperature = 0.0, bool revolved = false);
 
 /// The point at natural coordinates, which may lie slightly outside of the element.
 Vec2 position_in(const FiniteElement& element, const Vec2& natural);

@@ -13,6 +13,7 @@ struct PointValues {
   Vec2 displacement = Vec2::Zero();
   Vec3 strain = Vec3::Zero();  ///< [xx, yy, gamma_xy]
   Vec3 stress = Vec3::Zero();  ///< [xx, yy, xy]
+  double strain_zz = 0.0;      ///< around the axis of a body of revolution
 };
 
 /// Scaled boundary coordinates of a point: it lies on the ray through `element` at eta, at the fraction xi of the
