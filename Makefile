@@ -80,7 +80,7 @@ test-asan:
 
 test-long:
 	@$(configure) release
-	@cmake --build --preset release --target scabo_program --parallel $(JOBS)
+	@cmake --build --preset release --parallel $(JOBS)
 	@export SCABO_LONG=1 && ctest --preset release -L long --parallel $(JOBS)
 
 fuzz:

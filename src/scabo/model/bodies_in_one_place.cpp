@@ -67,7 +67,7 @@ std::optional<Warning> warning_of_bodies_in_one_place(const Model& model) {
     for (const std::size_t j : near) {
       const Pair pair(bodies[i], bodies[j]);
       const Body &a = model.bodies[pair.first], &b = model.bodies[pair.second];
-      if (!are_there_together(a, b) || joined.contains(pair)) continue;
+      if ((a.rigid && b.rigid) || !are_there_together(a, b) || joined.contains(pair)) continue;
       const double tolerance =
           rounding_of_places * std::min((boxes[i].high - boxes[i].low).norm(), (boxes[j].high - boxes[j].low).norm());
       const auto point = geometry::common_area(a.outline, b.outline, tolerance);

@@ -210,10 +210,29 @@ TEST(RigidInterfaceMistake, TheWrongEdgeOfThePunch) {
   EXPECT_THAT(message_of(model), HasSubstr("face away from each other at a distance of 3"));
 }
 
-TEST(RigidInterfaceMistake, TwoRigidBodies) {
+TEST(RigidInterface, TwoRigidBodiesHaveTheEndsOfTheirStretch) {
+  for (const bool swap : {false, true}) {
+    model::Model model = punch(0.1);
+    model.bodies[0].rigid = true;
+    const Interface joint = match_rigid(swap ? swapped(model) : model);
+    ASSERT_EQ(joint.pairs.size(), 2u);
+    const double sign = swap ? -1.0 : 1.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const ContactPair& pair = joint.pairs[k];
+      EXPECT_EQ(pair.node_a, -1);
+      EXPECT_EQ(pair.node_b, -1);
+      EXPECT_NEAR(pair.point_a.x(), k == 0 ? -0.5 : 0.5, 1e-14);
+      EXPECT_LT((pair.normal - Vec2(0, sign)).norm(), 1e-15);
+      EXPECT_NEAR(pair.gap, 0.1, 1e-15);
+    }
+  }
+}
+
+TEST(RigidInterfaceMistake, TwoRigidBodiesApart) {
   model::Model model = punch();
   model.bodies[0].rigid = true;
-  EXPECT_THAT(message_of(model), HasSubstr("both bodies are rigid: one must be elastic"));
+  model.bodies[1].outline = rectangle({3, 0}, {1, 1});
+  EXPECT_THAT(message_of(model), HasSubstr("are nowhere opposite each other"));
 }
 
 }  // namespace
