@@ -4,10 +4,12 @@
 #include "commands.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/history.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/run/plan.hpp"
+#include "solids.hpp"
 #include "terminal.hpp"
 
 namespace scabo::app {
@@ -56,14 +58,15 @@ std::string steps_table(const model::Model& model) {
 }  // namespace
 
 ExitStatus check(const CheckOptions& options) {
-  const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
+  const input::AnyModel read = input::read_any_model(options.model, input::parse_settings(options.settings));
+  if (const auto* solids = std::get_if<model::SpaceModel>(&read)) return check_solids(*solids);
+  const auto& model = std::get<model::Model>(read);
   const mesh::Mesh mesh = analysis::check(model);
   if (model.analysis.type == model::AnalysisType::static_) result::check_sections(model, mesh);
   for (const Warning& warning : model.warnings) print_warning(warning.text);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
-  text += model.analysis.type == model::AnalysisType::modal
-              ? run::describe_sizes(run::sizes_of(model, mesh)) + "\n"
-              : run::describe(run::plan_of(model, mesh));
+  text += model.analysis.type == model::AnalysisType::modal ? run::describe_sizes(run::sizes_of(model, mesh)) + "\n"
+                                                            : run::describe(run::plan_of(model, mesh));
   text += "\n" + bodies_table(model, mesh);
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);
   text += "\n" + steps_table(model) + "\nNo mistakes found.\n";

@@ -9,7 +9,9 @@
 #include "report.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 #include "scabo/result/history.hpp"
+#include "solids.hpp"
 #include "startup.hpp"
 #include "static_run.hpp"
 #include "terminal.hpp"
@@ -34,9 +36,11 @@ ExitStatus run(const RunOptions& options, Cluster* cluster, Events& events) {
   if (const fs::file_status model = fs::status(options.model, error);
       cluster && fs::exists(model) && !fs::is_regular_file(model) && !fs::is_directory(model))
     throw InputError(options.model, {{{}, "is a pipe or a device, but every rank reads the model: save it as a file"}});
-  const model::Model model = input::read_model(options.model, input::parse_settings(options.settings));
+  const input::AnyModel read = input::read_any_model(options.model, input::parse_settings(options.settings));
   const double reading = std::chrono::duration<double>(Clock::now() - start).count();
   const auto output = options.output.empty() ? default_output(options.model) : options.output;
+  if (const auto* solids = std::get_if<model::SpaceModel>(&read)) return run_solids(*solids, output, options, events);
+  const auto& model = std::get<model::Model>(read);
   std::optional<ReportAtEnd> report_at_end;
   if (options.report) report_at_end.emplace();
   const auto reported = [&](ExitStatus status) {  // after a signal the user wants an end, not another program

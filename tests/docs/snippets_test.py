@@ -41,7 +41,8 @@ HAS_MODULE = importlib.util.find_spec("scabo") is not None
 # What pages call model.yaml, problem.hdf5 and part.inp; some pages have a model of their own, whose results they read.
 GIVEN = {"model.yaml": "examples/01_double_cantilever/model.yaml", "problem.hdf5": "examples/03_discrete_problem/problem.hdf5",
          "part.inp": "tests/fuzz/corpus/convert_abaqus/contact.inp"}
-GIVEN_TO = {"results": {"model.yaml": "tests/docs/results.yaml"}}
+GIVEN_TO = {"results": {"model.yaml": "tests/docs/results.yaml"},
+            "space": {name: f"examples/30_blocks_in_space/{name}" for name in ("base.inp", "block.inp")}}
 OPTIONAL = {"scabo": HAS_MODULE, "pandas": importlib.util.find_spec("pandas") is not None}
 
 

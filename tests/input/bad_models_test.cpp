@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scabo/input/read_model.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 
 namespace scabo::model {
 namespace {
@@ -56,7 +56,7 @@ std::vector<fs::path> bad_files() {
 std::vector<std::string> messages_of(const fs::path& file) {
   std::vector<std::string> messages;
   try {
-    input::read_model(file.string());
+    input::read_any_model(file.string());
   } catch (const InputError& error) {
     for (const Diagnostic& diagnostic : error.diagnostics()) {
       const std::string text = format_diagnostic("", diagnostic).substr(1);

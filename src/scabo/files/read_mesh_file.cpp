@@ -86,6 +86,12 @@ AbaqusDeck read_deck_file(const std::string& path) {
   return parse_abaqus_deck(readable(bytes_at(path), path), path, read_beside);
 }
 
+ImportedSolidMesh read_solid_mesh_file(const std::string& path) {
+  if (upper(std::filesystem::path(path).extension().string()) != ".INP")
+    fail_in_file(path, 0, 0, "bodies in space are read from files of Abaqus and CalculiX (.inp); save the mesh as one");
+  return parse_solid_abaqus(readable(bytes_at(path), path), path, read_beside);
+}
+
 ImportedMesh read_mesh_file(const std::string& path) { return parse_mesh(bytes_at(path), path); }
 
 }  // namespace scabo::files

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "scabo/files/imported_mesh.hpp"
+#include "scabo/files/solid_abaqus.hpp"
 
 namespace scabo::files {
 
@@ -14,5 +15,8 @@ ImportedMesh read_mesh_file(const std::string& path);
 
 /// The same for the bytes of a file of that name; *INCLUDE is read beside it.
 ImportedMesh parse_mesh(std::string_view bytes, const std::string& path);
+
+/// A file .inp with tetrahedra. Throws InputError.
+ImportedSolidMesh read_solid_mesh_file(const std::string& path);
 
 }  // namespace scabo::files

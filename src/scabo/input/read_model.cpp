@@ -9,16 +9,18 @@
 #include "scabo/input/overrides.hpp"
 #include "scabo/input/parameters.hpp"
 #include "scabo/input/reading.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 #include "scabo/input/text_file.hpp"
 #include "scabo/model/bodies_in_one_place.hpp"
 
 namespace scabo::input {
 
 void read_analysis(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"type", "plane", "thickness", "modes"},
+  const MapReader map(reading.report, value, {"space", "type", "plane", "thickness", "modes"},
                       "{plane: strain, thickness: 1.0}");
   Analysis& analysis = reading.model.analysis;
   bool type_known = true;
+  if (const auto space = map.get("space")) read_flag(reading.report, *space);  // true: read_solid_model.cpp
   if (const auto type = map.get("type")) {
     const std::string remedy = "write static";
     const auto choice = read_choice(reading.report, *type, {"static", "modal", "dynamic"},
@@ -259,19 +261,42 @@ Model read_tree(Reading& reading, const NodePtr& tree, const std::string& file) 
   return std::move(reading.model);
 }
 
+/// The tree of a text with its overrides; their mistakes are in `report`.
+NodePtr tree_of_text(std::string_view text, const std::string& file, const std::vector<Override>& overrides,
+                     Report& report) {
+  std::vector<Diagnostic> mistakes;
+  const NodePtr root = parse_yaml(text, mistakes);
+  for (const Diagnostic& mistake : mistakes) report.error(mistake.at, mistake.message);
+  if (!root) report.throw_if_any(file);
+  if (root->kind == Node::Kind::null) refuse_file(file, "is empty: a model file starts with 'scabo: 1'");
+  return apply_overrides(root, overrides, report);
+}
+
+void refuse_space(const Node& root, const std::string& file) {
+  if (is_in_space(root))
+    refuse_file(file,
+                "is a model in space (analysis: {space: true}), which only `scabo run` and `scabo check` take, "
+                "in one process: use these");
+}
+
 }  // namespace
 
 Document parse_document(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
   Reading reading;
   reading.model.file = file;
   reading.model.text = std::make_shared<const std::string>(text);
-  std::vector<Diagnostic> mistakes;
-  NodePtr root = parse_yaml(text, mistakes);
-  for (const Diagnostic& mistake : mistakes) reading.report.error(mistake.at, mistake.message);
-  if (!root) reading.report.throw_if_any(file);
-  if (root->kind == Node::Kind::null) refuse_file(file, "is empty: a model file starts with 'scabo: 1'");
-  root = apply_overrides(root, overrides, reading.report);
+  const NodePtr root = tree_of_text(text, file, overrides, reading.report);
+  refuse_space(*root, file);
   return {root, read_tree(reading, root, file)};
+}
+
+AnyModel read_any_model(const std::string& file, const std::vector<Override>& overrides) {
+  Reading reading;
+  reading.model.file = file;
+  reading.model.text = std::make_shared<const std::string>(read_text_file(file));
+  const NodePtr root = tree_of_text(*reading.model.text, file, overrides, reading.report);
+  if (is_in_space(*root)) return solid_model_of_tree(root, reading.report, file);
+  return read_tree(reading, root, file);
 }
 
 Model parse_model(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
@@ -281,6 +306,7 @@ Model parse_model(std::string_view text, const std::string& file, const std::vec
 Model model_of_tree(const NodePtr& root, const std::string& file) {
   Reading reading;
   reading.model.file = file;
+  refuse_space(*root, file);
   return read_tree(reading, root, file);
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scabo/linalg/parallel.hpp"
+#include "scabo/result/solid/solid_cells.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -165,13 +166,15 @@ class ArrayNames {
   std::string text_;
 };
 
+constexpr std::string_view components_of_stress =
+    " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\""
+    " ComponentName4=\"YZ\" ComponentName5=\"XZ\"";
+
 template <typename To>
 void add_fields(To& document, const Fields& fields, const model::OutputFields& wanted) {
   if (wanted.displacement) document.add_field("displacement", 3, fields.displacement);
   if (wanted.stress) {
-    document.add_field("stress", 6, fields.stress,
-                       " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\""
-                       " ComponentName4=\"YZ\" ComponentName5=\"XZ\"");
+    document.add_field("stress", 6, fields.stress, components_of_stress);
     document.add_field("stress_xx", 1, fields.stress_xx);
     document.add_field("stress_yy", 1, fields.stress_yy);
     document.add_field("stress_xy", 1, fields.stress_xy);
@@ -290,6 +293,22 @@ std::string vtu_content(const CellPolygons& polygons, int threads) {
   document.add_array("material", 1, polygons.material);
   document.add_array("finite_element", 1, polygons.finite_element);
   return finish_piece(std::move(document), polygons);
+}
+
+std::string vtu_content(const SolidCells& cells, int threads) {
+  const std::size_t points = cells.point_body.size();
+  Document document = begin_piece(points, cells.types.size(), encoding_of(points), threads);
+  document.add(point_data("von_mises", true));
+  document.add_field("displacement", 3, cells.displacement);
+  document.add_field("stress", 6, cells.stress, components_of_stress);
+  document.add_field("principal_1", 1, cells.principal_1);
+  document.add_field("principal_2", 1, cells.principal_2);
+  document.add_field("principal_3", 1, cells.principal_3);
+  document.add_field("von_mises", 1, cells.von_mises);
+  document.add_array("body", 1, cells.point_body);
+  begin_cell_data(document);
+  document.add_array("body", 1, cells.cell_body);
+  return finish_piece(std::move(document), cells);
 }
 
 std::string vtu_content(const MechanismCells& cells, int threads) {

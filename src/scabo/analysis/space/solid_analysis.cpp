@@ -155,10 +155,37 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const contact
   return pairs;
 }
 
+/// One increment; if it is solved, `slip` and `start` become those at its end.
+SolidIncrement solid_increment(const PreparedSolids& prepared, const SolidFactors& factors,
+                               contact::SolverOptions& options, contact::Start& start, Vector& slip) {
+  const AppliedToSolids applied = applied_to_solids(prepared.model, factors);
+  for (const Vector& forces : applied.forces)
+    options.force_scale = std::max(options.force_scale, forces.lpNorm<Eigen::Infinity>());
+  const contact::Solution solution = contact::solve(problem_of_solids(prepared, applied, slip), start, options);
+  SolidIncrement to;
+  to.factors = factors;
+  to.status = solution.status;
+  to.reason = solution.reason;
+  to.iterations = solution.iterations;
+  if (solution.status != contact::Status::solved) return to;
+  slip += solution.slip_increment;
+  to.certificate = solution.certificate;
+  add_solid_displacements(prepared, applied, solution, to);
+  to.pairs = solid_pairs(prepared, solution, slip);
+  if (to.certificate.worst() > options.tolerance) {
+    to.status = contact::Status::not_converged;
+    to.reason = "the forces at some node do not balance to the tolerance of the certificate";
+  }
+  start.p = solution.p;
+  start.a = solution.a;
+  return to;
+}
+
 }  // namespace
 
 std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
-                                         double tolerance, int threads) {
+                                         double tolerance, int threads,
+                                         const std::function<void(const SolidIncrement&)>& on_increment) {
   const PreparedSolids prepared = prepared_solids(model, threads);
   contact::SolverOptions options;
   options.tolerance = tolerance;
@@ -166,27 +193,9 @@ std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vec
   Vector slip = Vector::Zero(2 * prepared.contact.gap.size());
   std::vector<SolidIncrement> made;
   for (const SolidFactors& factors : increments) {
-    const AppliedToSolids applied = applied_to_solids(model, factors);
-    for (const Vector& forces : applied.forces)
-      options.force_scale = std::max(options.force_scale, forces.lpNorm<Eigen::Infinity>());
-    const contact::Solution solution = contact::solve(problem_of_solids(prepared, applied, slip), start, options);
-    SolidIncrement& to = made.emplace_back();
-    to.factors = factors;
-    to.status = solution.status;
-    to.reason = solution.reason;
-    to.iterations = solution.iterations;
-    if (solution.status != contact::Status::solved) return made;
-    slip += solution.slip_increment;
-    to.certificate = solution.certificate;
-    add_solid_displacements(prepared, applied, solution, to);
-    to.pairs = solid_pairs(prepared, solution, slip);
-    if (to.certificate.worst() > tolerance) {
-      to.status = contact::Status::not_converged;
-      to.reason = "the forces at some node do not balance to the tolerance of the certificate";
-      return made;
-    }
-    start.p = solution.p;
-    start.a = solution.a;
+    made.push_back(solid_increment(prepared, factors, options, start, slip));
+    if (on_increment) on_increment(made.back());
+    if (made.back().status != contact::Status::solved) break;
   }
   return made;
 }

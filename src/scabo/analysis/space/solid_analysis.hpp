@@ -5,6 +5,7 @@
 // motion under loads and supports, and less the slip so far. Small displacements and rotations.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,8 +69,9 @@ struct SolidIncrement {
 };
 
 /// All increments, in their order; the last one may be unsolved, and ends the analysis. Contacts have faces for which
-/// mesh::why_no_pairs gives no reason.
+/// mesh::why_no_pairs gives no reason. `on_increment` gets each as soon as it is known.
 std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
-                                         double tolerance = 1e-10, int threads = 1);
+                                         double tolerance = 1e-10, int threads = 1,
+                                         const std::function<void(const SolidIncrement&)>& on_increment = {});
 
 }  // namespace scabo::analysis
