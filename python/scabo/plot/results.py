@@ -57,6 +57,8 @@ class Results:
             raise ResultsError(f"{path}: cannot be read: {error.strerror}") from None
         except ValueError as error:
             raise ResultsError(f"{path}: is damaged ({error}); run the model again") from None
+        if isinstance(summary, dict) and summary.get("analysis") == "space":
+            raise ResultsError(f"{self.directory}: is of a model in space, which has no pictures and no page yet: open its fields.pvd in ParaView")
         if not isinstance(summary, dict) or "scabo" not in summary or "status" not in summary:
             raise ResultsError(f"{path}: was not written by `scabo run`")
         return summary
