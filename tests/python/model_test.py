@@ -53,6 +53,9 @@ class BrokenFiles(unittest.TestCase):
             with self.subTest(file=file.name):
                 done = program("check", file)
                 error = problems_of(lambda: scabo.read(file).check())
+                if file.stem.startswith("space_"):
+                    self.assertIn("which only `scabo run` and `scabo check` take", str(error))
+                    continue
                 if done.returncode == 0:  # found by `scabo run` only
                     self.assertIsNone(error)
                     continue
@@ -126,6 +129,8 @@ class Dictionaries(InTemporaryDirectory):
 
     def test_every_good_file_as_a_dictionary(self):
         for file in sorted([*GOOD.glob("*.yaml"), *GOOD.glob("*.json")]):
+            if file.stem == "space":  # the program alone takes it
+                continue
             with self.subTest(file=file.name):
                 of_file = scabo.read(file)
                 built = scabo.Model(yaml_free(of_file), file=file)
