@@ -126,6 +126,28 @@ class BlocksInSpace(support.InTemporaryDirectory):
         done = scabo("resume", self.directory / "results")
         self.assertEqual(done.returncode, 1, done.stderr)
 
+    def test_a_second_run_replaces_the_results_of_the_first(self):
+        for _ in range(2):
+            self.solve(EXAMPLE / "model.yaml", "results")
+
+    def test_an_overlap_that_supports_keep_is_not_solved(self):
+        text = (EXAMPLE / "model.yaml").read_text(encoding="utf-8")
+        for name in ("base", "block"):
+            (self.directory / f"{name}.inp").write_bytes((EXAMPLE / f"{name}.inp").read_bytes())
+        model = self.directory / "model.yaml"
+        for up, status in ((1e-4, 0), (-1e-4, 2)):
+            changed = text.replace("base.BOTTOM, fix: [x, y, z]", "base.TOP, fix: [x, y, z]").replace(
+                "block.LEFT, displacement: [1e-3, null, null]", f"block.BOTTOM, displacement: [0, 0, {up}]").replace(
+                "ram: 0", "ram: 1")
+            model.write_text("\n".join(line for line in changed.split("\n") if "name: push" not in line), encoding="utf-8")
+            done = scabo("run", model, "-o", self.directory / "results", "--quiet")
+            self.assertEqual(done.returncode, status, done.stderr)
+            if status == 0:
+                for row in rows_of(self.directory / "results"):
+                    self.assertAlmostEqual(float(row["gap"]), up, delta=1e-12)
+            else:
+                self.assertIn("keep an overlap by 0.0001", done.stderr)
+
     def test_a_folded_element_is_named(self):
         mesh = (EXAMPLE / "block.inp").read_text(encoding="utf-8").split("\n")
         element = mesh[mesh.index("*ELEMENT, TYPE=C3D10") + 1].split(", ")

@@ -12,6 +12,7 @@
 #include "scabo/model/restart_files.hpp"
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/convergence.hpp"
+#include "scabo/result/crack_table.hpp"
 #include "scabo/result/history.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/vtu.hpp"
@@ -48,7 +49,8 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   if (name == cells_name || name == std::string(cells_name) + ".part") return vtk_mark;
   if (name == mechanism_name || name == std::string(mechanism_name) + ".part") return vtk_mark;
   if (name == "summary.json" || name == "summary.json.part") return "{\n  \"scabo\":";
-  if (name == "contact.csv") return contact_table_header;
+  if (name == "contact.csv") return "step,increment,contact,pair,x,y,";  // in the plane and in space
+  if (name == "cracks.csv") return crack_table_header;
   if (name == "history.csv") return history_mark;
   if (name == "convergence.csv") return convergence_table_header;
   if (name == "convergence.svg" || name == "convergence.svg.part") return convergence_plot_mark;

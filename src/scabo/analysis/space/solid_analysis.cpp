@@ -1,8 +1,12 @@
 #include "scabo/analysis/space/solid_analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
+#include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/contact/laws/bonded.hpp"
 #include "scabo/contact/laws/coulomb.hpp"
 #include "scabo/contact/solve.hpp"
@@ -136,7 +140,7 @@ void add_solid_displacements(const PreparedSolids& prepared, const AppliedToSoli
   if (largest > 0.0) to.certificate.equilibrium = imbalance / largest;
 }
 
-/// All pairs; of those that supports hold on both sides, the gap alone.
+/// All pairs; those that supports hold on both sides as they are at rest.
 std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const contact::Solution& solution,
                                    const Vector& slip) {
   const PairedFaces& paired = prepared.paired;
@@ -153,6 +157,34 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const contact
     pairs[i].state = solution.states[k];
   }
   return pairs;
+}
+
+/// Gives the pairs that supports hold on both sides their gaps, and says what no contact force can remove there: an
+/// overlap, or a tie whose sides move apart. Empty: nothing.
+std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
+  const std::vector<system::ContactSystem::Pair>& held = prepared.contact.held;
+  if (held.empty()) return {};
+  const Vector motion =
+      motion_under(prepared.contact.held_motion, to.u, in_space.count(static_cast<Eigen::Index>(held.size())));
+  std::string worst;
+  double most = 0.0;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const auto i = static_cast<std::size_t>(held[k].index);
+    const Eigen::Vector3d moved = motion.segment<3>(in_space.of(static_cast<Eigen::Index>(k)));
+    SolidPair& pair = to.pairs[i];
+    pair.gap = prepared.paired.points[i].gap + moved[0];
+    const bool tied = !prepared.model.contacts[static_cast<std::size_t>(pair.contact)].friction;
+    const double wrong = tied ? moved.norm() : -pair.gap;
+    constexpr double rounding = 1e-12;
+    if (wrong <= std::max(most, rounding * std::max(pair.point.norm(), std::abs(pair.gap)))) continue;
+    most = wrong;
+    worst = fmt::format(
+        "supports on both sides of the pair at ({:.6g}, {:.6g}, {:.6g}) {} by {:.3g}, which no contact force can "
+        "remove: free one side there",
+        pair.point.x(), pair.point.y(), pair.point.z(), tied ? "move the sides of a tie apart" : "keep an overlap",
+        wrong);
+  }
+  return worst;
 }
 
 /// One increment; if it is solved, `slip` and `start` become those at its end.
@@ -172,7 +204,10 @@ SolidIncrement solid_increment(const PreparedSolids& prepared, const SolidFactor
   to.certificate = solution.certificate;
   add_solid_displacements(prepared, applied, solution, to);
   to.pairs = solid_pairs(prepared, solution, slip);
-  if (to.certificate.worst() > options.tolerance) {
+  if (std::string reason = add_held_gaps(prepared, to); !reason.empty()) {
+    to.status = contact::Status::not_converged;
+    to.reason = std::move(reason);
+  } else if (to.certificate.worst() > options.tolerance) {
     to.status = contact::Status::not_converged;
     to.reason = "the forces at some node do not balance to the tolerance of the certificate";
   }
