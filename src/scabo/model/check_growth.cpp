@@ -108,6 +108,21 @@ void check_until(Checking& checking, const std::string& path, const GrowthStep& 
     }
 }
 
+/// Cells at tips are half a step.
+void check_shortest(Checking& checking, const std::string& path, const GrowthStep& growth) {
+  constexpr double shortest = 1e-6;  // of the body
+  for (std::size_t b = 0; b < checking.model.bodies.size(); ++b) {
+    const Body& body = checking.model.bodies[b];
+    if (body.cracks.empty() || !checking.sound_shape(static_cast<int>(b))) continue;
+    const double size = geometry::outline_size(body.outline);
+    if (growth.step >= shortest * size) continue;
+    checking.error(
+        path, "step",
+        fmt::format("must be at least {:.0e} of the size of body '{}', which is {:.3g}", shortest, body.name, size));
+    return;
+  }
+}
+
 /// What a model in which cracks grow cannot have.
 void check_beside_growth(Checking& checking) {
   const Model& model = checking.model;
@@ -159,7 +174,7 @@ void check_growth_steps(Checking& checking) {
       checking.error(path, "toughness", "must be one of K_Ic and G_c, as in {K_Ic: 1e6}");
     if (growth.K_Ic) checking.positive(path, "toughness.K_Ic", *growth.K_Ic);
     if (growth.G_c) checking.positive(path, "toughness.G_c", *growth.G_c);
-    checking.positive(path, "step", growth.step);
+    if (checking.positive(path, "step", growth.step)) check_shortest(checking, path, growth);
     if (!check_names(checking, path, growth)) continue;
     if (!checking.gaps.conditions) check_scaled(checking, path, step);
     check_until(checking, path, growth);
