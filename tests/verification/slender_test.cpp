@@ -41,11 +41,11 @@ struct Beam {
                : fmt::format("{{order: 3, size: {}}}", ratio * length / 20.0);
   }
 };
-constexpr Beam beams[] = {{10.0, false}, {100.0, false}, {300.0, false}, {1000.0, false},
-                          {100.0, true}, {500.0, true},  {1000.0, true}};
+constexpr Beam slender_beams[] = {{10.0, false}, {100.0, false}, {300.0, false}, {1000.0, false},
+                                  {100.0, true}, {500.0, true},  {1000.0, true}};
 
 TEST(SlenderBeam, BendsAsABeamAndItsReactionsBalanceTheLoad) {
-  for (const Beam& beam : beams) {
+  for (const Beam& beam : slender_beams) {
     const auto solution = run(cantilever(beam.ratio, beam.mesh(1.0)));
     const analysis::IncrementResult& increment = last(solution);
     EXPECT_NEAR(tip(solution, beam.ratio) / deflection(beam.ratio), 1.0, 1e-4) << beam.ratio;
@@ -88,7 +88,7 @@ TEST(SlenderBeam, OfLowOrderWithLongSidesIsWarnedOf) {
 }
 
 TEST(SlenderBeam, UnitsDoNotMatter) {
-  for (const Beam& beam : beams) {
+  for (const Beam& beam : slender_beams) {
     const auto metres = run(cantilever(beam.ratio, beam.mesh(1.0))),
                millimetres = run(cantilever(beam.ratio, beam.mesh(1000.0), 1000.0, 1.0)),
                centimetres = run(cantilever(beam.ratio, beam.mesh(100.0), 100.0, 1e-3));

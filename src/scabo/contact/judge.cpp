@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <limits>
 
+#include "scabo/linalg/dense.hpp"
+
 namespace scabo::contact {
 
 namespace {
 
 using Index = Eigen::Index;
-
-[[gnu::hot]] double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
 /// Normal and tangential parts of a pair; in the plane the second tangential component is zero.
 struct Parts {
@@ -80,8 +80,8 @@ Measure::Measure(const Problem& problem, const Vector& history, double applied)
 
 [[gnu::hot]] Measure::Measure(const Problem& problem, double stiffness, const Vector& history, double applied)
     : stiffness_(stiffness) {
-  const double q_force = stiffness * largest_of(problem.q), before = largest_of(history);
-  applied = std::max(applied, largest_of(problem.f));
+  const double q_force = stiffness * linalg::largest_of(problem.q), before = linalg::largest_of(history);
+  applied = std::max(applied, linalg::largest_of(problem.f));
   at_work_ = std::max(q_force, applied);
   norm_ = std::max(stiffness * problem.q.norm(), std::max(applied, problem.f.norm()));
   if (at_work_ == 0.0) at_work_ = norm_ = before;
@@ -95,7 +95,7 @@ Measure Measure::of_forces() const {
 }
 
 [[gnu::hot]] Scales Measure::scales(const Vector& p) const {
-  const double force = std::max(reference_, largest_of(p));
+  const double force = std::max(reference_, linalg::largest_of(p));
   return {force, (at_work_ > 0.0 ? std::min(force, at_work_) : force) / stiffness_};
 }
 
@@ -117,9 +117,10 @@ Measure Measure::of_forces() const {
 
 double Measure::rounding(const Problem& problem, const Vector& p, const Vector& motion) const {
   if (p.isZero(0.0)) return 0.0;
-  double lost = stiffness_ * largest_of(absolute_product(problem, p, motion));
-  if (problem.G.cols() > 0) lost = std::max(lost, largest_of(problem.G.sparse().cwiseAbs().transpose() * p.cwiseAbs()));
-  return std::numeric_limits<double>::epsilon() * lost / (at_work_ > 0.0 ? at_work_ : largest_of(p));
+  double lost = stiffness_ * linalg::largest_of(absolute_product(problem, p, motion));
+  if (problem.G.cols() > 0)
+    lost = std::max(lost, linalg::largest_of(problem.G.sparse().cwiseAbs().transpose() * p.cwiseAbs()));
+  return std::numeric_limits<double>::epsilon() * lost / (at_work_ > 0.0 ? at_work_ : linalg::largest_of(p));
 }
 
 [[gnu::hot]] Judgement judge(const Problem& problem, const Vector& p, const Vector& a, const Vector& motion,

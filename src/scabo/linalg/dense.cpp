@@ -75,6 +75,8 @@ void product(CBLAS_TRANSPOSE op, const Matrix& A, const Matrix& B, int depth, Ma
 
 }  // namespace
 
+double largest_of(const Eigen::Ref<const Vector>& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
+
 Matrix multiply_transposed(const Matrix& A, const Matrix& B) {
   ensure(A.rows() == B.rows(), "multiply_transposed: sizes differ");
   Matrix C = Matrix::Zero(A.cols(), B.cols());

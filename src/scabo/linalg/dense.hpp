@@ -18,6 +18,9 @@ class KeptBlasThreads {
   KeptBlasThreads& operator=(const KeptBlasThreads&) = delete;
 };
 
+/// The largest absolute component, 0 of a vector without any.
+double largest_of(const Eigen::Ref<const Vector>& v);
+
 /// A' B.
 Matrix multiply_transposed(const Matrix& A, const Matrix& B);
 

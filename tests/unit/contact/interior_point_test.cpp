@@ -26,10 +26,6 @@
 namespace scabo::contact {
 namespace {
 
-struct TowerCase {
-  int dimension, blocks, points;
-};
-
 class InteriorPointsOnTowers : public ::testing::TestWithParam<TowerCase> {};
 
 TEST_P(InteriorPointsOnTowers, ThenNewtonToTheLastDigits) {
@@ -105,15 +101,6 @@ TEST_P(InteriorPointsOnTowers, NewtonFollowsThemInUnitsThatArePowersOfTwoWithout
   for (const auto& units : powers_of_two)
     EXPECT_EQ(direction_of(units.first, units.second), Vector(std::ldexp(1.0, units.second - units.first) * direction))
         << units.first << " " << units.second;
-}
-
-TEST_P(InteriorPointsOnTowers, WithFrictionThatDiffersReachTheLaw) {
-  const auto [d, blocks, points] = GetParam();
-  Problem problem = tower_of_blocks(d, blocks, points, 0.4);
-  for (Eigen::Index i = 0; i < problem.mu.size(); ++i) problem.mu[i] = i % 3 == 0 ? 0.2 : 0.7;
-  const InteriorPointEnd end = interior_points(problem, {});
-  ASSERT_EQ(end.p.size(), problem.q.size());
-  expect_the_law(problem, end.p, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Plane, InteriorPointsOnTowers, ::testing::Values(TowerCase{2, 20, 2}, TowerCase{2, 8, 4}));

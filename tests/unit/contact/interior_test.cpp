@@ -313,10 +313,6 @@ TEST(InteriorPointsOfSqueezedBlocks, BalanceTheLoadWithAndWithoutTheCommonTransl
   }
 }
 
-struct TowerCase {
-  int dimension, blocks, points;
-};
-
 class InteriorPointsOfTowers : public ::testing::TestWithParam<TowerCase> {};
 
 TEST_P(InteriorPointsOfTowers, ReachTheLaw) {

@@ -20,7 +20,7 @@ struct PairLaw {
   double mu, cohesion, tension;
 };
 
-Vector random_vector(Random& random, Eigen::Index size) {
+Vector normal_vector(Random& random, Eigen::Index size) {
   std::normal_distribution<double> normal;
   return Vector::NullaryExpr(size, [&] { return normal(random); });
 }
@@ -68,7 +68,7 @@ TEST(PairProblem, ObeysCoulombsLaw) {
     const double unit = std::pow(10.0, k % 13 - 6);
     const PairLaw law{std::array{0.0, 0.1, 0.3, 0.6}[static_cast<std::size_t>(k) / 2 % 4], 0.0, 0.0};
     const Matrix W = unit * random_block(random, d);
-    const Vector free = random_vector(random, d) / unit, p = solved(W, free, law);
+    const Vector free = normal_vector(random, d) / unit, p = solved(W, free, law);
     EXPECT_LE(broken(W, free, law, p), 1e-12) << k;
     ++states[static_cast<std::size_t>(state(law, p))];
   }
@@ -87,7 +87,7 @@ TEST(PairProblem, ObeysItWithCohesionAndTensileStrength) {
                       : k / 6 % 3 == 1 ? strength(random)
                                        : std::numeric_limits<double>::infinity()};
     const Matrix W = random_block(random, d);
-    const Vector free = random_vector(random, d), p = solved(W, free, law);
+    const Vector free = normal_vector(random, d), p = solved(W, free, law);
     EXPECT_LE(broken(W, free, law, p), 1e-12) << k << ": " << p.transpose();
     ++states[static_cast<std::size_t>(state(law, p))];
     pulled += p[0] < 0.0 && p[0] > -law.tension ? 1 : 0;
@@ -102,7 +102,7 @@ TEST(PairProblem, TheForceOfTheTimeBeforeIsNoConditionOfTheNext) {
   const PairLaw law{0.5, 0.2, 0.1};
   PairProblem<3> pair(W.data(), {law.mu, law.mu}, law.cohesion, law.tension);
   for (int k = 0; k < 500; ++k) {
-    const Vector free = std::pow(10.0, k % 9 - 4) * random_vector(random, 3);
+    const Vector free = std::pow(10.0, k % 9 - 4) * normal_vector(random, 3);
     Vector p(3);
     pair.solve(free.data(), p.data());
     EXPECT_LE(broken(W, free, law, p), 1e-12) << k;

@@ -13,6 +13,11 @@
 
 namespace scabo::contact {
 
+/// `points`: pairs along an edge of a face.
+struct TowerCase {
+  int dimension, blocks, points;
+};
+
 /// Unit cubes on one another and on the ground (edge 1, mass 1, inertia 1/6), m x m pairs on each face (m in the
 /// plane). The masses grow from the lowest, 1, to the highest, `ratio`. Free velocities at random plus the fall of one
 /// step: q = H' v lies in the range of H'.

@@ -20,22 +20,22 @@ constexpr double most_missing = 0.5;  // of the moment that contact carries
 constexpr double least_force = 1e-9;  // of the largest so far: less is what the tolerance leaves
 
 /// What acts on a part at a pair, with its arm about the centre of the part, both displaced.
-struct Acting {
+struct ActingForce {
   Vec2 arm, force;
   double normal = 0.0, length = 0.0;  ///< of its share in what the contact carries
 };
 
 /// What the forces of one contact carry, missing or not.
-double carried_by(const std::vector<Acting>& forces) {
+double carried_by(const std::vector<ActingForce>& forces) {
   Vec2 resultant = Vec2::Zero();
   double moment = 0.0, normal = 0.0, spread = 0.0, along_sides = 0.0;
-  for (const Acting& at : forces) {
+  for (const ActingForce& at : forces) {
     resultant += at.force;
     moment += cross(at.arm, at.force);
     normal += at.normal;
     along_sides += 0.25 * at.length * at.force.norm();
   }
-  for (const Acting& at : forces)
+  for (const ActingForce& at : forces)
     if (normal > 0.0) spread += at.normal / normal * std::abs(cross(at.arm, resultant));
   return std::max(std::abs(moment), spread) + along_sides;
 }
@@ -44,7 +44,7 @@ double carried_by(const std::vector<Acting>& forces) {
 struct Turning {
   Vec2 centre = Vec2::Zero(), displaced = Vec2::Zero();  ///< where it is at first, and how far it has moved
   double missing = 0.0, carried = 0.0, forces = 0.0;
-  std::map<int, std::vector<Acting>> of_contact;
+  std::map<int, std::vector<ActingForce>> of_contact;
 
   /// The displaced arm of a force at a point that has moved by `u`, while what exerts it has turned.
   Vec2 add(const Vec2& x, const Vec2& u, double turned, const Vec2& force) {

@@ -36,7 +36,7 @@ std::vector<Vector> forces_in_time(const InTime& in, const State& from, const st
 }
 
 /// A time step while it is made. `as_at_rest`: the state of eq. (1), whose displacements are w.
-struct Making {
+struct UnfinishedStep {
   const InTime& in;
   const State& from;
   const Acting& acting;
@@ -52,7 +52,7 @@ struct Making {
   double size() const { return in.system.size; }
 };
 
-void begin(Making& making) {
+void begin(UnfinishedStep& making) {
   const Prepared& at_rest = making.in.at_rest;
   State& to = making.to();
   const State& from = making.from;
@@ -73,7 +73,7 @@ void begin(Making& making) {
   for (const Vector& velocity : making.acting.support) t.prescribed.push_back(making.size() * velocity);
 }
 
-contact::SolverOptions options_of(const Making& making) {
+contact::SolverOptions options_of(const UnfinishedStep& making) {
   const Prepared& prepared = making.in.system.prepared;
   contact::SolverOptions options;
   options.tolerance = prepared.model.solver.tolerance;
@@ -84,7 +84,7 @@ contact::SolverOptions options_of(const Making& making) {
 }
 
 /// Contact forces, and the velocities that follow from them.
-void solve(Making& making) {
+void solve(UnfinishedStep& making) {
   const Prepared& prepared = making.in.system.prepared;
   Attempt& made = making.attempt;
   State& to = made.state;
@@ -107,7 +107,7 @@ void solve(Making& making) {
 }
 
 /// Velocities, displacements, slips and gaps at the end of the step.
-void advance(Making& making) {
+void advance(UnfinishedStep& making) {
   const Prepared& at_rest = making.in.at_rest;
   const double h = making.size();
   State& to = making.to();
@@ -128,7 +128,7 @@ void advance(Making& making) {
 }
 
 /// Work of the step, which closes the balance of energy, and how much contact and projection added.
-double add_energy(Making& making) {
+double add_energy(UnfinishedStep& making) {
   const Prepared& at_rest = making.in.at_rest;
   const double h = making.size();
   State& to = making.to();
@@ -190,7 +190,7 @@ double kinetic_energy(const Prepared& prepared, const std::vector<system::PartIn
 
 Attempt time_step(const InTime& in, const State& from, const Acting& acting, bool may_halve) {
   constexpr double most_added = 1e-4, most_unbalanced = 1e-9;  // of the largest energy so far
-  Making making{in, from, acting};
+  UnfinishedStep making{in, from, acting};
   begin(making);
   solve(making);
   advance(making);

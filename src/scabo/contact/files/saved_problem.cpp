@@ -10,18 +10,17 @@
 #include "scabo/contact/files/hdf5_file.hpp"
 #include "scabo/contact/files/text_problem.hpp"
 #include "scabo/contact/judge.hpp"
+#include "scabo/linalg/dense.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
-double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
 /// Residuals contain squares of motions and of the forces q / W, which must not overflow.
 void check_magnitudes(const std::string& file, const Problem& problem) {
   constexpr double most = 1e150;
-  const double motion = largest_of(problem.q), stiffness = stiffness_of(problem);
-  const double force = std::max(stiffness * motion, largest_of(problem.f));
+  const double motion = linalg::largest_of(problem.q), stiffness = stiffness_of(problem);
+  const double force = std::max(stiffness * motion, linalg::largest_of(problem.f));
   if (motion <= most && force <= most) return;
   throw InputError(file, {{{},
                            fmt::format("has motions q up to {:.1g} and a mean stiffness 1 / W_ii of {:.1g}: motions "

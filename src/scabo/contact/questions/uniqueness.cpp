@@ -8,14 +8,13 @@
 
 #include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/questions/lemke.hpp"
+#include "scabo/linalg/dense.hpp"
 
 namespace scabo::contact {
 
 namespace {
 
 constexpr Eigen::Index most_dense = 1200;  // unknowns of dense eigenvalues and determinants
-
-double largest_of(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
 bool solves(const Problem& problem, const Vector& p, const Vector& a, const SolverOptions& options) {
   return p.allFinite() &&
@@ -26,9 +25,11 @@ bool solves(const Problem& problem, const Vector& p, const Vector& a, const Solv
 /// Forces whose difference causes no motion (of a pair that a support holds along the joint) are not another solution,
 /// and neither are forces that differ by rounding relative to `scale`.
 bool same(const Problem& problem, const Vector& p, const Vector& other, double scale) {
-  const double mean = problem.W.diagonal().mean(), force = std::max({largest_of(p), largest_of(other), 1e-5 * scale});
+  const double mean = problem.W.diagonal().mean(),
+               force = std::max({linalg::largest_of(p), linalg::largest_of(other), 1e-5 * scale});
   const Vector difference = p - other;
-  return largest_of(difference) <= 1e-6 * force || largest_of(problem.W * difference) <= 1e-6 * mean * force;
+  return linalg::largest_of(difference) <= 1e-6 * force ||
+         linalg::largest_of(problem.W * difference) <= 1e-6 * mean * force;
 }
 
 void add_if_new(const Problem& problem, std::vector<Vector>& solutions, const Vector& p, double scale) {
@@ -106,7 +107,7 @@ std::vector<Vector> other_starts(const Problem& problem, const Solution& solutio
   for (Eigen::Index i = 0; i < N; ++i) turned.segment(d * i + 1, d - 1) *= -1.0;
   starts.push_back(turned);
   const double mean = problem.W.diagonal().mean();
-  const double size = std::max(largest_of(solution.p), mean > 0.0 ? largest_of(problem.q) / mean : 1.0);
+  const double size = std::max(linalg::largest_of(solution.p), mean > 0.0 ? linalg::largest_of(problem.q) / mean : 1.0);
   std::mt19937 random(20);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   constexpr int at_random = 6;
@@ -205,7 +206,7 @@ UniquenessReport examine_uniqueness(const Problem& problem, const Start& start, 
   UniquenessReport report;
   if (solution.status != Status::solved) return report;
   SolverOptions options = given;  // forces of the history count as well
-  options.force_scale = std::max(given.force_scale, largest_of(start.p));
+  options.force_scale = std::max(given.force_scale, linalg::largest_of(start.p));
   const double scale = Measure(problem, Vector(), options.force_scale).scales(solution.p).force;
   report.bound = uniqueness_bound(problem);
   report.index = index_of(problem, solution.p, solution.a);
