@@ -36,7 +36,7 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
     text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
     text += result::report_totals(solution.model, *last);
   }
-  return text + result::report_growth(solution) + result::report_mechanism(solution) +
+  return text + result::report_growth(solution) + result::report_limit(solution) + result::report_mechanism(solution) +
          fmt::format("Results: {}\n", directory.string());
 }
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import math
 import operator
 import os
 import pathlib
@@ -185,9 +186,16 @@ class Result:
 
     @property
     def mechanism(self) -> Motion | None:
-        """How the bodies begin to move, of a run that ended as a mechanism or collapse; None otherwise."""
+        """How the bodies begin to move, of a run that ended as a mechanism or collapse, or beyond a limit; None otherwise."""
         table = self._core.mechanism()
         return None if table is None else Motion(table, self.bodies, list(self._core.contacts))
+
+    @property
+    def limit(self) -> tuple[float, float] | None:
+        """Of a last step with limit or reduce: the factor of the last equilibrium, and the nearest one at which none was found,
+        inf if it was found at all that were tried. None without such a step."""
+        limit = self._summary.get("limit")
+        return None if limit is None else (limit["solved"], math.inf if limit["beyond"] is None else limit["beyond"])
 
     @property
     def cracks(self) -> dict[str, dict[str, np.ndarray]]:

@@ -1,4 +1,4 @@
-"""How bodies begin to move where a run ended as a mechanism or collapse."""
+"""How bodies begin to move where a run ended as a mechanism or collapse, or beyond a limit."""
 import dataclasses
 
 import numpy as np
@@ -112,7 +112,9 @@ def described(results, motion, units):
     summary = results.summary
     last = summary["increments"][-1] if summary.get("increments") else {}
     parts = [f"step {last['step']}, increment {last['increment']}"] if last else []
-    parts.append(f"{summary['status']}: {summary.get('mechanism', {}).get('text', '')}")
+    limit = summary.get("limit")
+    status = f"beyond the limit, {limit['solved']:.5g} to {limit['beyond']:.5g}" if limit else summary["status"]
+    parts.append(f"{status}: {summary.get('mechanism', {}).get('text', '')}")
     size = units.scale("length", motion.magnification).text(motion.magnification) if units.length else \
         f"{motion.magnification:g} times the unit of length"
     parts.append(f"largest displacement drawn as {size}")

@@ -33,6 +33,8 @@ def verdict(summary, increments):
     """How the run ended: a level for its colour, a heading and sentences."""
     level, heading = STATUS.get(summary["status"], ("bad", summary["status"].replace("_", " ")))
     sentences = [sentence(summary["reason"])] if summary.get("reason") else []
+    if summary.get("limit"):
+        sentences.append(limit_found(summary["limit"]))
     if summary.get("mechanism"):
         sentences.append(f"{sentence(summary['mechanism']['text'])} The file mechanism.vtu shows the motion.")
     if summary.get("analysis") == "modal":
@@ -48,6 +50,13 @@ def verdict(summary, increments):
     else:
         sentences.append("No increment was finished, so that there are no results.")
     return {"level": level, "heading": heading, "text": " ".join(sentences)}
+
+
+def limit_found(limit):
+    if limit["beyond"] is None:
+        return f"No limit was found: there is equilibrium up to the factor {limit['solved']:.6g}."
+    beyond = {"not_decided": "whether there is equilibrium beyond it was not decided"}.get(limit["by"], f"{limit['by']} beyond it")
+    return f"The limit is between the factors {limit['solved']:.6g} and {limit['beyond']:.6g}: {beyond}."
 
 
 def sentence(text):

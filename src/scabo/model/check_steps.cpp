@@ -274,6 +274,7 @@ std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curve
 int expected_increments(const Step& step) {
   constexpr int growth_steps = 20;  // unless the user says how many
   if (step.growth) return step.growth->steps.value_or(growth_steps) + 1;
+  if (step.limit) return static_cast<int>(std::ceil(2.0 - std::log2(step.limit->relative)));
   return step.automatic ? static_cast<int>(std::ceil(2.0 / step.automatic->largest)) : step.increments;
 }
 

@@ -98,6 +98,8 @@ void check_conflicting_supports(Checking& checking);
 void check_fits(Checking& checking);
 /// Steps in which cracks grow.
 void check_growth_steps(Checking& checking);
+/// Steps that look for a limit.
+void check_limit_steps(Checking& checking);
 /// Bodies that are added or removed in steps.
 void check_stages(Checking& checking);
 

@@ -10,6 +10,7 @@
 #include "scabo/base/error.hpp"
 #include "scabo/model/curve.hpp"
 #include "scabo/model/growth.hpp"
+#include "scabo/model/limit.hpp"
 
 namespace scabo::model {
 
@@ -49,6 +50,8 @@ struct Step {
   std::optional<DynamicStep> dynamic;     ///< empty: the step is quasi-static
   /// Cracks grow in this step, in as many increments as it takes: `increments` has no meaning.
   std::optional<GrowthStep> growth;
+  /// The step looks for a limit: factors are those at part 1, and change linearly, also beyond it.
+  std::optional<LimitStep> limit;
   Source source;
 };
 
@@ -66,8 +69,13 @@ std::vector<double> coefficients_of(const Step& step);
 /// Parts of a step, between 0 and 1, at which an increment ends so that no corner of a curve is passed over, ascending.
 std::vector<double> corners_of(const Step& step, const std::vector<Curve>& curves);
 
+/// Of a step that looks for a limit: its factor at the begin, at a part of it, and the part at which it has a factor.
+double first_factor(const Step& step);
+double limit_factor(const Step& step, double part);
+double part_at_factor(const Step& step, double factor);
+
 /// Whether the number of its increments is known before.
-inline bool is_counted(const Step& step) { return !step.automatic && !step.growth; }
+inline bool is_counted(const Step& step) { return !step.automatic && !step.growth && !step.limit; }
 
 /// Number of increments of a step; if it is not known before, what it may be.
 int expected_increments(const Step& step);

@@ -252,6 +252,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
     if (!modal) check_fits(checking);
     if (!modal) check_stages(checking);
     check_growth_steps(checking);
+    check_limit_steps(checking);
     check_conflicting_supports(checking);
   }
   return std::move(checking.found);

@@ -322,6 +322,17 @@ std::string report_growth(const analysis::StaticSolution& solution) {
   return fmt::format("Growth ended: {}\n", solution.grown->ended);
 }
 
+std::string report_limit(const analysis::StaticSolution& solution) {
+  if (!solution.limit) return {};
+  const analysis::Limit& limit = *solution.limit;
+  if (std::isinf(limit.beyond))
+    return fmt::format("No limit was found: there is equilibrium up to the factor {:.6g}\n", limit.solved);
+  return fmt::format("limit = {:.6g} to {:.6g}: {} at {:.6g}\n", limit.solved, limit.beyond,
+                     limit.outcome == analysis::Outcome::not_converged ? "not decided whether there is equilibrium"
+                                                                       : name_of(limit.outcome),
+                     limit.beyond);
+}
+
 std::string report_end(const analysis::StaticSolution& solution, const analysis::Timing& timing) {
   std::string text = "\n";
   switch (solution.outcome) {
@@ -340,7 +351,8 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
       text += fmt::format("Interrupted: {}\n", solution.reason);
       break;
   }
-  text += report_growth(solution);
+  text += report_growth(solution) + report_limit(solution);
+  if (solution.limit) text += report_mechanism(solution);
   if (const analysis::IncrementResult* last = last_converged(solution)) {
     text += fmt::format("\nAfter step {}, increment {}:\n", last->step_name, last->increment);
     text += report_totals(solution.model, *last);

@@ -52,6 +52,8 @@ std::string report_warnings(const analysis::StaticSolution& solution);
 std::string report_mechanism(const analysis::StaticSolution& solution);
 
 /// Why the growth of cracks ended, one line; empty if none grew, or if it ended without a solution.
+/// Of a step that looks for a limit: its bracket, and what is beyond.
+std::string report_limit(const analysis::StaticSolution& solution);
 std::string report_growth(const analysis::StaticSolution& solution);
 
 /// Seconds of every stage and the peak of memory.

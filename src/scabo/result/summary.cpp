@@ -134,6 +134,22 @@ Json json_of(const analysis::GrowthResult& growth) {
   return json;
 }
 
+Json json_of(const analysis::Limit& limit, const model::Model& model) {
+  const model::LimitStep& step = *model.steps.back().limit;
+  Json loads = Json::array(), contacts = Json::array();
+  for (std::size_t i = 0; i < step.loads.size(); ++i)
+    if (step.loads[i]) loads.push_back(model.loads[i].name);
+  for (std::size_t c = 0; c < step.contacts.size(); ++c)
+    if (step.contacts[c]) contacts.push_back(model.contacts[c].name);
+  const bool undecided = limit.outcome == analysis::Outcome::not_converged;
+  return {{"loads", loads},
+          {"friction", contacts},
+          {"solved", limit.solved},
+          {"beyond", number_or_null(limit.beyond)},
+          {"by", std::isinf(limit.beyond) ? Json() : Json(undecided ? "not_decided" : name_of(limit.outcome))},
+          {"reason", limit.reason.empty() ? Json() : Json(limit.reason)}};
+}
+
 Json json_of(const analysis::GrownCracks& grown) {
   Json json = {{"ended", grown.ended.empty() ? Json() : Json(grown.ended)}, {"paths", Json::object()}};
   for (const analysis::GrownCracks::Path& path : grown.paths) {
@@ -358,6 +374,7 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
   for (std::size_t i = 0; i < std::min(most, solution.increments.size()); ++i)
     json["increments"].push_back(json_of(solution.increments[i], solution.model));
   if (solution.grown) json["growth"] = json_of(*solution.grown);
+  if (solution.limit) json["limit"] = json_of(*solution.limit, solution.model);
   if (!history.empty()) {
     json["history"] = Json::object();
     for (const HistoryExtremes& column : history) json["history"][column.column] = json_of(column);

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "scabo/analysis/march/increment_warnings.hpp"
+#include "scabo/analysis/march/limit.hpp"
 #include "scabo/analysis/march/reach.hpp"
 #include "scabo/analysis/march/reports.hpp"
 #include "scabo/analysis/state/continuation.hpp"
@@ -48,6 +49,7 @@ Reached reach_with_remeshing(Scheme& scheme, const State& from, std::optional<do
 template <typename Scheme>
 bool advance(Scheme& scheme, RunState& run, StaticSolution& solution, const Options& options) {
   const model::Step& step = solution.model.steps[run.step];
+  if (step.limit) return advance_to_limit(scheme, run, solution, options);
   StepProgress& progress = run.progress;
   const double begin = progress.reached, end = next_end(step, progress, model::corners_of(step, solution.model.curves));
   scheme.begin(run.step, begin, end, run.state);

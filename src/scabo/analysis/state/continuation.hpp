@@ -12,8 +12,10 @@ namespace scabo::analysis {
 struct StepProgress {
   int increment = 0;     ///< that are finished
   double reached = 0.0;  ///< part of the step, 0 to 1
-  double size = 0.0;     ///< of the next increment of an automatic step; 0: its first
-  /// Of an automatic step: the nearest part ahead at which there was no equilibrium, a mechanism or collapse; 0: none.
+  /// Of the next increment of an automatic step; 0: its first. Of a step that looks for a limit a difference of factors.
+  double size = 0.0;
+  /// The nearest part ahead at which there was no equilibrium: of an automatic step a mechanism or collapse, of one that
+  /// looks for a limit whatever was not solved; 0: none.
   double limit = 0.0;
 };
 

@@ -92,6 +92,15 @@ struct GrownCracks {
   std::string ended;        ///< why growth ended, as a sentence without full stop
 };
 
+/// Between the two factors of a step that looks for one (model::LimitStep) there is none with equilibrium.
+struct Limit {
+  double solved = 0.0;  ///< factor of the last equilibrium
+  double beyond =
+      0.0;  ///< nearest factor at which none was found, from the last one; infinite: found at all that were tried
+  Outcome outcome = Outcome::solved;  ///< of the attempt at `beyond`; solved: there was none
+  std::string reason;                 ///< of it
+};
+
 /// A discretisation, and the increments on it.
 struct StaticSolution : Discretisation {
   /// Number of times that the discretisation was replaced because pairs were found anew or a crack grew. Fields of
@@ -104,6 +113,7 @@ struct StaticSolution : Discretisation {
   std::string reason;                  ///< if not solved
   std::optional<Mechanism> mechanism;  ///< of outcomes mechanism and collapse
   std::optional<GrownCracks> grown;    ///< if cracks grow
+  std::optional<Limit> limit;          ///< if the last step looked for one; `mechanism` is then that beyond it
   Timing timing;
 };
 
