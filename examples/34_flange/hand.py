@@ -3,7 +3,7 @@
 gasket. N, m. Standard library only."""
 import math
 
-BOLTS, PRESSURE, GASKET = 400e3, 6e6, 55e-3
+BOLTS, PRESSURE, GASKET = 200e3, 3e6, 55e-3
 
 
 def calculate():
