@@ -381,6 +381,11 @@ class CommandLine {
         ->option_text("S");
     plot_->add_option("--window", plot_options_.text, "Only this part of the plane, in stress, mesh and mechanism")
         ->option_text("X0,X1,Y0,Y1");
+    plot_->add_flag("--mirror", plot_options_.mirror, "Bodies of revolution: both halves of the section");
+    plot_
+        ->add_option("--turned", plot_options_.turned,
+                     "Bodies of revolution: no picture, but a .vtu of the fields turned about the axis in N parts")
+        ->option_text("N");
     plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
         ->option_text("LENGTH,FORCE");
     plot_
@@ -395,6 +400,7 @@ class CommandLine {
     report_->add_option("DIR", report_options_.directory, "Results directory of a run")->required()->option_text(" ");
     report_->add_option("-o,--output", report_options_.text, "Name of the page; default: model.report.html beside DIR")
         ->option_text("FILE");
+    report_->add_flag("--mirror", report_options_.mirror, "Bodies of revolution: both halves of the section");
     report_
         ->add_option("--units", report_options_.text, "Units of the model, as in --units m,N; the page can change them")
         ->option_text("LENGTH,FORCE");
@@ -433,14 +439,15 @@ class CommandLine {
   struct {
     std::string directory, what, text;
     std::vector<std::string> contacts;
-    int increment = 0;
+    int increment = 0, turned = 0;
     double scale = 0.0;
+    bool mirror = false;
   } plot_options_;
   /// The same of `report`.
   struct {
     std::string directory, text;
     double size = 0.0;
-    bool quiet = false;
+    bool quiet = false, mirror = false;
   } report_options_;
   NewOptions new_options_;
   ConvertOptions convert_options_;

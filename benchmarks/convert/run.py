@@ -9,6 +9,7 @@ those at all integration points of a deck without contact; of contact, the total
 import argparse
 import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -19,6 +20,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "peers"))
 import calculix_beams
 
+RADIUS = 1.0  # inside of a beam that is a plate around the axis
 NUMBER = r"\s+(-?\d\.\d+E[+-]\d+)"
 
 
@@ -33,7 +35,7 @@ def grid(nx, ny, width, height, kind):
                 continue
             s, t = i / (nx * steps), j / (ny * steps)
             number[i, j] = len(nodes) + 1
-            nodes.append((width * s, height * t * (1 + 0.3 * s * s)))
+            nodes.append((width * s + (RADIUS if kind.startswith("CAX") else 0.0), height * t * (1 + 0.3 * s * s)))
     elements = []
     for y in range(ny):
         for x in range(nx):
@@ -104,6 +106,13 @@ def difference(values, expected):
     return max(abs(x - y) for of, by in zip(values, expected, strict=True) for x, y in zip(of, by, strict=True)) / largest
 
 
+def about_the_axis(stress, at):
+    """Radial, axial, shear and hoop stress at a point beside the plane z = 0, from xx, yy, zz, xy, xz, yz there."""
+    c, s = at[0] / math.hypot(at[0], at[2]), at[2] / math.hypot(at[0], at[2])
+    xx, yy, zz, xy, xz, yz = stress
+    return [c * c * xx + 2 * c * s * xz + s * s * zz, yy, c * xy + s * yz, s * s * xx - 2 * c * s * xz + c * c * zz]
+
+
 def compare_beam(scabo, directory, kind):
     lines, _ = beam_deck(kind)
     deck = lines + ["*NODE PRINT, NSET=ALL", "U", "*EL PRINT, ELSET=BEAM", "S, COORD", "*END STEP", ""]
@@ -111,10 +120,15 @@ def compare_beam(scabo, directory, kind):
     text = solve_by_calculix(directory, kind)
     nodes = [tuple(map(float, line.split(",")[1:3])) for line in lines[1:lines.index(f"*ELEMENT, TYPE={kind}, ELSET=BEAM")]]
     places = [row[:2] for row in blocks_of(text, "global coordinates")]
+    if kind.startswith("CAX"):
+        places = [[math.hypot(row[0], row[2]), row[1]] for row in blocks_of(text, "global coordinates")]
     _, _, rows = solve_by_scabo(scabo, directory, kind, [list(x) for x in nodes] + places)
     moved = [[float(row["ux"]), float(row["uy"])] for row in rows[:len(nodes)]]
-    stress = [[float(row[f"stress_{part}"]) for part in ("xx", "yy", "xy")] for row in rows[len(nodes):]]
+    revolved = kind.startswith("CAX")
+    stress = [[float(row[f"stress_{part}"]) for part in ("xx", "yy", "xy") + ("zz",) * revolved] for row in rows[len(nodes):]]
     by_calculix = [[row[0], row[1], row[3]] for row in blocks_of(text, "stresses")]
+    if revolved:
+        by_calculix = [about_the_axis(of, at) for of, at in zip(blocks_of(text, "stresses"), blocks_of(text, "global coordinates"), strict=True)]
     return difference(moved, [row[:2] for row in blocks_of(text, "displacements")]), difference(stress, by_calculix)
 
 
@@ -182,7 +196,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         directory = pathlib.Path(folder)
         print("| elements | displacements | stresses |\n|---|---|---|")
-        for kind in ("CPE8", "CPE6", "CPE4", "CPE3", "CPS8", "CPS6", "CPS4", "CPS3", "CPE8R"):
+        for kind in ("CPE8", "CPE6", "CPE4", "CPE3", "CPS8", "CPS6", "CPS4", "CPS3", "CPE8R", "CAX8", "CAX6", "CAX4", "CAX3", "CAX8R"):
             moved, stress = compare_beam(scabo, directory, kind)
             print(f"| {kind} | {moved:.1e} | {stress:.1e} |", flush=True)
         print("\n| contact | Scabo, kN | CalculiX, kN | difference |\n|---|---|---|---|")

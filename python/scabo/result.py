@@ -274,8 +274,8 @@ class Result:
 
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
         """A figure of Matplotlib by ``scabo.plot``, whose functions describe the options: what="stress" on the deformed
-        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism" or "history". Results that
-        are not in a directory are first written to a temporary one."""
+        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism" or "history". ``mirrored=True``
+        draws both halves of bodies of revolution. Results that are not in a directory are first written to a temporary one."""
         if what not in _PICTURES:
             raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")
         try:
@@ -288,8 +288,10 @@ class Result:
         elif what != "mechanism":
             self._number(increment)
 
+        mirrored = options.pop("mirrored", False)
+
         def draw(directory: str) -> Any:
-            return picture(plot.Results(directory), **options)
+            return picture(plot.Results(directory, mirrored), **options)
 
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
             return draw(self.directory)
@@ -297,17 +299,18 @@ class Result:
             return draw(self._write(os.path.join(folder, "results")))
 
     def report(self, output: str | os.PathLike[str] | None = None, *, units: str | None = None,
-               megabytes: float = 25.0) -> pathlib.Path:
+               megabytes: float = 25.0, mirrored: bool = False) -> pathlib.Path:
         """Writes one page for the browser, as ``scabo report`` does, and returns its path: by default
         ``model.report.html`` beside the results directory, which a run with ``output`` has. ``units``: length and force
-        of the model, as in "m,N". Beyond ``megabytes``, fields of increments are left out, evenly."""
+        of the model, as in "m,N". Beyond ``megabytes``, fields of increments are left out, evenly. ``mirrored``: both
+        halves of bodies of revolution."""
         from . import report
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
-            return report.write(self.directory, output, units, megabytes)
+            return report.write(self.directory, output, units, megabytes, mirrored)
         if output is None:
             raise ValueError("these results are in no directory: name the page, as in report(\"model.html\")")
         with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
-            return report.write(self._write(os.path.join(folder, pathlib.Path(output).stem)), output, units, megabytes)
+            return report.write(self._write(os.path.join(folder, pathlib.Path(output).stem)), output, units, megabytes, mirrored)
 
     def _body(self, name: str) -> int:
         bodies = self._core.bodies

@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import support
 
-KINDS = ["beam", "dam", "wall", "hertz", "crack", "earthquake"]
+KINDS = ["beam", "dam", "wall", "hertz", "crack", "earthquake", "axisymmetric"]
 
 
 class NewModels(support.InTemporaryDirectory):
@@ -72,6 +72,15 @@ class NewModels(support.InTemporaryDirectory):
         self.assertAlmostEqual(spent / energy["external"], 1.0, delta=1e-9)
         self.assertGreater(energy["friction"], 0.9 * energy["external"])
         self.assertLess(energy["kinetic"], 1e-6 * energy["external"])
+
+    def test_axisymmetric_has_lames_pressure_and_is_pushed_off_by_its_friction(self):
+        increments = self.solve("axisymmetric")
+        rows = support.rows_of(self.directory / "axisymmetric.results")
+        middle = min((row for row in rows if row["step"] == "1"), key=lambda row: abs(float(row["y"]) - 0.08))
+        self.assertAlmostEqual(float(middle["pressure"]) / 63e6, 1.0, delta=5e-3)
+        fit, push = increments[-1]["contacts"]["fit"], increments[-1]["reactions"]["push"]
+        self.assertAlmostEqual(push[1] / (0.15 * fit["normal_force"]), 1.0, delta=1e-8)
+        self.assertEqual(fit["stick"], 0)
 
     def test_a_file_that_exists_is_kept(self):
         file = self.directory / "beam.yaml"

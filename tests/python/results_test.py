@@ -133,6 +133,20 @@ class Tables(InTemporaryDirectory):
 
 
 class Points(InTemporaryDirectory):
+    def test_body_of_revolution(self):
+        """A shaft under pressure all around: radial and hoop stress -p, u = -(1 - nu) p r / E, also on the axis; pictures of both halves."""
+        model = scabo.Model({
+            "scabo": 1, "analysis": {"plane": "axisymmetric"}, "materials": {"m": {"young": 400.0, "poisson": 0.25}},
+            "bodies": {"shaft": {"material": "m", "shape": {"rectangle": {"corner": [0, 0], "size": [2, 1]}}, "mesh": {"size": 0.5}}},
+            "supports": [{"on": "shaft.bottom", "fix": "y"}],
+            "loads": {"grip": {"on": "shaft.right", "pressure": 3.0}}})
+        result = model.run()
+        points = np.array([[1.0, 0.5], [0.3, 0.2], [0.0, 1.0]])
+        np.testing.assert_allclose(result.stress(points), np.tile([-3.0, 0, 0, -3.0], (3, 1)), atol=1e-11)
+        np.testing.assert_allclose(result.displacement(points)[:, 0], -0.75 * 3.0 / 400.0 * points[:, 0], atol=1e-14)
+        drawn = result.plot("stress", component="zz", mirrored=True)
+        self.assertAlmostEqual(drawn.axes[0].dataLim.x0, -drawn.axes[0].dataLim.x1)
+
     def test_uniform_stress(self):
         """A bar under a traction on smooth supports: sigma = t, u = sigma x / E and -nu sigma y / E."""
         model = scabo.Model({

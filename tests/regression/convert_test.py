@@ -1,4 +1,5 @@
 """`scabo convert`: decks of Abaqus and CalculiX as models. Numbers are compared with closed forms, messages with docs/convert.md."""
+import math
 import random
 import re
 
@@ -21,6 +22,31 @@ class Numbers(Converting):
                 self.assertAlmostEqual(v / (-nu * 1e6 * 2.0 / e), 1.0, delta=1e-10)
                 reaction = summary["increments"][-1]["reactions"]["N_BODY_LEFT"]
                 self.assertAlmostEqual(reaction[0], -1e6 * 2.0 * 0.5, delta=1e-3)
+
+    def test_tube(self):
+        """Lame's tube, radii 1 and 3, pressed from inside and held along its axis: u = p a^2 (1 + nu) ((1 - 2 nu) r + b^2 / r) / (E (b^2 - a^2)).
+        The force on its ends is 2 pi a^2 nu p, that of the whole circumference."""
+        for kind, order in (("CAX8", 1e-3), ("CAX8R", 1e-3), ("CAX4", 1e-2)):
+            with self.subTest(kind=kind):
+                deck = (grid(16, 2, 2.0, 0.5, corner=(1.0, 0.0), kind=kind) + MATERIAL + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n7.\n"
+                        "*BOUNDARY\nN_BODY_BOTTOM, 2\nN_BODY_TOP, 2\n" + STATIC + "*DSLOAD\nBODY_LEFT, P, 1e6\n" + END)
+                u, summary = self.displacement(deck, 1.0, 0.0, 0)
+                self.assertAlmostEqual(u / (1e6 * 1.3 * (0.4 + 9.0) / (210e9 * 8.0)), 1.0, delta=order)
+                force = max(abs(force[1]) for force in summary["increments"][-1]["reactions"].values())
+                self.assertAlmostEqual(force / (2 * math.pi * 0.3 * 1e6), 1.0, delta=order)
+                self.assertEqual(summary["model"]["plane"], "axisymmetric")
+
+    def test_solid_of_revolution(self):
+        """A disc that turns, with nodes on the axis held in both directions as CalculiX asks for, and a force around a circle; half of
+        the square of the angular velocity in the first step. u(b) = (1 - nu) rho w^2 b^3 / 4 E of a thin disc."""
+        deck = (grid(16, 1, 1.0, 0.02, kind="CAX8") + MATERIAL + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n*BOUNDARY\nN_BODY_LEFT, 1\n"
+                "N_BODY_BOTTOM, 2\n" + STATIC + "*DLOAD\nBODY, CENTRIF, 5e3, 0., 0., 0., 0., 1., 0.\n" + END
+                + STATIC + "*DLOAD\nBODY, CENTRIF, 1e4, 0., 0., 0., 0., 1., 0.\n*CLOAD\nN_BODY_CORNER, 2, 30.\n" + END)
+        deck = deck.replace("*MATERIAL", "*NSET, NSET=N_BODY_CORNER\n99\n*MATERIAL", 1)
+        u, summary = self.displacement(deck, 1.0, 0.01, 0)
+        self.assertAlmostEqual(u / (0.7 * 7850 * 1e4 / (4 * 210e9)), 1.0, delta=1e-3)
+        reactions = summary["increments"][-1]["reactions"]
+        self.assertAlmostEqual(sum(force[1] for force in reactions.values()), -30.0, delta=1e-6)
 
     def test_cantilever(self):
         """The exact field of a beam with shear: all of its parts are in the deflection P l^3 / 3 E I (1 + ...) to 1 %."""
@@ -207,7 +233,9 @@ LOST_IN_STEP = {
     "*CLOAD\n1, 3, 5.\n": "along degree of freedom 3 does not act on a plane body",
     "*CLOAD\n8, 1, 5.\n": "a force at node 8 acts inside of a body",
     "*CLOAD, AMPLITUDE=none\n5, 1, 5.\n": "there is no usable *AMPLITUDE 'NONE'",
-    "*DLOAD\nBODY, CENTRIF, 1., 0., 0., 0., 0., 0., 1.\n": "a distributed load of type 'CENTRIF' is not taken",
+    "*DLOAD\nBODY, CENTRIF, 1., 0., 0., 0., 0., 0., 1.\n": "a rotation (CENTRIF) needs the square of an angular velocity, and the axis x = 0",
+    "*DLOAD\nBODY, CENTRIF, 1., 0., 0., 0., 0., 1., 0.\n": "a rotation (CENTRIF) is one of bodies of revolution (CAX) only",
+    "*DLOAD\nBODY, HP, 1.\n": "a distributed load of type 'HP' is not taken",
     "*DLOAD\n1, P2, 5.\n": "a pressure acts between two elements",
     "*DSLOAD\nN_BODY_TOP, P, 5.\n": "'N_BODY_TOP' has nodes and no sides of elements, and the pressure on it is lost",
     "*DLOAD\nBODY, GRAV, 9.81, 0., 0., -1.\n": "gravity needs a direction in the plane",
@@ -217,7 +245,7 @@ LOST_IN_STEP = {
 
 REFUSED_MESHES = {
     "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n": "is three-dimensional",
-    "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=CAX3, ELSET=E\n1, 1, 2, 3\n": "is axisymmetric",
+    "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=SAX1, ELSET=E\n1, 1, 2\n": "is an axisymmetric shell, membrane or thermal element",
     "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=S3, ELSET=E\n1, 1, 2, 3\n": "elements of type S3 are not taken",
     "": "the mesh is empty",
 }

@@ -1,4 +1,4 @@
-"""Examples 17 to 21, 23 to 26 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21, 23 to 26, 32 to 34 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
@@ -114,6 +114,27 @@ class Practice(support.InTemporaryDirectory):
     def test_shaken_block(self):
         self.check("26_shaken_block", page=ROOT / "examples" / "26_shaken_block" / "README.md")
         self.assertLess(abs(self.history("26_shaken_block", ["parameters.friction=0.6"])[-1]["moved"]), 1e-8)
+
+
+    def test_press_fit_of_revolution(self):
+        self.check("32_press_fit_of_revolution", page=ROOT / "examples" / "32_press_fit_of_revolution" / "README.md")
+
+    def test_indentation(self):
+        """The rows of the ball: half-space and layer by hand, and the run of ball.yaml."""
+        readme = ROOT / "examples" / "33_indentation" / "README.md"
+        self.check("33_indentation", page=readme)
+        hand, directory = hand_of("33_indentation"), self.directory / "ball"
+        run = self.run_scabo("33_indentation", directory, [], "ball.yaml")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        lines = readme.read_text(encoding="utf-8").splitlines()
+        for row in (directory / "history.csv").read_text(encoding="utf-8").splitlines()[1:]:
+            number, force = int(row.split(",")[1]), float(row.split(",")[3])
+            depth = number / 5 * hand.BALL_DEPTH
+            self.assertAlmostEqual(force / hand.ball(depth), 1, delta=1e-2)
+            self.assertIn(f"| {1e6 * depth:.0f} | {hand.half_space(depth):.3f} | {hand.ball(depth):.3f} | {force:.3f} |", lines)
+
+    def test_flange(self):
+        self.check("34_flange", page=ROOT / "examples" / "34_flange" / "README.md")
 
 
 class ClosedFormOfTheLining(support.unittest.TestCase):

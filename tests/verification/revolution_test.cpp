@@ -1,5 +1,5 @@
-// Bodies of revolution against closed forms: Lame's cylinder and sphere, rotation, a press fit, a punch, Hertz's
-// sphere; patches, motion without force, and twins.
+// Bodies of revolution against closed forms: Lame's cylinder and sphere, rotation, a press fit, Hertz's sphere;
+// patches, motion without force, and twins.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -300,36 +300,6 @@ contacts:
   EXPECT_NEAR(contact_of(last(solution), 1).max_pressure, q, 1e-3 * q);
 }
 
-double force_of_punch(double size) {
-  // A block of radius and depth 20 whose far boundary is held: (1 - nu^2) P / (2 a E) is smaller there by what the half
-  // space moves at that distance; two blocks tell it.
-  const auto stiffness = [&](double depth) {
-    const auto solution = run(model(fmt::format(R"(
-  ground:
-    material: m
-    shape: {{polygon: {{vertices: [[0, {0}], [{1}, {0}], [{1}, 0], [0, 0]], names: {{bottom: edge_1, right: edge_2, top: edge_3}}}}}}
-    mesh: {{size: {2}, refine: [{{near: [1, 0], size: {3}}}]}}
-  punch: {{rigid: true, shape: {{rectangle: {{corner: [0, 0], size: [1, 1]}}}}}}
-)",
-                                                -depth, depth, depth / 8.0, size),
-                                    R"(
-supports:
-  - {on: ground.bottom, fix: [x, y]}
-  - {on: ground.right, fix: [x, y]}
-  - {on: punch, displacement: [null, -0.01]}
-contacts: {seat: {between: [ground.top, punch.bottom], friction: 0}}
-)"));
-    return contact_of(last(solution)).normal_force / 0.01;
-  };
-  return 1.0 / (2.0 / stiffness(40.0) - 1.0 / stiffness(20.0)) / (2.0 / (1.0 - nu * nu));
-}
-
-TEST(Revolution, RigidCircularPunch) {
-  const double coarse = force_of_punch(0.02), fine = force_of_punch(0.005);
-  EXPECT_NEAR(fine, 1.0, 6e-3);  // of the first order at the edge of the punch, where the pressure is infinite
-  EXPECT_LT(std::abs(fine - 1.0), std::abs(coarse - 1.0));
-}
-
 std::string hertz(const char* sides, double length, double modulus, double load, double friction) {
   return fmt::format(R"(
 scabo: 1
@@ -357,7 +327,8 @@ contacts: {{touch: {{between: [{11}], friction: {12}}}}}
 }
 
 TEST(Revolution, HertzSphereOnABlock) {
-  // VERIFICATION "Space": a 1.866256, p0 1,370.879.
+  // VERIFICATION "Space": a 1.866256, p0 1,370.879. The ball leans by a / R = 0.04 at the end of the contact, which
+  // Hertz leaves out: to 1e-3 his numbers are those of RevolutionExact.HertzBallOnABlock.
   const auto solution = run(hertz("block.top, ball.surface", 1, 1, 1, 0));
   const analysis::ContactResult& touch = contact_of(last(solution));
   EXPECT_NEAR(touch.normal_force, 1e4, 1e-3 * 1e4);  // the surfaces lean by a / R at the end of the contact

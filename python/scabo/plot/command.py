@@ -31,6 +31,8 @@ def parser():
     options.add_argument("--contact", action="append", default=[], metavar="NAME", help="only this contact; may be repeated")
     options.add_argument("--scale", type=float, metavar="S", help="magnification of displacements; default: one that shows them")
     options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress, mesh and mechanism")
+    options.add_argument("--mirror", action="store_true", help="bodies of revolution: both halves of the section")
+    options.add_argument("--turned", type=int, metavar="N", help="bodies of revolution: writes no picture, but a .vtu file of the fields turned about the axis in N parts")
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N")
     options.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
                          help=".png, .svg or .pdf; default: .png files beside DIR, one for each picture")
@@ -126,7 +128,7 @@ def figures(options, results, increment):
 def write(options):
     from .results import NothingToDraw, Results, ResultsError, refuse_impossible
     from .sweeps import Sweep
-    if options.output is not None and options.output.suffix.lower() not in FORMATS:
+    if options.output is not None and options.turned is None and options.output.suffix.lower() not in FORMATS:
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
     refuse_impossible(options.directory)
     if options.what == "all" and options.component is not None and not Sweep.is_in(options.directory):
@@ -138,7 +140,9 @@ def write(options):
             raise ResultsError(f"--{option}: has no meaning for --what {options.what}")
     if Sweep.is_in(options.directory):
         return write_sweep(options)
-    results = Results(options.directory)
+    results = Results(options.directory, options.mirror)
+    if options.turned is not None:
+        return write_turned(options, results)
     increment = -1 if options.increment is None else options.increment
     kinds = kinds_of(results, options.what)
     if kinds != ["mechanism"]:
@@ -161,6 +165,24 @@ def write(options):
     return 0
 
 
+def write_turned(options, results):
+    """Fields of one increment once around the axis of revolution."""
+    from . import revolution
+    from .results import ResultsError
+    if not results.revolved or options.mirror:
+        raise ResultsError(f"--turned {options.turned}: is for bodies of revolution (plane: axisymmetric), without --mirror")
+    if not 3 <= options.turned <= 720:
+        raise ResultsError(f"--turned {options.turned}: give a number of parts from 3 to 720, as in --turned 36")
+    if options.output is not None and options.output.suffix.lower() != ".vtu":
+        raise ResultsError(f"-o {options.output}: the name must end in .vtu")
+    grid = results.fields(results.number(-1 if options.increment is None else options.increment))
+    directory = options.directory.resolve()
+    path = options.output or options.directory.parent / f"{directory.name.removesuffix('.results')}.turned.vtu"
+    revolution.write_turned(grid, options.turned, path)
+    screen.show("scabo plot", path, "the file is")
+    return 0
+
+
 def kinds_of(results, what):
     """What is to be drawn. Few runs end as a mechanism; where the first increment does, there is nothing else."""
     if what != "all":
@@ -175,8 +197,8 @@ def write_sweep(options):
     from .results import ResultsError
     from .sweeps import sweep
     from .units import Units
-    for option in ("increment", "contact", "scale", "window"):
-        if getattr(options, option) not in (None, []):
+    for option in ("increment", "contact", "scale", "window", "mirror", "turned"):
+        if getattr(options, option) not in (None, [], False):
             raise ResultsError(f"--{option}: has no meaning for a sweep")
     if options.what != "all":
         raise ResultsError(f"--what {options.what}: {options.directory} is a sweep, of which there is one picture; draw one of its points, "

@@ -4,7 +4,7 @@ import dataclasses
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from . import geometry, style, vtu
+from . import geometry, revolution, style, vtu
 from .results import NothingToDraw, ResultsError
 from .units import Units
 
@@ -83,6 +83,8 @@ def field_of(results, increment=-1, component=None, magnification=None, window=N
     if component not in COMPONENTS:
         raise ResultsError(f"--component {component}: there are {', '.join(COMPONENTS)}")
     _, name, dimension = COMPONENTS[component]
+    if results.revolved:
+        name = revolution.NAMES.get(component, name)
     if results.modal:  # its size means nothing
         name, dimension = name + " of the mode" if dimension == "length" else name, "number"
     values = field_values(grid, component)

@@ -8,7 +8,7 @@ import re
 
 import numpy as np
 
-from . import vtu
+from . import revolution, vtu
 
 TEXT = ("contact", "state", "stage", "name", "body")  # columns that are not numbers
 
@@ -35,9 +35,14 @@ def refuse_impossible(directory):
 class Results:
     """The results in `directory`; files are read when they are needed."""
 
-    def __init__(self, directory):
+    def __init__(self, directory, mirrored=False):
+        """`mirrored`: fields of bodies of revolution have both halves of the section."""
         self.directory = pathlib.Path(directory)
         self.summary = self._summary()
+        self.revolved = self.summary.get("model", {}).get("plane") == "axisymmetric"
+        self.mirrored = mirrored
+        if mirrored and not self.revolved:
+            raise ResultsError(f"{self.directory}: is not of bodies of revolution (plane: axisymmetric), so that there is no other half to draw")
         self.modal = self.summary.get("analysis") == "modal"
         self.title = self.summary.get("title") or ""
 
@@ -201,11 +206,12 @@ class Results:
     def _grid(self, name):
         path = self.directory / name
         try:
-            return vtu.read_parts(path) if path.suffix == ".pvtu" else vtu.read_grid(path)
+            grid = vtu.read_parts(path) if path.suffix == ".pvtu" else vtu.read_grid(path)
         except OSError as error:
             raise ResultsError(f"{path}: cannot be read: {error.strerror}") from None
         except vtu.FormatError as error:
             raise ResultsError(f"{path}: is damaged ({error}); run the model again") from None
+        return revolution.mirrored(grid) if self.mirrored else grid
 
 
 def without_rounding(rows, key, direction):

@@ -15,6 +15,7 @@ def parser():
     options = Parser(prog="scabo report", description="Writes results as one page for the browser")
     options.add_argument("directory", type=pathlib.Path, metavar="DIR", help="results of `scabo run`")
     options.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE", help="name of the page; default: model.report.html beside DIR")
+    options.add_argument("--mirror", action="store_true", help="bodies of revolution: both halves of the section")
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N; the page can change them")
     options.add_argument("--size", type=float, default=25.0, metavar="MB",
                          help="largest size of the page in megabytes; default: 25. Of long runs it leaves out fields of increments")
@@ -39,7 +40,7 @@ def main(words=None):
     except ImportError as error:
         return complain(f"{error}: install NumPy (apt install python3-numpy), or name another interpreter with SCABO_PYTHON", 3)
     try:
-        path = page.write(options.directory, options.output, options.units, options.size)
+        path = page.write(options.directory, options.output, options.units, options.size, options.mirror)
     except (ResultsError, UnitsError) as error:
         return complain(error, 1)
     except OSError as error:

@@ -3,7 +3,7 @@ import numpy as np
 
 from .choice import in_order_of_importance, listed, mesh_may_change
 from .packing import pack
-from .reading import ResultsError, geometry, vtu
+from .reading import ResultsError, geometry, revolution, vtu
 
 # key: array of the file and its component, name, dimension
 QUANTITIES = {
@@ -47,7 +47,7 @@ def add_fields(results, arrays, budget):
     return {"centre": centre.tolist(), "points": len(first.points), "triangles": len(corners), "increments": sorted(chosen), "ranges": chosen,
             "magnification": scale_of(results, sorted(chosen)[-1]), "low": first.points.min(axis=0).tolist(),
             "high": first.points.max(axis=0).tolist(), "note": note_of(results, numbers, sorted(chosen), of_other_meshes),
-            "quantities": [{"key": key, "name": name, "dimension": dimension} for key, (_, _, name, dimension) in quantities.items()]}
+            "quantities": [{"key": key, "name": revolution.NAMES.get(key, name) if results.revolved else name, "dimension": dimension} for key, (_, _, name, dimension) in quantities.items()]}
 
 
 def scale_of(results, number):

@@ -32,13 +32,14 @@ def template():
                        "the sources of Scabo builds it, and `make install` takes it along (it needs Node.js 18 or newer and npm: apt install nodejs npm)")
 
 
-def page_of(directory, units=None, megabytes=MEGABYTES):
-    """The text of the page for a results directory. `units`: length and force as in "m,N". Raises ResultsError, UnitsError."""
+def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False):
+    """The text of the page for a results directory. `units`: length and force as in "m,N". `mirrored`: of bodies of revolution both halves
+    of the section. Raises ResultsError, UnitsError."""
     text = template()
     if not (math.isfinite(megabytes) and megabytes > 0):
         raise ResultsError(f"--size {megabytes:g}: give a number of megabytes above 0")
     named = Units.parse(units) if units else None
-    results = Results(directory)
+    results = Results(directory, mirrored)
     check(results)
     content = content_of(results)
     content["units"] = [named.length, named.force] if named else None
@@ -99,14 +100,14 @@ def default_name(directory):
     return beside / f"{resolved.name.removesuffix('.results')}.report.html"
 
 
-def write(directory, output=None, units=None, megabytes=MEGABYTES):
+def write(directory, output=None, units=None, megabytes=MEGABYTES, mirrored=False):
     """Writes the page and returns its path; `output` None: `model.report.html` beside `model.results`. A page that is there is
     replaced when the new one is complete. Raises ResultsError and UnitsError, and OSError where it cannot be written."""
     refuse_impossible(pathlib.Path(directory))
     path = default_name(directory) if output is None else pathlib.Path(output)
     if path.is_dir():
         raise ResultsError(f"-o {path}: is a directory: name a file, as in -o {path / 'report.html'}")
-    text = page_of(directory, units, megabytes)
+    text = page_of(directory, units, megabytes, mirrored)
     if path.exists() and not path.is_file():  # a device or a pipe, which a new file must not replace
         path.write_text(text, encoding="utf-8")
         return path

@@ -18,6 +18,7 @@
 #include "scabo/convert/piece_geometry.hpp"
 #include "scabo/convert/write_mesh.hpp"
 #include "scabo/convert/write_model.hpp"
+#include "scabo/convert/write_steps.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/model/wording.hpp"
 
@@ -30,12 +31,7 @@ using files::ImportedCell;
 using files::ImportedMesh;
 using files::upper;
 using model::number_text;
-
-/// What a load or a displacement that varies is in `steps`.
-struct Driven {
-  std::string name;
-  Course factors;
-};
+using model::Plane;
 
 class Converter {
  public:
@@ -46,8 +42,8 @@ class Converter {
     for (const std::string& remark : mesh_.remarks) mesh_remark(remark);
     content_ = read_content(deck_, remarks_);
     adjust_nodes(deck_, content_, remarks_);
-    plane_strain_ = plane_strain_of(deck_, content_, remarks_).value_or(false);
-    GivenMaterials materials = materials_of(deck_, content_, plane_strain_, remarks_);
+    parts_.plane = plane_of(deck_, content_, remarks_).value_or(Plane::stress);
+    GivenMaterials materials = materials_of(deck_, content_, parts_.plane, remarks_);
     parts_.materials = std::move(materials.lines);
     young_ = std::move(materials.young);
     bodies_ = bodies_of(deck_, content_, materials.of_cell, remarks_);
@@ -63,12 +59,11 @@ class Converter {
     write_pressures();
     write_body_loads();
     write_contacts();
-    write_steps();
+    parts_.steps = steps_text(content_.steps, driven_, parts_.curves);
     parts_.title = content_.title;
-    parts_.plane_strain = plane_strain_;
     if (!content_.sections.empty()) parts_.thickness = content_.sections.front().thickness;
     result_.model = model_text(parts_, bodies_, remarks_, deck_name_, mesh_name_);
-    result_.mesh = mesh_text(deck_, bodies_, pieces_, plane_strain_, deck_name_);
+    result_.mesh = mesh_text(deck_, bodies_, pieces_, parts_.plane, deck_name_);
     result_.bodies = static_cast<int>(bodies_.bodies.size());
     result_.steps = static_cast<int>(content_.steps.size());
     result_.remarks = remarks_.take();
@@ -102,6 +97,18 @@ class Converter {
     return found == courses_of_.end() ? -1 : found->second;
   }
 
+  /// On the axis of revolution, where the radius stays 0 by itself.
+  bool is_on_axis(int node) const {
+    return parts_.plane == Plane::revolution && mesh_.nodes[static_cast<std::size_t>(node)].x() == 0.0;
+  }
+
+  /// A radial displacement on the axis: none, or a mistake.
+  void leave_out_on_axis(int node) {
+    const Given& given = content_.displacements.at({node, 0});
+    if (!is_zero(given.course))
+      remarks_.essential(given.at, "a radial displacement on the axis opens a hole there; take it out");
+  }
+
   void collect_supports() {
     for (const auto& [key, given] : content_.displacements) {
       const auto known = std::find(courses_.begin(), courses_.end(), given.course);
@@ -116,6 +123,7 @@ class Converter {
         courses[at] = course_of(side.start, k);
         if (course_of(side.end, k) != courses[at] || (side.middle >= 0 && course_of(side.middle, k) != courses[at]))
           courses[at] = -1;
+        if (k == 0 && is_on_axis(side.start) && is_on_axis(side.end)) courses[at] = -1;
         if (courses[at] < 0) continue;
         for (const int node : {side.start, side.end, side.middle})
           if (node >= 0) covered_.insert({node, k});
@@ -262,9 +270,14 @@ class Converter {
       const Given* given = nullptr;
       for (const int k : {0, 1}) {
         if (covered_.contains({node, k}) || course_of(node, k) < 0) continue;
+        if (k == 0 && is_on_axis(node)) {
+          leave_out_on_axis(node);
+          continue;
+        }
         courses[static_cast<std::size_t>(k)] = course_of(node, k);
         given = &content_.displacements.at({node, k});
       }
+      if (given == nullptr) continue;
       if (const auto on = place_of_node(node, *given, "a support"))
         write_support(*on, courses, named(given->label, "support", node));
     }
@@ -333,10 +346,12 @@ class Converter {
       std::vector<std::size_t> in_body(bodies_.bodies.size()), of_body(bodies_.bodies.size());
       for (const int body : bodies_.body_of_cell) ++of_body[static_cast<std::size_t>(body)];
       for (const int c : *cells) ++in_body[static_cast<std::size_t>(bodies_.body_of_cell[static_cast<std::size_t>(c)])];
-      const char* kind = load.gravity ? "gravity" : "body_force";
-      const char* label = load.gravity ? "gravity" : "body_force";
-      if (load.gravity && in_body == of_body) {
-        add_vector_load(label, "", kind, load.x.course, load.y.course);
+      if (load.kind == DeckBodyLoad::Kind::rotation && parts_.plane != Plane::revolution) {
+        remarks_.essential(load.x.at, "a rotation (CENTRIF) is one of bodies of revolution (CAX) only");
+        continue;
+      }
+      if (load.kind != DeckBodyLoad::Kind::body_force && in_body == of_body) {
+        write_body_load(load, "");
         continue;
       }
       for (std::size_t b = 0; b < in_body.size(); ++b) {
@@ -348,9 +363,18 @@ class Converter {
               fmt::format("the load acts on a part of body '{}' only, which Scabo's do not; give it to all of its "
                           "elements",
                           name));
-        add_vector_load(label, "on: " + yaml_word(name), kind, load.x.course, load.y.course);
+        write_body_load(load, "on: " + yaml_word(name));
       }
     }
+  }
+
+  void write_body_load(const DeckBodyLoad& load, const std::string& on) {
+    if (load.kind != DeckBodyLoad::Kind::rotation) {
+      const char* kind = load.kind == DeckBodyLoad::Kind::gravity ? "gravity" : "body_force";
+      return add_vector_load(kind, on, kind, load.x.course, load.y.course);
+    }
+    const double square = scale_of(load.x.course);  // factors multiply the force
+    add_load(names_.take("spin"), on, "spin: " + number_text(std::sqrt(square)), scaled(load.x.course, 1.0 / square));
   }
 
   // ---- contacts
@@ -404,55 +428,6 @@ class Converter {
     }
   }
 
-  // ---- steps
-
-  std::string curve_for(const std::vector<std::pair<double, double>>& table) {
-    for (const NamedCurve& known : parts_.curves)
-      if (known.table == table) return known.name;
-    parts_.curves.push_back({fmt::format("curve_{}", parts_.curves.size() + 1), table});
-    return parts_.curves.back().name;
-  }
-
-  void write_steps() {
-    UniqueNames names;
-    for (std::size_t s = 0; s < content_.steps.size(); ++s) {
-      const DeckStep& step = content_.steps[s];
-      std::vector<std::string> factors;
-      bool plain = content_.steps.size() == 1;  // everything goes to 1, which needs no word
-      for (const Driven& driven : driven_) {
-        const Leg& leg = driven.factors[s];
-        const double before = s > 0 ? driven.factors[s - 1].end : 0.0;
-        plain = plain && leg.table.empty() && leg.end == 1.0;
-        if (leg.table.empty() && leg.end == before) continue;
-        factors.push_back(fmt::format("{}: {}", yaml_word(driven.name),
-                                      leg.table.empty() ? number_text(leg.end) : curve_for(leg.table)));
-      }
-      if (factors.empty() && !plain && !driven_.empty())
-        factors.push_back(
-            fmt::format("{}: {}", yaml_word(driven_.front().name), number_text(driven_.front().factors[s].end)));
-      const double first = step.first / step.period,
-                   largest = std::min(1.0, step.largest > 0.0 ? step.largest / step.period : 1.0);
-      std::string increments = "1";
-      const double count = std::round(step.period / step.first);
-      const bool whole = std::abs(count * step.first - step.period) < 1e-6 * step.period;
-      if (step.at_once) {
-        increments = "1";
-      } else if (step.equal && whole) {
-        increments = fmt::format("{}", static_cast<int>(std::clamp(count, 1.0, 100000.0)));
-      } else if (step.equal) {
-        increments = fmt::format("{{first: {0}, smallest: {0}, largest: {0}}}", number_text(std::max(first, 1e-6)));
-      } else if (first < 1.0) {
-        const double most = std::max(largest, 1e-6), least = std::clamp(step.smallest / step.period, 1e-6, most);
-        increments = fmt::format("{{first: {}, smallest: {}, largest: {}}}",
-                                 number_text(std::clamp(first, least, most)), number_text(least), number_text(most));
-      }
-      parts_.steps +=
-          fmt::format("  - {{name: {}, increments: {}{}}}\n",
-                      yaml_word(names.take(step.name.empty() ? fmt::format("step_{}", s + 1) : step.name)), increments,
-                      plain || factors.empty() ? "" : fmt::format(", loads: {{{}}}", fmt::join(factors, ", ")));
-    }
-  }
-
   files::AbaqusDeck deck_;
   const ImportedMesh& mesh_ = deck_.mesh;
   std::string deck_name_, mesh_name_;
@@ -460,7 +435,6 @@ class Converter {
   DeckContent content_;
   DeckBodies bodies_;
   std::vector<double> young_;  // per cell
-  bool plane_strain_ = false;
   std::vector<SideUse> uses_;
   std::map<std::pair<int, int>, std::set<int>> uses_of_;
   std::vector<Course> courses_;                     // of displacements

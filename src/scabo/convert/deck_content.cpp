@@ -57,7 +57,7 @@ class ContentReader {
     }
     for (auto& load : body_loads_) {
       if (is_zero(load.x.given.course) && is_zero(load.y.given.course)) continue;
-      content_.body_loads.push_back({load.set, load.gravity, std::move(load.x.given), std::move(load.y.given)});
+      content_.body_loads.push_back({load.set, load.kind, std::move(load.x.given), std::move(load.y.given)});
     }
     tell_left_out();
     return std::move(content_);
@@ -66,7 +66,7 @@ class ContentReader {
  private:
   struct GrowingBodyLoad {
     std::string set;
-    bool gravity;
+    DeckBodyLoad::Kind kind;
     Growing x, y;
   };
 
@@ -328,18 +328,18 @@ class ContentReader {
     for (const files::Facet& side : sides) grow(pressures_[key_of(side)], value, amplitude, line, true);
   }
 
-  void body_load(const DeckLine& line, bool gravity, const Vec2& value, const std::string& amplitude) {
+  void body_load(const DeckLine& line, DeckBodyLoad::Kind kind, const Vec2& value, const std::string& amplitude) {
     auto found = std::find_if(body_loads_.begin(), body_loads_.end(), [&](const GrowingBodyLoad& load) {
-      return load.gravity == gravity && upper(load.set) == upper(line.fields[0]);
+      return load.kind == kind && upper(load.set) == upper(line.fields[0]);
     });
-    if (found == body_loads_.end()) found = body_loads_.insert(found, {line.fields[0], gravity, {}, {}});
+    if (found == body_loads_.end()) found = body_loads_.insert(found, {line.fields[0], kind, {}, {}});
     grow(found->x, value[0], amplitude, line, true);
     grow(found->y, value[1], amplitude, line, true);
   }
 
   /// Whether a line of *DLOAD has no more entries than its type takes.
-  bool has_its_entries(const DeckLine& line, bool gravity) {
-    const std::size_t most = gravity ? 6 : 3;
+  bool has_its_entries(const DeckLine& line, const std::string& label) {
+    const std::size_t most = label == "CENTRIF" ? 9 : label == "GRAV" ? 6 : 3;
     if (line.fields.size() > most)
       remarks_.essential(line.at,
                          fmt::format("a load of type '{}' takes {} entries, and '{}' is one more; take it out",
@@ -360,8 +360,8 @@ class ContentReader {
     for (const DeckLine& line : block.lines) {
       const std::string label = line.fields.size() > 1 ? upper(line.fields[1]) : "";
       const bool pressure = !line.sides.empty() || (of_surface && label == "P");
-      const bool taken = pressure || label == "GRAV" || label == "BX" || label == "BY";
-      if (taken && !has_its_entries(line, label == "GRAV")) continue;
+      const bool taken = pressure || label == "GRAV" || label == "BX" || label == "BY" || label == "CENTRIF";
+      if (taken && !has_its_entries(line, label)) continue;
       if (pressure) {
         const auto value = number(remarks_, line, 2, "the pressure");
         const auto sides = line.sides.empty() ? surface_named(deck_, line.fields[0]) : sides_of_line(line);
@@ -387,14 +387,20 @@ class ContentReader {
           remarks_.essential(line.at, "gravity needs a direction in the plane; correct the last three numbers");
           continue;
         }
-        body_load(line, true, length > 0.0 ? Vec2(*g * *x / length, *g * *y / length) : Vec2(0.0, 0.0), *amplitude);
+        body_load(line, DeckBodyLoad::Kind::gravity,
+                  length > 0.0 ? Vec2(*g * *x / length, *g * *y / length) : Vec2(0.0, 0.0), *amplitude);
       } else if (label == "BX" || label == "BY") {
         const auto value = number(remarks_, line, 2, "the force per volume");
-        if (value) body_load(line, false, label == "BX" ? Vec2(*value, 0.0) : Vec2(0.0, *value), *amplitude);
+        if (value)
+          body_load(line, DeckBodyLoad::Kind::body_force, label == "BX" ? Vec2(*value, 0.0) : Vec2(0.0, *value),
+                    *amplitude);
+      } else if (label == "CENTRIF") {
+        if (const auto square = rotation_of(remarks_, line))
+          body_load(line, DeckBodyLoad::Kind::rotation, {*square, 0.0}, *amplitude);
       } else {
         remarks_.essential(
             line.at, fmt::format("a distributed load of type '{}' is not taken; there are {}", files::printable(label),
-                                 of_surface ? "P" : "P1 to P4, GRAV, BX and BY"));
+                                 of_surface ? "P" : "P1 to P4, GRAV, CENTRIF, BX and BY"));
       }
     }
   }

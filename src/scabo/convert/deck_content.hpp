@@ -66,10 +66,12 @@ struct DeckStep {
   files::DeckPlace at;
 };
 
-/// Acceleration or force per volume in the elements of a set.
+/// Acceleration, force per volume, or rotation about the axis of revolution, whose `x` is the square of the angular
+/// velocity, in the elements of a set.
 struct DeckBodyLoad {
+  enum class Kind { gravity, body_force, rotation };
   std::string set;
-  bool gravity = true;
+  Kind kind = Kind::gravity;
   Given x, y;
 };
 

@@ -9,6 +9,7 @@
 
 #include "scabo/convert/deck_bodies.hpp"
 #include "scabo/convert/deck_names.hpp"
+#include "scabo/convert/write_mesh.hpp"
 #include "scabo/convert/write_model.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/text_cursor.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 using files::upper;
 using model::number_text;
+using model::Plane;
 
 const DeckMaterial* material_named(const DeckContent& content, const std::string& name) {
   for (const DeckMaterial& material : content.materials)
@@ -30,6 +32,12 @@ const DeckMaterial* material_named(const DeckContent& content, const std::string
 double least_young(const DeckMaterial& material) {
   if (material.isotropic) return material.isotropic->first;
   return material.orthotropic ? std::min((*material.orthotropic)[0], (*material.orthotropic)[1]) : 0.0;
+}
+
+std::optional<Plane> family_of(const std::string& type) {
+  for (const Plane plane : {Plane::stress, Plane::strain, Plane::revolution})
+    if (type.starts_with(element_family(plane))) return plane;
+  return std::nullopt;
 }
 
 /// Hybrid elements (H) are for materials that hardly change their volume, which elements for displacements lock at.
@@ -49,7 +57,7 @@ void tell_incompressible(const files::AbaqusDeck& deck, const DeckMaterial& mate
 }
 
 /// Empty if its law is not taken.
-std::string material_line(const DeckMaterial& material, double angle, const std::string& name, bool plane_strain,
+std::string material_line(const DeckMaterial& material, double angle, const std::string& name, Plane plane,
                           Remarks& remarks) {
   std::string text;
   if (material.isotropic)
@@ -59,7 +67,7 @@ std::string material_line(const DeckMaterial& material, double angle, const std:
     const std::vector<double>& n = *material.orthotropic;
     text = fmt::format("orthotropic: {{E1: {}, E2: {}, nu12: {}, G12: {}", number_text(n[0]), number_text(n[1]),
                        number_text(n[3]), number_text(n[6]));
-    if (plane_strain)
+    if (plane != Plane::stress)
       text += fmt::format(", E3: {}, nu13: {}, nu23: {}", number_text(n[2]), number_text(n[4]), number_text(n[5]));
     if (angle != 0.0) text += fmt::format(", angle: {}", number_text(angle));
     text += "}";
@@ -75,12 +83,12 @@ std::string material_line(const DeckMaterial& material, double angle, const std:
 
 }  // namespace
 
-std::optional<bool> plane_strain_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks) {
-  std::optional<bool> plane_strain;
+std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks) {
+  std::optional<Plane> plane;
   for (const auto& elements : deck.elements) {
     const std::string& type = elements.type;
-    const bool taken = type.size() >= 4 && (type.starts_with("CPS") || type.starts_with("CPE")) &&
-                       std::string_view("3468").find(type[3]) != std::string_view::npos &&
+    const std::optional<Plane> family = family_of(type);
+    const bool taken = family && type.size() >= 4 && std::string_view("3468").find(type[3]) != std::string_view::npos &&
                        type.find_first_not_of("RIHM", 4) == std::string::npos;
     if (!taken) {
       if (type.starts_with("T") || type.starts_with("B"))
@@ -91,15 +99,16 @@ std::optional<bool> plane_strain_of(const files::AbaqusDeck& deck, const DeckCon
                }))
         remarks.essential(
             elements.at,
-            fmt::format("elements of type {} are not taken; use plane ones with 3, 4, 6 or 8 nodes (CPS, CPE)",
+            fmt::format("elements of type {} are not taken; use those of a section with 3, 4, 6 or 8 nodes (CPS, CPE, "
+                        "CAX)",
                         files::printable(elements.type)));
       continue;
     }
-    const bool strain = type[2] == 'E';
-    if (plane_strain && *plane_strain != strain)
+    if (plane && *plane != *family)
       remarks.essential(elements.at,
-                        "plane stress (CPS) and plane strain (CPE) in one deck are not taken; use one of them");
-    if (!plane_strain) plane_strain = strain;
+                        "plane stress (CPS), plane strain (CPE) and bodies of revolution (CAX) in one deck are not "
+                        "taken; use one of them");
+    if (!plane) plane = family;
     if (type.find_first_of("RI", 4) != std::string::npos)
       remarks.note(
           elements.at,
@@ -113,15 +122,15 @@ std::optional<bool> plane_strain_of(const files::AbaqusDeck& deck, const DeckCon
                                files::printable(type)));
   }
   for (const DeckSection& section : content.sections)
-    if (section.thickness != content.sections.front().thickness)
+    if (plane != Plane::revolution && section.thickness != content.sections.front().thickness)
       remarks.essential(
           section.at,
           fmt::format("the thickness {:g} is not that of the first section, {:g}; a model has one thickness",
                       section.thickness, content.sections.front().thickness));
-  return plane_strain;
+  return plane;
 }
 
-GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& content, bool plane_strain,
+GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& content, model::Plane plane,
                             Remarks& remarks) {
   GivenMaterials given;
   given.of_cell.assign(deck.mesh.cells.size(), "");
@@ -156,7 +165,7 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
     const auto [entry, is_new] = made.try_emplace(key);
     if (is_new) {
       entry->second = names.take(material->name);
-      given.lines += material_line(*material, angle, entry->second, plane_strain, remarks);
+      given.lines += material_line(*material, angle, entry->second, plane, remarks);
     }
     tell_incompressible(deck, *material, *cells, section.at, remarks);
     for (const int c : *cells) {

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "scabo/convert/deck_content.hpp"
+#include "scabo/model/material.hpp"
 
 namespace scabo::convert {
 
-/// Whether the elements that are taken are of plane strain; nothing without any. The others, and thicknesses that
-/// differ, become remarks.
-std::optional<bool> plane_strain_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks);
+/// The analysis that the elements which are taken are of; nothing without any. The others, and thicknesses that differ,
+/// become remarks.
+std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks);
 
 struct GivenMaterials {
   std::vector<std::string> of_cell;  ///< names of the model; empty for a cell without one
@@ -20,7 +21,7 @@ struct GivenMaterials {
 };
 
 /// A material of the deck that has several orientations becomes as many of the model.
-GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& content, bool plane_strain,
+GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& content, model::Plane plane,
                             Remarks& remarks);
 
 }  // namespace scabo::convert

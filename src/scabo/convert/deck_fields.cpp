@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "scabo/files/abaqus_lines.hpp"
@@ -54,6 +55,24 @@ std::optional<std::vector<double>> numbers_of(Remarks& remarks, const DeckBlock&
   if (numbers.size() == count) return numbers;
   remarks.essential(block.at,
                     fmt::format("{} needs {} numbers, and {} are here; add the others", what, count, numbers.size()));
+  return std::nullopt;
+}
+
+std::optional<double> rotation_of(Remarks& remarks, const DeckLine& line) {
+  const auto square = number(remarks, line, 2, "the square of the angular velocity");
+  std::array<double, 6> axis{};  // a point, a direction
+  for (std::size_t k = 0; k < axis.size(); ++k) {
+    const auto value = number(remarks, line, 3 + k, "a point and the direction of the axis", 0.0);
+    if (!value) return std::nullopt;
+    axis[k] = *value;
+  }
+  const double length = std::hypot(axis[3], axis[4], axis[5]);
+  if (square && *square >= 0.0 && axis[0] == 0.0 && axis[2] == 0.0 && length > 0.0 && std::abs(axis[4]) == length)
+    return square;
+  if (square)
+    remarks.essential(line.at,
+                      "a rotation (CENTRIF) needs the square of an angular velocity, and the axis x = 0: the "
+                      "point 0, 0, 0 and the direction 0, 1, 0");
   return std::nullopt;
 }
 

@@ -14,8 +14,12 @@ using files::ImportedCell;
 using files::ImportedMesh;
 using model::number_text;
 
+const char* element_family(model::Plane plane) {
+  return plane == model::Plane::stress ? "CPS" : plane == model::Plane::strain ? "CPE" : "CAX";
+}
+
 std::string mesh_text(const files::AbaqusDeck& deck, const DeckBodies& bodies, const std::vector<DeckPiece>& pieces,
-                      bool plane_strain, const std::string& deck_name) {
+                      model::Plane plane, const std::string& deck_name) {
   const ImportedMesh& mesh = deck.mesh;
   std::string text =
       fmt::format("** Made by `scabo convert` from {}: bodies are element sets, edges are surfaces\n*NODE\n",
@@ -35,8 +39,7 @@ std::string mesh_text(const files::AbaqusDeck& deck, const DeckBodies& bodies, c
         lines += '\n';
       }
       for (const auto& [count, lines] : by_nodes)
-        text +=
-            fmt::format("*ELEMENT, TYPE={}{}, ELSET={}\n{}", plane_strain ? "CPE" : "CPS", count, region.name, lines);
+        text += fmt::format("*ELEMENT, TYPE={}{}, ELSET={}\n{}", element_family(plane), count, region.name, lines);
       if (body.regions.size() > 1) text += fmt::format("*ELSET, ELSET={}\n{}\n", body.name, region.name);
     }
   std::map<std::pair<int, int>, std::pair<long, int>> sides;  // element and number of the side

@@ -11,6 +11,7 @@
 namespace scabo::convert {
 
 using model::number_text;
+using model::Plane;
 
 std::string yaml_word(const std::string& name) {
   static const std::set<std::string> reserved = {"TRUE", "FALSE", "NULL", "YES", "NO", "ON", "OFF", "Y", "N", "~"};
@@ -36,8 +37,11 @@ std::string model_text(const ModelParts& parts, const DeckBodies& bodies, const 
     if (remark.essential) text += fmt::format("# Missing ({}): {}\n", remark.at.line, remark.text);
   text += "scabo: 1\n";
   if (!parts.title.empty()) text += fmt::format("title: {}\n", yaml_quoted(parts.title));
-  text += fmt::format("analysis: {{plane: {}, thickness: {}}}\n", parts.plane_strain ? "strain" : "stress",
-                      number_text(parts.thickness));
+  if (parts.plane == Plane::revolution)
+    text += "analysis: {plane: axisymmetric}\n";
+  else
+    text += fmt::format("analysis: {{plane: {}, thickness: {}}}\n", parts.plane == Plane::strain ? "strain" : "stress",
+                        number_text(parts.thickness));
   text += "materials:\n" + parts.materials + "bodies:\n";
   for (const DeckBody& body : bodies.bodies) {
     text += fmt::format("  {}:\n", yaml_word(body.name));

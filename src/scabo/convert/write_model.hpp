@@ -7,6 +7,7 @@
 
 #include "scabo/convert/deck_bodies.hpp"
 #include "scabo/convert/remark.hpp"
+#include "scabo/model/material.hpp"
 
 namespace scabo::convert {
 
@@ -25,7 +26,7 @@ struct NamedCurve {
 struct ModelParts {
   std::string title;
   double thickness = 1.0;
-  bool plane_strain = false;
+  model::Plane plane = model::Plane::stress;
   std::string materials, supports, loads, contacts, ties, steps;
   std::vector<NamedCurve> curves;
 };

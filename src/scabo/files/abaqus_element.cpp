@@ -19,7 +19,7 @@ std::optional<AbaqusElement> abaqus_element(const std::string& type) {
       return std::nullopt;
     }
   }
-  for (const std::string prefix : {"CPS", "CPE", "M3D", "STRI", "S"}) {
+  for (const std::string prefix : {"CPS", "CPE", "CAX", "M3D", "STRI", "S"}) {
     if (type.rfind(prefix, 0) != 0) continue;
     const std::string rest = type.substr(prefix.size());
     if (rest.empty()) return std::nullopt;
@@ -59,10 +59,15 @@ std::string abaqus_refusal(const std::string& type) {
   if (starts("C3D") || starts("SC") || starts("F3D") || starts("DC3D") || starts("AC3D")) {
     return "is three-dimensional; Scabo's bodies are plane: mesh the plane section with CPS or CPE elements";
   }
-  if (starts("CAX") || starts("SAX") || starts("DCAX") || starts("MAX")) {
-    return "is axisymmetric; Scabo's bodies are plane: use CPS or CPE elements";
+  if (starts("CAXA") || starts("CGAX")) {
+    return "turns about the axis or varies around it, which Scabo's bodies of revolution do not: use CAX elements";
   }
-  return "is not read; use plane elements with 3, 4, 6 or 8 nodes (CPS, CPE, S, M3D) and take others out of the file";
+  if (starts("SAX") || starts("DCAX") || starts("MAX")) {
+    return "is an axisymmetric shell, membrane or thermal element: use CAX elements";
+  }
+  return "is not read; use elements of a section with 3, 4, 6 or 8 nodes (CPS, CPE, CAX, S, M3D) and take others out "
+         "of "
+         "the file";
 }
 
 }  // namespace scabo::files

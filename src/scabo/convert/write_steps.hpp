@@ -1,0 +1,22 @@
+// The steps of the model of a converted deck, with the factors of its loads and displacements.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scabo/convert/deck_content.hpp"
+#include "scabo/convert/write_model.hpp"
+
+namespace scabo::convert {
+
+/// What a load or a displacement that varies is in `steps`.
+struct Driven {
+  std::string name;
+  Course factors;
+};
+
+/// The lines of `steps`. Factors that follow a table become curves, which are added to `curves`.
+std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& driven,
+                       std::vector<NamedCurve>& curves);
+
+}  // namespace scabo::convert
