@@ -70,7 +70,7 @@ def read(results, change, base):
     found = Outcome(summary["status"], summary["reason"] or "", cells=summary["model"]["super_elements"])
     for kind, text in zip(summary["warning_kinds"], summary["warnings"]):
         found.warnings[kind] = found.warnings.get(kind, "") + text
-    found.loose = {key for name, key in keys.items() if re.search(rf"\b{re.escape(name)}\b", found.warnings.get("undetermined_force", ""))}
+    found.loose = not_unique(keys, found.warnings.get("undetermined_force", ""))
     for increment in summary["increments"]:
         if increment["converged"]:
             found.increments.append(forces_of(increment, keys, together, change))
@@ -78,6 +78,13 @@ def read(results, change, base):
     found.gap = max((abs(contact.get("gap", 0.0)) for contact in base.get("contacts", {}).values()), default=0.0)
     read_pairs(results / "contact.csv", keys, change, found)
     return found
+
+
+def not_unique(keys, warning):
+    """The contacts that a warning calls not unique: those that it names, or all where it names only the first of them."""
+    if re.search(r"' and \d+ more\b", warning):
+        return set(keys.values())
+    return {key for name, key in keys.items() if re.search(rf"\b{re.escape(name)}\b", warning)}
 
 
 def key_of(between, change, base):

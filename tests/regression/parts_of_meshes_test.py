@@ -1,4 +1,6 @@
 """Bodies from a mesh of several parts: which are joined, which become bodies of their own, and what is said about it."""
+import math
+
 import support
 from support import scabo, summary_of
 
@@ -94,6 +96,59 @@ class PartsOfMeshes(support.InTemporaryDirectory):
         self.assertEqual(run.returncode, 1)
         self.assertNotIn("joined to them", run.stderr)
         self.assertIn("upper", run.stderr)
+
+
+def disc(sides):
+    """A mesh of Gmsh of triangles: radius .5 about (2, 1.5), its rim one curve."""
+    layers = sides // 6
+    points = [(2.0, 1.5)]
+    for k in range(1, layers + 1):
+        angles = [2 * math.pi * i / sides for i in range(sides)]
+        points += [(2 + 0.5 * k / layers * math.sin(a), 1.5 - 0.5 * k / layers * math.cos(a)) for a in angles]
+    node = lambda k, i: 2 + (k - 1) * sides + i % sides
+    cells = [(1, node(layers, i), node(layers, i + 1)) for i in range(sides)]
+    for i in range(sides):
+        cells.append((2, 1, node(1, i), node(1, i + 1)))
+        for k in range(1, layers):
+            cells += [(2, node(k, i), node(k + 1, i), node(k + 1, i + 1)), (2, node(k, i), node(k + 1, i + 1), node(k, i + 1))]
+    group = {1: "1 2 5 1", 2: "2 2 2 2"}
+    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "2", '1 5 "rim"', '2 2 "roller"', "$EndPhysicalNames",
+                      "$Nodes", str(len(points)), *(f"{i} {x!r} {y!r} 0" for i, (x, y) in enumerate(points, 1)), "$EndNodes",
+                      "$Elements", str(len(cells)), *(f"{i} {group[kind]} {' '.join(map(str, at))}" for i, (kind, *at) in enumerate(cells, 1)),
+                      "$EndElements", ""])
+
+
+ROLLER = """scabo: 1
+analysis: {plane: strain}
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  plate: {material: steel, shape: {rectangle: {corner: [0, 0], size: [4, 1]}}, mesh: {size: SIZE}}
+  roller: {material: steel, BODY}
+supports:
+  - {on: plate.bottom, fix: [x, y]}
+  - {on: {body: roller, near: [2, 2]}, displacement: [0, -1e-4], name: press}
+contacts: {c: {between: [plate.top, roller.rim], friction: 0.3}}
+"""
+
+
+class ClosedCurves(support.InTemporaryDirectory):
+    def flexibility(self, body, size):
+        (self.directory / "model.yaml").write_text(ROLLER.replace("BODY", body).replace("SIZE", str(size)))
+        run = scabo("run", "model.yaml", "--quiet", cwd=self.directory)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        contact = summary_of(self.directory / "model.results")["increments"][-1]["contacts"]["c"]
+        return 1e-4 / contact["normal_force"]
+
+    def test_a_disc_that_a_point_presses_on_a_plate(self):
+        """In three points, one of them of the plate, a force acts on a single node, which gives way by 2 (1 - nu^2) / (pi E) log(1 / h)
+        more on a finer mesh: no mesh gives the force. It depends on the mesh of a file as on that of a circle."""
+        more = 3 * 2 * (1 - 0.3**2) / (math.pi * 210e9) * math.log(2)
+        for sides in (32, 64):
+            (self.directory / f"{sides}.msh").write_text(disc(sides))
+        circle = "shape: {circle: {centre: [2, 1.5], radius: 0.5}}, mesh: {size: SIZE}"
+        for coarse, fine, size in ((circle, circle, 0.2), ("mesh: {file: 32.msh}", "mesh: {file: 64.msh}", 0.1)):
+            softer = self.flexibility(fine, size / 2) - self.flexibility(coarse, size)
+            self.assertAlmostEqual(softer, more, delta=0.12 * more, msg=coarse)
 
 
 if __name__ == "__main__":

@@ -91,6 +91,38 @@ contacts: {{base: {{between: all, friction: {}}}}}
   EXPECT_NEAR(std::abs(base.tangential_force), W * std::sin(angle), 1e-9 * W);
 }
 
+/// A block of 1 x 1 and density 1000 on a floor, held along it by a spring at its lower left corner, and pushed along
+/// it at the upper right one. All turned by a right angle where `upright`; `unit`: of length.
+std::string on_a_spring_at_rest(double stiffness, double push, double unit, bool upright) {
+  const auto at = [&](double x, double y) {
+    return upright ? fmt::format("[{}, {}]", -unit * y, unit * x) : fmt::format("[{}, {}]", unit * x, unit * y);
+  };
+  return fmt::format(
+      "scabo: 1\nanalysis: {{thickness: {}}}\nbodies:\n"
+      "  floor: {{rigid: true, shape: {{polygon: {{vertices: [{}, {}, {}, {}]}}}}}}\n"
+      "  block: {{rigid: true, density: {}, shape: {{polygon: {{vertices: [{}, {}, {}, {}]}}}}}}\n"
+      "supports: [{{on: floor, fix: [x, y]}}]\nsprings: [{{on: block.vertex_1, {}: {}, name: spring}}]\n"
+      "loads: {{weight: {{gravity: {}}}, push: {{on: block.vertex_3, force: {}}}}}\n"
+      "contacts: {{base: {{between: [floor.edge_3, block.edge_1], friction: 0.1}}}}\n",
+      unit, at(-2, -1), at(2, -1), at(2, 0), at(-2, 0), 1e3 / (unit * unit * unit), at(-0.5, 0), at(0.5, 0), at(0.5, 1),
+      at(-0.5, 1), upright ? "k_y" : "k_x", stiffness, at(0, -10), at(push, 0));
+}
+
+// Friction holds what it can, a tenth of the weight of 10 kN, and the spring the rest, however soft it is.
+TEST(RigidBlocks, RestOnTheFloorBesideASpring) {
+  for (const double unit : {1.0, 1e3, 1e-3})
+    for (const bool upright : {false, true})
+      for (const double stiffness : {1e9, 1e4, 1.0, 1e-6})
+        for (const double push : {0.0, 500.0, 2000.0}) {
+          if (push > 1e3 && stiffness < 1e4) continue;  // it would slide off the floor
+          const StaticSolution solution = run(on_a_spring_at_rest(stiffness, push, unit, upright));
+          ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+          const IncrementResult& at = last(solution);
+          EXPECT_NEAR(contact_of(at).normal_force, 1e4 * unit, 1e-6 * unit);
+          EXPECT_NEAR(std::abs(contact_of(at).tangential_force), std::min(push, 1e3) * unit, 1e-6 * unit);
+        }
+}
+
 const std::string time_steps =
     "  - {name: rest, loads: {weight: 1}}\n"
     "  - {name: push, dynamic: {duration: 0.1, step: 1e-3}, loads: {push: 1}, increments: 5}\n";

@@ -36,14 +36,13 @@ const model::Contact& contact_at(const Prepared& prepared, Eigen::Index pair) {
   return prepared.model.contacts[static_cast<std::size_t>(contact)];
 }
 
-/// Pairs of which a body may be held softly: W_ii is the flexibility of both.
-std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const contact::Problem& problem,
+/// Pairs of which a body may be held softly. `flexibility`: W_ii, of both bodies.
+std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const Vector& flexibility,
                                      const std::vector<double>& stiffness) {
-  const Vector flexibility = problem.W.diagonal();
   const auto is_soft = [&](int body, Eigen::Index pair) {
     const std::size_t p = prepared.structure.dofs.part_of(body);
     return prepared.structure.parts[p]->has_springs() ||
-           flexibility.segment(problem.dimension * pair, problem.dimension).maxCoeff() * stiffness[p] > soft;
+           flexibility.segment<2>(2 * pair).maxCoeff() * stiffness[p] > soft;
   };
   std::vector<Eigen::Index> found;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
@@ -54,15 +53,18 @@ std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const contact::Pr
   return found;
 }
 
-/// The stiffness of a node of the less stiff body of a pair, of those that deform: by how much force it answers a gap
-/// that is wrong. 0 where both are rigid.
-double resisting_at(const Prepared& prepared, const std::vector<double>& stiffness, Eigen::Index pair) {
+/// By how much force a gap that is wrong is answered: the stiffness of a node of the less stiff body of a pair, of
+/// those that deform, or where both are rigid that of the springs that hold them.
+double resisting_at(const Prepared& prepared, const Vector& flexibility, const std::vector<double>& stiffness,
+                    Eigen::Index pair) {
   const model::Contact& contact = contact_at(prepared, pair);
   double least = 0.0;
   for (const int body : {contact.a.body, contact.b.body})
     if (const double of_body = stiffness[prepared.structure.dofs.part_of(body)]; of_body > 0.0)
       least = least > 0.0 ? std::min(least, of_body) : of_body;
-  return least;
+  if (least > 0.0) return least;
+  const double of_springs = flexibility.segment<2>(2 * pair).maxCoeff();
+  return of_springs > 0.0 ? 1.0 / of_springs : 0.0;
 }
 
 /// How far a force at a pair moves the part of a body there, without contact.
@@ -97,7 +99,8 @@ int softer_body(const Prepared& prepared, Eigen::Index pair) {
 std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to, const contact::Problem& problem,
                                       const contact::Solution& solution, const Vector& drawn, double force_scale) {
   const std::vector<double> stiffness = stiffnesses(prepared, to);
-  const std::vector<Eigen::Index> pairs = soft_pairs(prepared, problem, stiffness);
+  const Vector flexibility = problem.W.diagonal();
+  const std::vector<Eigen::Index> pairs = soft_pairs(prepared, flexibility, stiffness);
   if (pairs.empty()) return {};
   SoftlyHeld held;
   held.difference = drawn;
@@ -112,7 +115,7 @@ std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to,
   const double force = std::max(force_scale, solution.p.lpNorm<Eigen::Infinity>());
   Eigen::Index worst = pairs.front();
   for (const Eigen::Index pair : pairs) {
-    const double resisting = resisting_at(prepared, stiffness, pair),
+    const double resisting = resisting_at(prepared, flexibility, stiffness, pair),
                  allowed = std::max(largest, resisting > 0.0 ? force / resisting : 0.0);
     const double apart = held.difference.segment<2>(2 * pair).lpNorm<Eigen::Infinity>();
     const double wrong = std::max(apart, against_the_law(problem, solution, pair));

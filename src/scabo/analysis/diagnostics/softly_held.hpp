@@ -7,7 +7,8 @@
 // problem solved again. Its certificate measures gaps and slips by the way that loads would move bodies without
 // contact; here they are measured by the displacements. Bodies may hardly be displaced although large forces act or
 // have acted on them (ground at rest under its weight, a load that has returned to zero): what a gap may then be wrong
-// by follows from the force by which the less stiff body of the pair would answer it, against the scale of forces.
+// by follows from the force by which the less stiff body of the pair, or the springs of rigid ones, would answer it,
+// against the scale of forces.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,8 @@ namespace scabo::analysis {
 struct SoftlyHeld {
   Vector difference;  ///< 2N: motions of the pairs by the displaced bodies less those of the contact problem
   /// The largest difference, or motion against the law, of pairs of bodies that are held softly, over the largest
-  /// displacement, or over what the largest force would displace one node of the less stiff body if that is more.
+  /// displacement, or over what the largest force would displace one node of the less stiff body, or springs that hold
+  /// rigid ones, if that is more.
   double wrong = 0.0;
   double apart = 0.0;  ///< the same of the difference alone
   int body = -1;       ///< the body where it is, if it is above `allowed`
