@@ -367,7 +367,7 @@ class CommandLine {
     plot_->add_option("DIR", plot_options_.directory, "Results directory of a run")->required()->option_text(" ");
     plot_->add_option("--what", plot_options_.what, "What is drawn; default: all that the results have")
         ->option_text("KIND")
-        ->check(one_of({"stress", "contact", "convergence", "mesh", "history", "mechanism", "all"}));
+        ->check(one_of({"stress", "contact", "convergence", "mesh", "history", "cracks", "mechanism", "all"}));
     plot_
         ->add_option("--increment", plot_options_.increment,
                      "Number from 1 over all steps, or of the mode; default: -1, the last one")
@@ -379,7 +379,7 @@ class CommandLine {
         ->allow_extra_args(false);
     plot_->add_option("--scale", plot_options_.scale, "Magnification of displacements; default: one that shows them")
         ->option_text("S");
-    plot_->add_option("--window", plot_options_.text, "Only this part of the plane, in stress, mesh and mechanism")
+    plot_->add_option("--window", plot_options_.text, "Only this part of the plane, in stress, mesh, cracks and mechanism")
         ->option_text("X0,X1,Y0,Y1");
     plot_->add_flag("--mirror", plot_options_.mirror, "Bodies of revolution: both halves of the section");
     plot_

@@ -9,11 +9,11 @@ import warnings
 
 from . import memory, screen
 
-KINDS = ("stress", "contact", "convergence", "mesh", "history", "mechanism")
+KINDS = ("stress", "contact", "convergence", "mesh", "history", "cracks", "mechanism")
 NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
 FORMATS = (".png", ".svg", ".pdf")
 APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress", "mechanism"),
-           "window": ("stress", "mesh", "mechanism"), "units": ("stress", "contact", "mesh", "history", "mechanism")}  # options that mean something for few kinds
+           "window": ("stress", "mesh", "cracks", "mechanism"), "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism")}  # options that mean something for few kinds
 
 
 class Parser(argparse.ArgumentParser):
@@ -30,7 +30,7 @@ def parser():
     options.add_argument("--component", metavar="NAME", help="of stress, contact or history; a wrong name lists those there are")
     options.add_argument("--contact", action="append", default=[], metavar="NAME", help="only this contact; may be repeated")
     options.add_argument("--scale", type=float, metavar="S", help="magnification of displacements; default: one that shows them")
-    options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress, mesh and mechanism")
+    options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress, mesh, cracks and mechanism")
     options.add_argument("--mirror", action="store_true", help="bodies of revolution: both halves of the section")
     options.add_argument("--turned", type=int, metavar="N", help="bodies of revolution: writes no picture, but a .vtu file of the fields turned about the axis in N parts")
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N")
@@ -109,7 +109,7 @@ def window_of(text):
 
 def figures(options, results, increment):
     """Names and functions of the wanted figures."""
-    from . import contacts, curves, fields, mechanisms, meshes
+    from . import contacts, cracks, curves, fields, mechanisms, meshes
     from .units import Units
     units = Units.parse(options.units) if options.units else Units()
     window = window_of(options.window)
@@ -121,6 +121,7 @@ def figures(options, results, increment):
         "convergence": lambda: curves.convergence(results),
         "mesh": lambda: meshes.mesh(results, units, window),
         "history": lambda: curves.history(results, component, units),
+        "cracks": lambda: cracks.cracks(results, units, window),
         "mechanism": lambda: mechanisms.mechanism(results, options.scale, units, window),
     }
 
@@ -184,12 +185,13 @@ def write_turned(options, results):
 
 
 def kinds_of(results, what):
-    """What is to be drawn. Few runs end as a mechanism; where the first increment does, there is nothing else."""
+    """What is to be drawn. In few runs cracks grow, or they end as a mechanism; where the first increment does, there is nothing else."""
     if what != "all":
         return [what]
-    if results.mechanism() is None:
-        return [kind for kind in KINDS if kind != "mechanism"]
-    return list(KINDS) if results.count else ["mechanism"]
+    if results.mechanism() is not None and not results.count:
+        return ["mechanism"]
+    missing = [kind for kind, there in (("cracks", "growth" in results.summary), ("mechanism", results.mechanism() is not None)) if not there]
+    return [kind for kind in KINDS if kind not in missing]
 
 
 def write_sweep(options):

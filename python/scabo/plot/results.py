@@ -10,7 +10,7 @@ import numpy as np
 
 from . import revolution, vtu
 
-TEXT = ("contact", "state", "stage", "name", "body")  # columns that are not numbers
+TEXT = ("contact", "state", "stage", "name", "body", "tip")  # columns that are not numbers
 
 
 class ResultsError(Exception):
