@@ -288,10 +288,10 @@ class Result:
         elif what != "mechanism":
             self._number(increment)
 
-        mirrored = options.pop("mirrored", False)
+        of_both_halves = {"mirrored": True} if options.pop("mirrored", False) else {}
 
         def draw(directory: str) -> Any:
-            return picture(plot.Results(directory, mirrored), **options)
+            return picture(plot.Results(directory, **of_both_halves), **options)
 
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
             return draw(self.directory)
@@ -310,7 +310,8 @@ class Result:
         if output is None:
             raise ValueError("these results are in no directory: name the page, as in report(\"model.html\")")
         with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
-            return report.write(self._write(os.path.join(folder, pathlib.Path(output).stem)), output, units, megabytes, mirrored)
+            directory = self._write(os.path.join(folder, pathlib.Path(output).stem))
+            return report.write(directory, output, units, megabytes, mirrored)
 
     def _body(self, name: str) -> int:
         bodies = self._core.bodies

@@ -39,7 +39,7 @@ class Numbers(Converting):
     def test_solid_of_revolution(self):
         """A disc that turns, with nodes on the axis held in both directions as CalculiX asks for, and a force around a circle; half of
         the square of the angular velocity in the first step. u(b) = (1 - nu) rho w^2 b^3 / 4 E of a thin disc."""
-        deck = (grid(16, 1, 1.0, 0.02, kind="CAX8") + MATERIAL + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n*BOUNDARY\nN_BODY_LEFT, 1\n"
+        deck = (grid(16, 1, 1.0, 0.02, corner=(1e-14, 0.0), kind="CAX8") + MATERIAL + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n*BOUNDARY\nN_BODY_LEFT, 1\n"
                 "N_BODY_BOTTOM, 2\n" + STATIC + "*DLOAD\nBODY, CENTRIF, 5e3, 0., 0., 0., 0., 1., 0.\n" + END
                 + STATIC + "*DLOAD\nBODY, CENTRIF, 1e4, 0., 0., 0., 0., 1., 0.\n*CLOAD\nN_BODY_CORNER, 2, 30.\n" + END)
         deck = deck.replace("*MATERIAL", "*NSET, NSET=N_BODY_CORNER\n99\n*MATERIAL", 1)
@@ -47,6 +47,9 @@ class Numbers(Converting):
         self.assertAlmostEqual(u / (0.7 * 7850 * 1e4 / (4 * 210e9)), 1.0, delta=1e-3)
         reactions = summary["increments"][-1]["reactions"]
         self.assertAlmostEqual(sum(force[1] for force in reactions.values()), -30.0, delta=1e-6)
+        opened = self.convert(deck.replace(STATIC, STATIC + "*BOUNDARY\nN_BODY_LEFT, 1, 1, 1e-6\n"))
+        self.assertEqual(opened.returncode, 1)
+        self.assertIn("a radial displacement on the axis opens a hole there", opened.stderr)
 
     def test_cantilever(self):
         """The exact field of a beam with shear: all of its parts are in the deflection P l^3 / 3 E I (1 + ...) to 1 %."""

@@ -54,6 +54,14 @@ class Revolution(support.InTemporaryDirectory):
         log = (self.directory / "tube.results" / "log.txt").read_text(encoding="utf-8")
         self.assertIn("forces are those of the whole circumference", log)
 
+    def test_springs_on_an_edge_carry_the_whole_circumference(self):
+        text = TUBE.replace("supports: [{on: tube.bottom, fix: y}]", "springs: [{name: bed, on: tube.bottom, k_n: 1e9}]")
+        self.solve("bed", text.replace("top: tube.top_right.uy", "low: tube.bottom_left.uy, bed: bed.reaction_y"))
+        with open(self.directory / "bed.results" / "history.csv", newline="", encoding="utf-8") as file:
+            row = list(csv.DictReader(file))[-1]
+        self.assertAlmostEqual(float(row["low"]) / -1e-3, 1.0, delta=1e-9)
+        self.assertAlmostEqual(float(row["bed"]) / (1e6 * math.pi * 3), 1.0, delta=1e-9)
+
     def test_a_run_that_goes_on_is_the_whole_run(self):
         begin, end = "{name: press, loads: {push: 0}}, {name: begin, loads: {push: 0.2}}", "{name: push, loads: {push: 1}, increments: 3}"
         whole = self.solve("whole", FIT + f"steps: [{begin}, {end}]\n")

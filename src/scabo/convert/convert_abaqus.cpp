@@ -43,6 +43,7 @@ class Converter {
     content_ = read_content(deck_, remarks_);
     adjust_nodes(deck_, content_, remarks_);
     parts_.plane = plane_of(deck_, content_, remarks_).value_or(Plane::stress);
+    for (const Vec2& x : mesh_.nodes) largest_radius_ = std::max(largest_radius_, std::abs(x.x()));
     GivenMaterials materials = materials_of(deck_, content_, parts_.plane, remarks_);
     parts_.materials = std::move(materials.lines);
     young_ = std::move(materials.young);
@@ -99,7 +100,8 @@ class Converter {
 
   /// On the axis of revolution, where the radius stays 0 by itself.
   bool is_on_axis(int node) const {
-    return parts_.plane == Plane::revolution && mesh_.nodes[static_cast<std::size_t>(node)].x() == 0.0;
+    return parts_.plane == Plane::revolution &&
+           std::abs(mesh_.nodes[static_cast<std::size_t>(node)].x()) <= 1e-9 * largest_radius_;
   }
 
   /// A radial displacement on the axis: none, or a mistake.
@@ -435,6 +437,7 @@ class Converter {
   DeckContent content_;
   DeckBodies bodies_;
   std::vector<double> young_;  // per cell
+  double largest_radius_ = 0.0;
   std::vector<SideUse> uses_;
   std::map<std::pair<int, int>, std::set<int>> uses_of_;
   std::vector<Course> courses_;                     // of displacements
