@@ -381,6 +381,8 @@ class CommandLine {
         ->option_text("S");
     plot_->add_option("--window", plot_options_.text, "Only this part of the plane, in stress, mesh and mechanism")
         ->option_text("X0,X1,Y0,Y1");
+    plot_->add_option("--view", plot_options_.text, "From where bodies in space are seen, in degrees; default: -60,25")
+        ->option_text("AZIMUTH,ELEVATION");
     plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
         ->option_text("LENGTH,FORCE");
     plot_
