@@ -386,6 +386,8 @@ class CommandLine {
         ->add_option("--turned", plot_options_.turned,
                      "Bodies of revolution: no picture, but a .vtu of the fields turned about the axis in N parts")
         ->option_text("N");
+    plot_->add_option("--view", plot_options_.text, "From where bodies in space are seen, in degrees; default: -60,25")
+        ->option_text("AZIMUTH,ELEVATION");
     plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
         ->option_text("LENGTH,FORCE");
     plot_

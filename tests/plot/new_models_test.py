@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import support
 
-KINDS = ["beam", "dam", "wall", "hertz", "crack", "earthquake", "axisymmetric"]
+KINDS = ["beam", "dam", "wall", "hertz", "crack", "earthquake", "axisymmetric", "part3d"]
 
 
 class NewModels(support.InTemporaryDirectory):
@@ -58,6 +58,15 @@ class NewModels(support.InTemporaryDirectory):
         factors = self.solve("crack")[-1]["cracks"]["plate.flaw"]
         self.assertAlmostEqual(factors["K_I"] / (2.8255 * 1e6 * math.sqrt(math.pi * 0.5)), 1.0, delta=1e-4)
         self.assertLess(abs(factors["K_II"]), 1e-6 * factors["K_I"])
+
+    def test_part_in_space_is_held_by_friction_as_its_comment_says(self):
+        last = self.solve("part3d")[-1]
+        normal, tangential = last["contacts"]["joint"]["normal_force"], last["contacts"]["joint"]["tangential_force"]
+        self.assertAlmostEqual(normal[2] / (4e6 * math.pi * 0.1**2), 1.0, delta=1e-3)  # the area of the mesh
+        self.assertAlmostEqual(tangential[0] / normal[2], -0.25, delta=1e-9)
+        self.assertAlmostEqual(last["reactions"]["ground"][2] / normal[2], 1.0, delta=1e-9)
+        run = support.scabo("run", "part3d.yaml", "--quiet", "--set", "loads.push.traction.0=1.3e6", cwd=self.directory)
+        self.assertEqual(run.returncode, 2, run.stderr)
 
     def test_earthquake_leaves_the_block_at_rest_on_its_weight(self):
         increments = self.solve("earthquake")

@@ -13,7 +13,8 @@ KINDS = ("stress", "contact", "convergence", "mesh", "history", "cracks", "mecha
 NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
 FORMATS = (".png", ".svg", ".pdf")
 APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress", "mechanism"),
-           "window": ("stress", "mesh", "cracks", "mechanism"), "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism")}  # options that mean something for few kinds
+           "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress",),
+           "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism")}  # options that mean something for few kinds
 
 
 class Parser(argparse.ArgumentParser):
@@ -33,6 +34,7 @@ def parser():
     options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress, mesh, cracks and mechanism")
     options.add_argument("--mirror", action="store_true", help="bodies of revolution: both halves of the section")
     options.add_argument("--turned", type=int, metavar="N", help="bodies of revolution: writes no picture, but a .vtu file of the fields turned about the axis in N parts")
+    options.add_argument("--view", metavar="AZIMUTH,ELEVATION", help="from where bodies in space are seen, in degrees; default: -60,25")
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N")
     options.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
                          help=".png, .svg or .pdf; default: .png files beside DIR, one for each picture")
@@ -87,7 +89,7 @@ def join_negative(words):
     """`--window -1,2,0,1` is an option and its value, which argparse takes for an option of its own."""
     joined = []
     for word in words:
-        if joined and joined[-1] in ("--window", "--scale", "--increment") and word[:1] == "-" and word[1:2].isdigit():
+        if joined and joined[-1] in ("--window", "--scale", "--increment", "--view") and word[:1] == "-" and word[1:2].isdigit():
             joined[-1] += "=" + word
         else:
             joined.append(word)
@@ -107,11 +109,38 @@ def window_of(text):
     return x0, x1, y0, y1
 
 
+def view_of(text):
+    from .results import ResultsError
+    if text is None:
+        return None
+    try:
+        azimuth, elevation = map(float, text.split(","))
+    except ValueError:
+        raise ResultsError(f"--view {text}: give two angles in degrees, as in --view -60,25") from None
+    if not (abs(azimuth) <= 360 and abs(elevation) <= 90):
+        raise ResultsError(f"--view {text}: the angles are azimuth, from -360 to 360 degrees, and elevation, from -90 to 90")
+    return azimuth, elevation
+
+
+def refuse_other_dimension(options, results):
+    from .results import ResultsError
+    if results.in_space and options.window is not None:
+        raise ResultsError("--window: has no meaning for bodies in space; --view says from where they are seen")
+    if results.in_space and options.what not in ("all", "stress", "contact"):
+        raise ResultsError(f"--what {options.what}: of a model in space there are pictures of stress and contact")
+    if not results.in_space and options.view is not None:
+        raise ResultsError(f"--view: {results.directory} is of a model in the plane")
+
+
 def figures(options, results, increment):
     """Names and functions of the wanted figures."""
-    from . import contacts, cracks, curves, fields, mechanisms, meshes
+    from . import contacts, cracks, curves, fields, mechanisms, meshes, solids
     from .units import Units
     units = Units.parse(options.units) if options.units else Units()
+    if results.in_space:
+        component = options.component if options.what != "all" else None
+        return {"stress": lambda: solids.stress(results, increment, component, options.scale, units, view_of(options.view)),
+                "contact": lambda: solids.contact(results, increment, options.contact, component, units)}
     window = window_of(options.window)
     one = options.what != "all"
     component = options.component if one else None
@@ -145,6 +174,7 @@ def write(options):
     if options.turned is not None:
         return write_turned(options, results)
     increment = -1 if options.increment is None else options.increment
+    refuse_other_dimension(options, results)
     kinds = kinds_of(results, options.what)
     if kinds != ["mechanism"]:
         results.number(increment)
@@ -188,6 +218,8 @@ def kinds_of(results, what):
     """What is to be drawn. In few runs cracks grow, or they end as a mechanism; where the first increment does, there is nothing else."""
     if what != "all":
         return [what]
+    if results.in_space:
+        return ["stress", "contact"]
     if results.mechanism() is not None and not results.count:
         return ["mechanism"]
     missing = [kind for kind, there in (("cracks", "growth" in results.summary), ("mechanism", results.mechanism() is not None)) if not there]
@@ -199,7 +231,7 @@ def write_sweep(options):
     from .results import ResultsError
     from .sweeps import sweep
     from .units import Units
-    for option in ("increment", "contact", "scale", "window", "mirror", "turned"):
+    for option in ("increment", "contact", "scale", "window", "view", "mirror", "turned"):
         if getattr(options, option) not in (None, [], False):
             raise ResultsError(f"--{option}: has no meaning for a sweep")
     if options.what != "all":

@@ -44,6 +44,7 @@ class Results:
         if mirrored and not self.revolved:
             raise ResultsError(f"{self.directory}: is not of bodies of revolution (plane: axisymmetric), so that there is no other half to draw")
         self.modal = self.summary.get("analysis") == "modal"
+        self.in_space = self.summary.get("analysis") == "space"
         self.title = self.summary.get("title") or ""
 
     def _summary(self):
@@ -62,8 +63,6 @@ class Results:
             raise ResultsError(f"{path}: cannot be read: {error.strerror}") from None
         except ValueError as error:
             raise ResultsError(f"{path}: is damaged ({error}); run the model again") from None
-        if isinstance(summary, dict) and summary.get("analysis") == "space":
-            raise ResultsError(f"{self.directory}: is of a model in space, which has no pictures and no page yet: open its fields.pvd in ParaView")
         if not isinstance(summary, dict) or "scabo" not in summary or "status" not in summary:
             raise ResultsError(f"{path}: was not written by `scabo run`")
         return summary
@@ -194,6 +193,11 @@ class Results:
         parts = f"fields_{number:04d}.pvtu"  # of a run on several processes
         return self._grid(parts if (self.directory / parts).exists() else f"fields_{number:04d}.vtu")
 
+    def faces(self, number):
+        """The grid of contact_000N.vtu of a model in space: contact faces as triangles, whose points are the pairs."""
+        self.number(number)
+        return self._grid(f"contact_{number:04d}.vtu")
+
     def cells(self):
         """The grid of cells.vtu; None where no body has several cells."""
         return self._grid("cells.vtu") if (self.directory / "cells.vtu").exists() else None
@@ -206,7 +210,7 @@ class Results:
     def _grid(self, name):
         path = self.directory / name
         try:
-            grid = vtu.read_parts(path) if path.suffix == ".pvtu" else vtu.read_grid(path)
+            grid = vtu.read_parts(path) if path.suffix == ".pvtu" else vtu.read_grid(path, 3 if self.in_space else 2)
         except OSError as error:
             raise ResultsError(f"{path}: cannot be read: {error.strerror}") from None
         except vtu.FormatError as error:

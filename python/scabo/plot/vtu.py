@@ -8,6 +8,7 @@ import numpy as np
 
 TYPES = {"Float64": "f8", "Float32": "f4", "Int32": "i4", "UInt8": "u1", "Int64": "i8"}
 TRIANGLE, POLYGON, QUAD, LINE, QUADRATIC_TRIANGLE, QUADRATIC_QUAD = 5, 7, 9, 3, 22, 23
+TETRAHEDRON, QUADRATIC_TETRAHEDRON = 10, 24
 
 
 class FormatError(ValueError):
@@ -16,8 +17,8 @@ class FormatError(ValueError):
 
 @dataclasses.dataclass
 class Grid:
-    """An unstructured grid in the plane."""
-    points: np.ndarray        # n x 2
+    """An unstructured grid."""
+    points: np.ndarray        # n x 2, or n x 3 in space
     connectivity: np.ndarray  # points of all cells in sequence
     offsets: np.ndarray       # for each cell the end of its points in `connectivity`
     types: np.ndarray         # for each cell, VTK's number
@@ -41,11 +42,11 @@ class Grid:
         return [self.connectivity[start:end] for start, end in zip(self.starts()[chosen], self.offsets[chosen])]
 
 
-def read_grid(path):
-    """Raises FormatError, and OSError where the file cannot be read."""
+def read_grid(path, dimension=2):
+    """Points have `dimension` coordinates. Raises FormatError, and OSError where the file cannot be read."""
     content = path.read_bytes()
     try:
-        return _grid_of(content)
+        return _grid_of(content, dimension)
     except FormatError:
         raise
     except (xml.ParseError, zlib.error, ValueError, KeyError, AttributeError, IndexError) as error:
@@ -105,7 +106,7 @@ def read_collection(path):
         raise FormatError(str(error)) from error
 
 
-def _grid_of(content):
+def _grid_of(content, dimension):
     appended = content.find(b"<AppendedData")
     head, data = (content, b"") if appended < 0 else (content[:appended] + b"</VTKFile>",
                                                       memoryview(content)[content.index(b"_", appended) + 1:])
@@ -131,7 +132,7 @@ def _grid_of(content):
         return {node.attrib["Name"]: values_of(node) for node in piece.find(name) or ()}
 
     cells = arrays_of("Cells")
-    grid = Grid(arrays_of("Points")["Points"].reshape(-1, 3)[:, :2], cells["connectivity"], cells["offsets"], cells["types"],
+    grid = Grid(arrays_of("Points")["Points"].reshape(-1, 3)[:, :dimension], cells["connectivity"], cells["offsets"], cells["types"],
                 arrays_of("PointData"), arrays_of("CellData"))
     wanted = int(piece.attrib["NumberOfPoints"]), int(piece.attrib["NumberOfCells"])
     if (len(grid.points), len(grid.types)) != wanted or any(len(values) != wanted[0] for values in grid.point_data.values()):

@@ -40,6 +40,9 @@ def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False):
         raise ResultsError(f"--size {megabytes:g}: give a number of megabytes above 0")
     named = Units.parse(units) if units else None
     results = Results(directory, mirrored)
+    if results.in_space:
+        raise ResultsError(f"{directory}: is of a model in space, of which there is no page yet: `scabo plot` draws it, and ParaView opens its "
+                           "fields.pvd")
     check(results)
     content = content_of(results)
     content["units"] = [named.length, named.force] if named else None

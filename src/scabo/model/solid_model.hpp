@@ -1,5 +1,6 @@
-// A model in space (`analysis: {space: true}`): bodies of tetrahedra from mesh files, with contacts and ties between
-// named faces. Plain values, checked by the reader but for what needs geometry (analysis/space/posed_solids.hpp).
+// A model in space (`analysis: {space: true}`): bodies of tetrahedra, from mesh files or of simple shapes, with
+// contacts and ties between named faces. Plain values, checked by the reader but for what needs geometry
+// (analysis/space/posed_solids.hpp).
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 #include "scabo/base/error.hpp"
 #include "scabo/base/warning.hpp"
 #include "scabo/files/solid_abaqus.hpp"
+#include "scabo/model/solid_shape.hpp"
 
 namespace scabo::model {
 
@@ -22,15 +24,18 @@ struct SpaceMaterial {
 
 struct SpaceBody {
   std::string name;
-  std::shared_ptr<const files::ImportedSolidMesh> mesh;
+  std::shared_ptr<const files::ImportedSolidMesh> mesh;  ///< either this or `shape`
+  std::optional<SolidShape> shape;
+  SolidSizes sizes;  ///< of a shape
   int material = -1;
   Source source;
 };
 
-/// A surface of the mesh file of a body, or the outer facets whose corners are in a set of nodes.
+/// A surface of the mesh file of a body, the outer facets whose corners are in a set of nodes, or a face of its shape.
 struct SpaceFace {
   int body = -1;
-  int side_set = -1, node_set = -1;  ///< one of them; of `body`'s mesh
+  int side_set = -1, node_set = -1;  ///< one of them, of `body`'s mesh; or none
+  std::string of_shape;              ///< the name of a face of `body`'s shape
   std::string text;                  ///< `block.bottom`
   Source source;
 };

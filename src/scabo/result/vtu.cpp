@@ -13,6 +13,7 @@
 
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
+#include "scabo/result/solid/solid_faces.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -309,6 +310,22 @@ std::string vtu_content(const SolidCells& cells, int threads) {
   begin_cell_data(document);
   document.add_array("body", 1, cells.cell_body);
   return finish_piece(std::move(document), cells);
+}
+
+std::string vtu_content(const SolidFaces& faces) {
+  Document document = begin_piece(faces.pair.size(), faces.types.size(), encoding_of(faces.pair.size()));
+  document.add(point_data("pressure", true));
+  document.add_array("state", 1, faces.state);
+  document.add_array("pressure", 1, faces.pressure);
+  document.add_array("gap", 1, faces.gap);
+  document.add_array("shear", 3, faces.shear);
+  document.add_array("slip", 3, faces.slip);
+  document.add_array("normal", 3, faces.normal);
+  document.add_array("pair", 1, faces.pair);
+  document.add_array("contact", 1, faces.contact);
+  begin_cell_data(document);
+  document.add_array("contact", 1, faces.cell_contact);
+  return finish_piece(std::move(document), faces);
 }
 
 std::string vtu_content(const MechanismCells& cells, int threads) {

@@ -1,16 +1,75 @@
 #include "scabo/run/solid_run.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scabo/base/interruption.hpp"
 #include "scabo/result/solid/solid_results.hpp"
 #include "scabo/run/failures.hpp"
 
 namespace scabo::run {
 
+namespace {
+
+/// Measured on one thread of a Xeon; the exponents are those of sparse factors in space.
+constexpr double unit_dofs = 95232.0, unit_bytes = 0.66e9, unit_seconds = 6.3;
+constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 4e-5;  // of elements and fields, the latter of an increment
+constexpr double sweep_seconds = 3e-8;                          // for each degree of freedom and row of W
+constexpr double contact_bytes = 60.0, contact_seconds = 2e-8;  // for the square of the rows of W
+
+/// Corners of the side with the pairs, or more: those of the side with more of them.
+double most_pairs(const analysis::SolidContact& contact) {
+  double most = 0.0;
+  for (const analysis::SolidContact::Side& side : {contact.a, contact.b}) {
+    std::set<int> corners;
+    for (const mesh::SolidFacet& facet : side.facets) corners.insert(facet.begin(), facet.begin() + 3);
+    most = std::max(most, static_cast<double>(corners.size()));
+  }
+  return most;
+}
+
+}  // namespace
+
+Plan plan_of(const analysis::PosedSolids& posed) {
+  Plan plan;
+  plan.increments = static_cast<int>(posed.increments.size());
+  plan.bytes = CostConstants().base_bytes;
+  std::vector<double> rows(posed.model.bodies.size(), 0.0);  // of W, on each body
+  double all_rows = 0.0;
+  for (const analysis::SolidContact& contact : posed.model.contacts) {
+    const double pairs = most_pairs(contact);
+    plan.sizes.contact_pairs += static_cast<int>(pairs);
+    for (const int body : {contact.a.body, contact.b.body}) rows[static_cast<std::size_t>(body)] += 3.0 * pairs;
+    all_rows += 3.0 * pairs;
+  }
+  plan.sizes.bodies = static_cast<int>(posed.model.bodies.size());
+  for (std::size_t b = 0; b < rows.size(); ++b) {
+    const mesh::SolidMesh& mesh = posed.model.bodies[b].mesh;
+    const auto n = 3.0 * static_cast<double>(mesh.nodes.cols());
+    plan.sizes.nodes += static_cast<int>(mesh.nodes.cols());
+    plan.sizes.finite_elements += static_cast<int>(mesh.cells.size());
+    plan.bytes += unit_bytes * std::pow(n / unit_dofs, 1.42) + bytes_of_dof * n;
+    plan.cells += seconds_of_dof * n;
+    plan.factorise += unit_seconds * std::pow(n / unit_dofs, 2.05);
+    plan.condense += sweep_seconds * n * rows[b];
+    plan.fields += plan.increments * seconds_of_dof * n;
+  }
+  plan.sizes.dofs = 3 * plan.sizes.nodes;
+  plan.bytes += contact_bytes * all_rows * all_rows;
+  plan.contact = plan.increments * contact_seconds * all_rows * all_rows;
+  return plan;
+}
+
 std::vector<analysis::SolidIncrement> solve(const SolidRun& run) {
   result::SolidResults results(run.output, run.model, run.posed);
   return marking_failures(run.output, [&] {
-    auto increments =
-        analysis::solve_solids(run.posed.model, run.posed.increments, run.model.tolerance, run.threads,
-                               [&](const analysis::SolidIncrement& increment) { results.add(increment); });
+    std::size_t left = run.posed.increments.size();
+    auto increments = analysis::solve_solids(run.posed.model, run.posed.increments, run.model.tolerance, run.threads,
+                                             [&](const analysis::SolidIncrement& increment) {
+                                               results.add(increment);
+                                               if (--left > 0) interruption_point();
+                                             });
     results.finish();
     return increments;
   });

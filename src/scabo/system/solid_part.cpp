@@ -71,10 +71,10 @@ Vector pressure_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::Soli
   return forces;
 }
 
-std::vector<PairPoints> points_of(const mesh::FacetPairs& pairs, std::size_t part_a, std::size_t part_b) {
+std::vector<PairPoints> points_of(const std::vector<mesh::FacetPair>& pairs, std::size_t part_a, std::size_t part_b) {
   std::vector<PairPoints> points;
-  for (const mesh::FacetPair& pair : pairs.pairs)
-    points.push_back({side_of(pair.a, part_a), side_of(pair.b, part_b), pairs.directions, pair.gap});
+  for (const mesh::FacetPair& pair : pairs)
+    points.push_back({side_of(pair.a, part_a), side_of(pair.b, part_b), pair.directions, pair.gap});
   return points;
 }
 

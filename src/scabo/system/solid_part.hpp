@@ -25,6 +25,6 @@ Vector traction_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::Soli
 Vector pressure_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets, double pressure);
 
 /// The pairs of two faces, those of `a` on part `part_a` and so on.
-std::vector<PairPoints> points_of(const mesh::FacetPairs& pairs, std::size_t part_a, std::size_t part_b);
+std::vector<PairPoints> points_of(const std::vector<mesh::FacetPair>& pairs, std::size_t part_a, std::size_t part_b);
 
 }  // namespace scabo::system

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "scabo/mesh/space/imported_solid.hpp"
+#include "scabo/mesh/space/shaped_solid.hpp"
+#include "scabo/model/limits.hpp"
 #include "scabo/system/solid_part.hpp"
 
 namespace scabo::analysis {
@@ -28,25 +30,43 @@ class Posing {
 
   const model::SpaceModel& model_;
   PosedSolids posed_;
-  std::vector<std::vector<mesh::SolidFacet>> boundaries_;  // of each body
-  std::map<std::pair<int, int>, std::size_t> held_;        // body and degree of freedom: its support
+  std::vector<std::vector<mesh::SolidFacet>> boundaries_;                        // of each body
+  std::vector<std::map<std::string, std::vector<mesh::SolidFacet>>> of_shapes_;  // faces of each body with a shape
+  std::map<std::pair<int, int>, std::size_t> held_;  // body and degree of freedom: its support
   std::vector<Diagnostic> mistakes_;
 };
 
 void Posing::add_body(const model::SpaceBody& of) {
   const auto& material = model_.materials[static_cast<std::size_t>(of.material)];
-  SolidBody body{mesh::solid_mesh_of(*of.mesh), material.young, material.poisson, {}};
+  mesh::ShapedSolid shaped;
+  if (of.shape) {
+    const double nodes = mesh::count_nodes(*of.shape, of.sizes);
+    if (nodes > model::limits::model_nodes) {
+      mistakes_.push_back({of.source, fmt::format("its mesh would have {:.2g} nodes, and at most {:.2g} are possible: "
+                                                  "give it a larger 'size'",
+                                                  nodes, model::limits::model_nodes)});
+      return;
+    }
+    shaped = mesh::solid_of_shape(*of.shape, of.sizes);
+  } else {
+    shaped.mesh = mesh::solid_mesh_of(*of.mesh);
+  }
+  SolidBody body{std::move(shaped.mesh), material.young, material.poisson, {}};
   for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
     if (!(element::least_jacobian(mesh::nodes_of(body.mesh, body.mesh.cells[c])) > 0.0)) {
-      mistakes_.push_back({of.source, fmt::format("element {} of its mesh file is folded or flat: correct its nodes",
-                                                  of.mesh->cells[c].number)});
+      mistakes_.push_back(
+          {of.source, of.mesh ? fmt::format("element {} of its mesh file is folded or flat: correct its nodes",
+                                            of.mesh->cells[c].number)
+                              : "its curved face folds elements of this size: give it a smaller 'size'"});
       break;
     }
-  boundaries_.push_back(mesh::boundary_facets(body.mesh));
+  boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});
+  of_shapes_.push_back(std::move(shaped.faces));
   posed_.model.bodies.push_back(std::move(body));
 }
 
 std::vector<mesh::SolidFacet> Posing::facets(const model::SpaceFace& face) {
+  if (!face.of_shape.empty()) return of_shapes_[static_cast<std::size_t>(face.body)].at(face.of_shape);
   const files::ImportedSolidMesh& mesh = *model_.bodies[static_cast<std::size_t>(face.body)].mesh;
   std::vector<mesh::SolidFacet> found =
       face.side_set >= 0
@@ -112,7 +132,7 @@ void Posing::add_contact(const model::SpaceContact& contact) {
   if (const auto why = mesh::why_no_pairs(a, b))
     mistakes_.push_back({contact.b.source,
                          fmt::format("'{}' and '{}' form no contact pairs: {}", contact.a.text, contact.b.text, *why)});
-  else if (mesh::facet_pairs(a, b).pairs.empty())
+  else if (mesh::facet_pairs(a, b).empty())
     mistakes_.push_back({contact.b.source, fmt::format("'{}' and '{}' have nothing in common, seen along their normal: "
                                                        "name faces that lie opposite each other",
                                                        contact.a.text, contact.b.text)});

@@ -36,7 +36,7 @@ PairedFaces paired_faces(const SolidModel& model) {
     };
     const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
     const bool turned = !mesh::has_pairs_on_second(a, b);
-    const mesh::FacetPairs found = turned ? mesh::facet_pairs(b, a) : mesh::facet_pairs(a, b);
+    const std::vector<mesh::FacetPair> found = turned ? mesh::facet_pairs(b, a) : mesh::facet_pairs(a, b);
     const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),
                second = static_cast<std::size_t>(turned ? contact.a.body : contact.b.body);
     std::shared_ptr<const contact::Law> law = std::make_shared<contact::Bonded>();
@@ -45,11 +45,13 @@ PairedFaces paired_faces(const SolidModel& model) {
       points.gap += contact.gap;
       paired.points.push_back(std::move(points));
     }
-    for (const mesh::FacetPair& pair : found.pairs) {
+    for (const mesh::FacetPair& pair : found) {
       SolidPair at_rest;
       at_rest.contact = static_cast<int>(c);
+      at_rest.corner = pair.corner;
+      at_rest.on_a = turned;
       at_rest.point = pair.point;
-      at_rest.normal = (turned ? -1.0 : 1.0) * found.directions.col(0);
+      at_rest.normal = (turned ? -1.0 : 1.0) * pair.directions.col(0);
       at_rest.area = pair.area;
       paired.pairs.push_back(at_rest);
       paired.turned.push_back(turned);

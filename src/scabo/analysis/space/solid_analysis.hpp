@@ -48,6 +48,8 @@ struct SolidFactors {
 /// A pair in a solution; vectors along the axes.
 struct SolidPair {
   int contact = -1;
+  int corner = -1;                                  ///< the node it stands for
+  bool on_a = false;                                ///< whether that is one of side a
   Eigen::Vector3d point, normal;                    ///< the normal out of side a towards b
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on side b
   Eigen::Vector3d slip = Eigen::Vector3d::Zero();   ///< of b relative to a, since the first increment

@@ -10,6 +10,7 @@
 
 #include "scabo/files/read_mesh_file.hpp"
 #include "scabo/input/parameters.hpp"
+#include "scabo/input/space/solid_values.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/model/imported_body.hpp"
 #include "scabo/model/limits.hpp"
@@ -33,6 +34,7 @@ class SpaceReader {
   void analysis(const Value& value);
   void solver(const Value& value);
   void material(const Entry& entry);
+  int material_of(const Value& value);
   void body(const Entry& entry);
   void support(const Value& value);
   void load(const Entry& entry);
@@ -45,48 +47,18 @@ class SpaceReader {
   std::optional<SpaceFace> face(const Value& value);
   std::array<std::optional<double>, 3> fixed(const Value& value);
   std::array<std::optional<double>, 3> prescribed(const Value& value);
-  double number(const std::optional<Value>& value, double otherwise = 0.0);
-  double number_from(const std::optional<Value>& value, double least, bool itself);
-  Eigen::Vector3d vector(const Value& value);
+  double number(const std::optional<Value>& value, double otherwise = 0.0) const {
+    return value ? read_number(report_, *value).value_or(otherwise) : otherwise;
+  }
+  double number_from(const std::optional<Value>& value, double least, bool itself) const {
+    return read_number_from(report_, value, least, itself);
+  }
+  Eigen::Vector3d vector(const Value& value) const { return read_vector_in_space(report_, value); }
 
   Report& report_;
   SpaceModel model_;
   std::map<std::string, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
 };
-
-/// For every key that has a meaning in the plane alone.
-Later only_in_the_plane(const std::vector<const char*>& keys) {
-  Later later;
-  for (const char* key : keys)
-    later.emplace_back(key, "a model in space does not have it (docs/model/space.md): leave it out");
-  return later;
-}
-
-double SpaceReader::number(const std::optional<Value>& value, double otherwise) {
-  return value ? read_number(report_, *value).value_or(otherwise) : otherwise;
-}
-
-/// A number above `least`, or `least` itself as well.
-double SpaceReader::number_from(const std::optional<Value>& value, double least, bool itself) {
-  const auto read = value ? read_number(report_, *value) : std::nullopt;
-  if (read && (*read < least || (!itself && *read == least)))
-    report_.error(
-        *value, fmt::format("must be {} {:g}, not {}", itself ? "at least" : "greater than", least, value->node->text));
-  return read.value_or(least);
-}
-
-Eigen::Vector3d SpaceReader::vector(const Value& value) {
-  const Node& node = *value.node;
-  if (node.kind != Node::Kind::sequence || node.items.size() != 3) {
-    report_.error(value, fmt::format("must be three numbers in space, as in [x, y, z], not {}",
-                                     node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size())
-                                                                       : describe(node)));
-    return Eigen::Vector3d::Zero();
-  }
-  Eigen::Vector3d read;
-  for (int k = 0; k < 3; ++k) read[k] = number(value.item(static_cast<std::size_t>(k)));
-  return read;
-}
 
 void SpaceReader::analysis(const Value& value) {
   const MapReader map(report_, value, {"space", "type"}, "{space: true}",
@@ -142,29 +114,36 @@ std::shared_ptr<const files::ImportedSolidMesh> SpaceReader::mesh_of_file(const 
   return found->second;
 }
 
+int SpaceReader::material_of(const Value& value) {
+  std::vector<std::string> known;
+  for (const SpaceMaterial& material : model_.materials) known.push_back(material.name);
+  const auto text = read_text(report_, value);
+  const auto found = text ? std::find(known.begin(), known.end(), *text) : known.end();
+  if (found != known.end()) return static_cast<int>(found - known.begin());
+  if (text)
+    report_.error(value, fmt::format("there is no material named {}{}", quoted_name(*text), suggestion(*text, known)));
+  return -1;
+}
+
 void SpaceReader::body(const Entry& entry) {
   const MapReader map(
-      report_, entry.value, {"material", "mesh"}, "{material: steel, mesh: {file: part.inp}}",
-      only_in_the_plane({"shape", "holes", "regions", "sectors", "materials", "outside", "reference", "rigid", "cracks",
-                         "crack", "copies", "repeat", "image", "added", "removed", "join", "corners"}));
+      report_, entry.value, {"material", "shape", "mesh"},
+      "{material: steel, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.1}}",
+      only_in_the_plane({"holes", "regions", "sectors", "materials", "outside", "reference", "rigid", "cracks", "crack",
+                         "copies", "repeat", "image", "added", "removed", "join", "corners"}));
   SpaceBody body;
   body.name = entry.key;
   body.source = entry.value.source();
-  if (const auto name = map.need("material")) {
-    std::vector<std::string> known;
-    for (const SpaceMaterial& material : model_.materials) known.push_back(material.name);
-    const auto text = read_text(report_, *name);
-    const auto found = text ? std::find(known.begin(), known.end(), *text) : known.end();
-    if (found != known.end())
-      body.material = static_cast<int>(found - known.begin());
-    else if (text)
-      report_.error(*name,
-                    fmt::format("there is no material named {}{}", quoted_name(*text), suggestion(*text, known)));
-  }
-  if (const auto mesh = map.need("mesh")) {
-    const MapReader keys(
-        report_, *mesh, {"file"}, "{file: part.inp}",
-        only_in_the_plane({"kind", "size", "order", "centre", "tolerance", "min_size", "refine", "elements"}));
+  if (const auto name = map.need("material")) body.material = material_of(*name);
+  const auto shape = map.get("shape"), mesh = map.need("mesh");
+  if (shape) body.shape = read_solid_shape(report_, *shape);
+  if (mesh && shape) {
+    body.sizes = read_solid_sizes(report_, *mesh);
+  } else if (mesh) {
+    Later later = only_in_the_plane({"kind", "order", "centre", "tolerance", "min_size", "elements"});
+    for (const char* key : {"size", "refine"})
+      later.emplace_back(key, "it divides a 'shape', and the body has none: give it one, or leave the key out");
+    const MapReader keys(report_, *mesh, {"file"}, "{file: part.inp}", later);
     if (const auto name = keys.need("file")) body.mesh = mesh_of_file(*name);
   }
   model_.bodies.push_back(body);
@@ -188,15 +167,22 @@ std::optional<SpaceFace> SpaceReader::face(const Value& value) {
   face.body = static_cast<int>(found - bodies.begin());
   face.text = *text;
   face.source = value.source();
-  const auto& mesh = model_.bodies[static_cast<std::size_t>(face.body)].mesh;
-  if (!mesh) return {};
+  const SpaceBody& of = model_.bodies[static_cast<std::size_t>(face.body)];
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < mesh->side_sets.size(); ++i) {
-    known.push_back(name_from(mesh->side_sets[i].name));
+  if (of.shape) {
+    known = face_names(*of.shape);
+    face.of_shape = part;
+    if (std::find(known.begin(), known.end(), part) != known.end()) return face;
+    report_.error(value, fmt::format("the shape of body '{}' has no face named {}; it has {}{}", name,
+                                     quoted_name(part), fmt::join(known, ", "), suggestion(part, known)));
+  }
+  if (!of.mesh) return {};
+  for (std::size_t i = 0; i < of.mesh->side_sets.size(); ++i) {
+    known.push_back(name_from(of.mesh->side_sets[i].name));
     if (known.back() == part) face.side_set = static_cast<int>(i);
   }
-  for (std::size_t i = 0; face.side_set < 0 && i < mesh->node_sets.size(); ++i) {
-    known.push_back(name_from(mesh->node_sets[i].name));
+  for (std::size_t i = 0; face.side_set < 0 && i < of.mesh->node_sets.size(); ++i) {
+    known.push_back(name_from(of.mesh->node_sets[i].name));
     if (known.back() == part) face.node_set = static_cast<int>(i);
   }
   if (face.side_set >= 0 || face.node_set >= 0) return face;

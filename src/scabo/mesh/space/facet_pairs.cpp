@@ -1,5 +1,7 @@
 #include "scabo/mesh/space/facet_pairs.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -31,11 +33,21 @@ Vector3d normal_of(const Face& face) {
   return sum.normalized();
 }
 
-/// A facet seen along the normal: corners counter-clockwise, and how far each lies along the normal.
+Eigen::Matrix3d directions_of(const Vector3d& normal) {
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  Eigen::Matrix3d directions;
+  directions.col(0) = normal;
+  directions.col(1) = normal.cross(Vector3d::Unit(least)).normalized();
+  directions.col(2) = normal.cross(directions.col(1));
+  return directions;
+}
+
+/// A facet seen along a normal: corners counter-clockwise, and how far each node lies along the normal.
 struct Seen {
   std::vector<int> nodes;
   std::array<Vec2, 3> corners;
-  std::array<double, 3> heights;
+  Vector heights;
 
   double area() const { return 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]); }
   Vector lambda_at(const Vec2& x) const {
@@ -44,9 +56,6 @@ struct Seen {
       lambda[static_cast<Eigen::Index>(k)] = 0.5 * cross(corners[(k + 1) % 3] - x, corners[(k + 2) % 3] - x) / area();
     return lambda;
   }
-  double height_at(const Vector& lambda) const {
-    return lambda[0] * heights[0] + lambda[1] * heights[1] + lambda[2] * heights[2];
-  }
   geometry::Box box() const {
     geometry::Box box;
     for (const Vec2& corner : corners) box.add(corner);
@@ -54,22 +63,29 @@ struct Seen {
   }
 };
 
-/// `origin` keeps the digits of bodies that lie far from that of the axes.
-std::vector<Seen> seen_along(const Face& face, const Eigen::Matrix3d& directions, const Vector3d& origin) {
-  std::vector<Seen> all;
-  for (const SolidFacet& facet : face.facets) {
-    Seen seen{facet, {}, {}};
-    if (area_of(face, facet).dot(directions.col(0)) < 0.0)  // side B is seen from inside
-      seen.nodes = facet.size() == 3 ? SolidFacet{facet[0], facet[2], facet[1]}
-                                     : SolidFacet{facet[0], facet[2], facet[1], facet[5], facet[4], facet[3]};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d x = directions.transpose() * (face.mesh.nodes.col(seen.nodes[k]) - origin);
-      seen.heights[k] = x[0];
-      seen.corners[k] = x.tail<2>();
-    }
-    all.push_back(std::move(seen));
+/// Orthonormal directions and an origin, which keeps the digits of bodies that lie far from that of the axes.
+struct View {
+  Eigen::Matrix3d directions;  // the normal, and two tangents
+  Vector3d origin;
+
+  Vector3d operator()(const Vector3d& x) const { return directions.transpose() * (x - origin); }
+};
+
+/// `curved`: the middle nodes are where they are, else halfway between corners, whose coordinates have more digits.
+Seen seen_along(const Face& face, const SolidFacet& facet, const View& view, bool curved) {
+  Seen seen{facet, {}, Vector(static_cast<Eigen::Index>(facet.size()))};
+  if (area_of(face, facet).dot(view.directions.col(0)) < 0.0)  // side B is seen from inside
+    seen.nodes = facet.size() == 3 ? SolidFacet{facet[0], facet[2], facet[1]}
+                                   : SolidFacet{facet[0], facet[2], facet[1], facet[5], facet[4], facet[3]};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d x = view(face.mesh.nodes.col(seen.nodes[k]));
+    seen.heights[static_cast<Eigen::Index>(k)] = x[0];
+    seen.corners[k] = x.tail<2>();
   }
-  return all;
+  for (Eigen::Index k = 3; k < seen.heights.size(); ++k)
+    seen.heights[k] = curved ? view(face.mesh.nodes.col(seen.nodes[static_cast<std::size_t>(k)]))[0]
+                             : 0.5 * (seen.heights[k - 3] + seen.heights[(k - 2) % 3]);
+  return seen;
 }
 
 /// What a polygon has in common with a triangle; both counter-clockwise (Sutherland and Hodgman).
@@ -92,12 +108,12 @@ CommonPart clipped(CommonPart polygon, const std::array<Vec2, 3>& triangle) {
 struct Sums {
   std::map<int, double> a, b;
   double area = 0.0, gap = 0.0;
-  Vector3d point = Vector3d::Zero();  // along the directions
+  Vector3d point = Vector3d::Zero(), normal = Vector3d::Zero();
 
   void add(const Sums& other) {
     for (const auto& [node, weight] : other.a) a[node] += weight;
     for (const auto& [node, weight] : other.b) b[node] += weight;
-    area += other.area, gap += other.gap, point += other.point;
+    area += other.area, gap += other.gap, point += other.point, normal += other.normal;
   }
 };
 
@@ -106,14 +122,16 @@ const geometry::SimplexBasis& basis_of(const Seen& facet) {
 }
 
 /// Adds the integrals over a triangle that lies on both facets.
-void integrate(const std::array<Vec2, 3>& triangle, const Seen& a, const Seen& b, std::map<int, Sums>& sums) {
+void integrate(const std::array<Vec2, 3>& triangle, const Seen& a, const Seen& b, const View& view,
+               std::map<int, Sums>& sums) {
   const double area = 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
   const geometry::SimplexRule& rule = basis_of(b).rule();
   for (Eigen::Index i = 0; i < rule.weights.size(); ++i) {
     const Vec2 x = rule.points(0, i) * triangle[0] + rule.points(1, i) * triangle[1] + rule.points(2, i) * triangle[2];
     const Vector on_a = a.lambda_at(x), psi = b.lambda_at(x);
     const Vector N_a = basis_of(a).values(on_a), N_b = basis_of(b).values(psi);
-    const double height = b.height_at(psi), gap = height - a.height_at(on_a);
+    const double height = N_b.dot(b.heights), gap = height - N_a.dot(a.heights);
+    const Vector3d point = view.origin + view.directions * Vector3d(height, x.x(), x.y());
     for (std::size_t k = 0; k < 3; ++k) {
       const double weight = rule.weights[i] * area * psi[static_cast<Eigen::Index>(k)];
       Sums& of_pair = sums[b.nodes[k]];
@@ -123,42 +141,87 @@ void integrate(const std::array<Vec2, 3>& triangle, const Seen& a, const Seen& b
         of_pair.b[b.nodes[j]] += weight * N_b[static_cast<Eigen::Index>(j)];
       of_pair.area += weight;
       of_pair.gap += weight * gap;
-      of_pair.point += weight * Vector3d(height, x.x(), x.y());
+      of_pair.point += weight * point;
+      of_pair.normal += weight * view.directions.col(0);
     }
   }
 }
 
-std::map<int, Sums> integrals(const std::vector<Seen>& a, const std::vector<Seen>& b) {
+/// Adds the integrals over what two facets have in common.
+void add_common(const Seen& a, const Seen& b, const View& view, std::map<int, Sums>& sums) {
   constexpr double least = 1e-12;  // of the smaller facet: rounding, where facets only touch
+  const CommonPart common = clipped({a.corners.begin(), a.corners.end()}, b.corners);
+  for (std::size_t k = 2; k < common.size(); ++k) {
+    const std::array<Vec2, 3> triangle{common[0], common[k - 1], common[k]};
+    const double area = 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    if (area > least * std::min(a.area(), b.area())) integrate(triangle, a, b, view, sums);
+  }
+}
+
+/// Of plane and parallel faces, seen along their normal.
+std::map<int, Sums> plane_integrals(const Face& a, const Face& b) {
+  const View view{directions_of(normal_of(a)), a.mesh.nodes.col(a.facets.front().front())};
   std::map<int, Sums> sums;
+  std::vector<Seen> seen;
   std::vector<geometry::Box> boxes;
-  for (const Seen& facet : a) boxes.push_back(facet.box());
+  for (const SolidFacet& facet : a.facets) {
+    seen.push_back(seen_along(a, facet, view, false));
+    boxes.push_back(seen.back().box());
+  }
   const geometry::BoxTree tree(std::move(boxes));
-  for (const Seen& of_b : b) {
+  for (const SolidFacet& facet : b.facets) {
+    const Seen of_b = seen_along(b, facet, view, false);
     const geometry::Box box = of_b.box();
     const Vec2 centre = 0.5 * (box.low + box.high);
-    tree.within(centre, 0.5 * (box.high - box.low).norm(), [&](std::size_t i) {
-      const Seen& of_a = a[i];
-      const CommonPart common = clipped({of_a.corners.begin(), of_a.corners.end()}, of_b.corners);
-      for (std::size_t k = 2; k < common.size(); ++k) {
-        const std::array<Vec2, 3> triangle{common[0], common[k - 1], common[k]};
-        const double area = 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-        if (area > least * std::min(of_a.area(), of_b.area())) integrate(triangle, of_a, of_b, sums);
-      }
-    });
+    tree.within(centre, 0.5 * (box.high - box.low).norm(),
+                [&](std::size_t i) { add_common(seen[i], of_b, view, sums); });
+  }
+  return sums;
+}
+
+/// Where a facet is, to find those opposite.
+struct Ball {
+  Vector3d centre, normal;  // outwards
+  double radius;
+};
+std::vector<Ball> balls_of(const Face& face) {
+  std::vector<Ball> balls;
+  for (const SolidFacet& facet : face.facets) {
+    const Eigen::Matrix3d x = nodes_of(face.mesh, {facet[0], facet[1], facet[2]});
+    const Vector3d centre = x.rowwise().mean();
+    balls.push_back({centre, area_of(face, facet).normalized(), (x.colwise() - centre).colwise().norm().maxCoeff()});
+  }
+  return balls;
+}
+
+/// Of faces of any form: every facet of B sees those of A along its own normal, if they face it.
+std::map<int, Sums> curved_integrals(const Face& a, const Face& b) {
+  constexpr double most_turned = -0.5;  // cosine of the angle between outward normals: 60 degrees from opposite ones
+  std::map<int, Sums> sums;
+  const std::vector<Ball> of_a = balls_of(a), of_b = balls_of(b);
+  for (std::size_t j = 0; j < of_b.size(); ++j) {
+    const Ball& at = of_b[j];
+    const View view{directions_of(-at.normal), at.centre};
+    const Seen seen = seen_along(b, b.facets[j], view, true);
+    for (std::size_t i = 0; i < of_a.size(); ++i) {
+      if (of_a[i].normal.dot(at.normal) > most_turned) continue;
+      const Vector3d apart = of_a[i].centre - at.centre;
+      if ((apart - apart.dot(at.normal) * at.normal).norm() > of_a[i].radius + at.radius) continue;
+      add_common(seen_along(a, a.facets[i], view, true), seen, view, sums);
+    }
   }
   return sums;
 }
 
 /// Unites the pairs that have too little of their corner's area with the largest one beside them.
-void unite_small(std::map<int, Sums>& sums, const std::vector<Seen>& b) {
+void unite_small(std::map<int, Sums>& sums, const Face& b) {
   constexpr double least = 1e-6;
   std::map<int, double> whole;
   std::map<int, std::set<int>> beside;
-  for (const Seen& facet : b)
+  for (const SolidFacet& facet : b.facets)
     for (std::size_t k = 0; k < 3; ++k) {
-      whole[facet.nodes[k]] += facet.area() / 3.0;
-      beside[facet.nodes[k]].insert({facet.nodes[(k + 1) % 3], facet.nodes[(k + 2) % 3]});
+      whole[facet[k]] += area_of(b, facet).norm() / 3.0;
+      beside[facet[k]].insert({facet[(k + 1) % 3], facet[(k + 2) % 3]});
     }
   std::vector<int> small;
   for (const auto& [corner, of_pair] : sums)
@@ -175,16 +238,6 @@ void unite_small(std::map<int, Sums>& sums, const std::vector<Seen>& b) {
   }
 }
 
-Eigen::Matrix3d directions_of(const Vector3d& normal) {
-  Eigen::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  Eigen::Matrix3d directions;
-  directions.col(0) = normal;
-  directions.col(1) = normal.cross(Vector3d::Unit(least)).normalized();
-  directions.col(2) = normal.cross(directions.col(1));
-  return directions;
-}
-
 double largest_coordinate(const Face& face) {
   double largest = 0.0;
   for (const SolidFacet& facet : face.facets)
@@ -198,30 +251,30 @@ std::vector<WeightedNode> weights_of(const std::map<int, double>& sums, double a
   return nodes;
 }
 
-/// Why a face is not plane with straight edges, to 1e-5 of the length of an edge: files have that many digits.
-std::optional<std::string> why_not_plane(const Face& face) {
+/// Whether a face is plane with straight edges, to 1e-5 of the length of an edge: files have that many digits.
+bool is_plane(const Face& face) {
   constexpr double tolerance = 1e-5;
-  if (face.facets.empty()) return "has no facets";
   const Vector3d normal = normal_of(face);
   const Vector3d origin = face.mesh.nodes.col(face.facets.front().front());
   for (const SolidFacet& facet : face.facets) {
     const Matrix x = nodes_of(face.mesh, facet);
     const double allowed = tolerance * (x.col(1) - x.col(0)).norm();
-    if ((normal.transpose() * (x.colwise() - origin)).cwiseAbs().maxCoeff() > allowed) return "is not plane";
-    if (area_of(face, facet).dot(normal) <= 0.0) return "is folded";
+    if ((normal.transpose() * (x.colwise() - origin)).cwiseAbs().maxCoeff() > allowed) return false;
+    if (area_of(face, facet).dot(normal) <= 0.0) return false;
     for (Eigen::Index k = 3; k < x.cols(); ++k)
-      if ((x.col(k) - 0.5 * (x.col(k - 3) + x.col((k - 2) % 3))).norm() > allowed) return "has curved edges";
+      if ((x.col(k) - 0.5 * (x.col(k - 3) + x.col((k - 2) % 3))).norm() > allowed) return false;
   }
-  return {};
+  return true;
 }
 
 }  // namespace
 
 std::optional<std::string> why_no_pairs(const Face& a, const Face& b) {
   constexpr double most_angle = 1e-3;
-  if (const auto why = why_not_plane(a)) return "the first face " + *why;
-  if (const auto why = why_not_plane(b)) return "the second face " + *why;
-  if ((normal_of(a) + normal_of(b)).norm() > most_angle) return "the faces do not face each other";
+  if (a.facets.empty() || b.facets.empty())
+    return fmt::format("the {} face has no facets", a.facets.empty() ? "first" : "second");
+  if (is_plane(a) && is_plane(b) && (normal_of(a) + normal_of(b)).norm() > most_angle)
+    return "the faces do not face each other";
   return {};
 }
 
@@ -246,26 +299,26 @@ bool has_pairs_on_second(const Face& a, const Face& b) {
   return !differ(of_a.squares, of_b.squares) || of_b.squares > of_a.squares;
 }
 
-FacetPairs facet_pairs(const Face& a, const Face& b) {
-  ensure(!why_no_pairs(a, b), "faces of pairs are plane and parallel");
-  FacetPairs found;
-  found.directions = directions_of(normal_of(a));
-  const Vector3d origin = a.mesh.nodes.col(a.facets.front().front());
-  const std::vector<Seen> of_a = seen_along(a, found.directions, origin),
-                          of_b = seen_along(b, found.directions, origin);
-  std::map<int, Sums> sums = integrals(of_a, of_b);
-  unite_small(sums, of_b);
+std::vector<FacetPair> facet_pairs(const Face& a, const Face& b) {
+  ensure(!why_no_pairs(a, b), "faces of pairs face each other");
+  std::map<int, Sums> sums = is_plane(a) && is_plane(b) ? plane_integrals(a, b) : curved_integrals(a, b);
+  unite_small(sums, b);
   // Coordinates have rounding errors; faces that lie on each other have gaps of exactly 0, also if they are turned.
   const double rounding =
       16.0 * std::numeric_limits<double>::epsilon() * std::max(largest_coordinate(a), largest_coordinate(b));
+  std::vector<FacetPair> pairs;
   for (const auto& [corner, of_pair] : sums) {
-    FacetPair pair{corner,       weights_of(of_pair.a, of_pair.area), weights_of(of_pair.b, of_pair.area),
-                   of_pair.area, of_pair.gap / of_pair.area,          {}};
+    FacetPair pair{corner,
+                   weights_of(of_pair.a, of_pair.area),
+                   weights_of(of_pair.b, of_pair.area),
+                   of_pair.area,
+                   of_pair.gap / of_pair.area,
+                   of_pair.point / of_pair.area,
+                   directions_of(of_pair.normal.normalized())};
     if (std::abs(pair.gap) <= rounding) pair.gap = 0.0;
-    pair.point = origin + found.directions * (of_pair.point / of_pair.area);
-    found.pairs.push_back(std::move(pair));
+    pairs.push_back(std::move(pair));
   }
-  return found;
+  return pairs;
 }
 
 }  // namespace scabo::mesh

@@ -1,14 +1,18 @@
-// Contact pairs of two plane faces in space whose facets do not match.
+// Contact pairs of two faces in space whose facets do not match.
 //
 // A pair stands for a corner i of the facets of side B. With psi_i, linear on the facets, 1 at corner i and 0 at the
-// others, integrated over what the sides have in common, seen along the normal:
+// others, integrated over what the sides have in common, seen along a normal:
 //
 //     A_i = int psi_i dA,   motion of the pair = (1 / A_i) int psi_i (u_B - u_A) dA,   gap = (1 / A_i) int psi_i g dA
 //
-// so that its force over A_i is a pressure (mortar method with multipliers on side B). The integrals are exact: both
-// sides are divided into the triangles that they have in common, on which displacements are polynomials. The motion of
-// either side is a mean over nodes whose weights add up to 1, and forces of the pairs have the same resultant and
-// moment on both sides if the faces lie on each other: a constant stress passes exactly.
+// so that its force over A_i is a pressure (mortar method with multipliers on side B). Both sides are divided into the
+// triangles that they have in common. The motion of either side is a mean over nodes whose weights add up to 1.
+//
+// Plane faces with straight edges are seen along their common normal. There displacements are polynomials, the
+// integrals are exact, and forces of the pairs have the same resultant and moment on both sides if the faces lie on
+// each other: a constant stress passes exactly. Of other faces every facet of B sees those of A along the normal of its
+// corners; the gap is that of the quadratic surfaces, and the normal of a pair is the mean of those of its facets. Then
+// errors are those of the curved edges, which are seen as straight.
 #pragma once
 
 #include <optional>
@@ -29,21 +33,17 @@ struct FacetPair {
   std::vector<WeightedNode> a, b;                   ///< nodes of either side, ascending; the weights add up to 1
   double area = 0.0, gap = 0.0;                     ///< A_i > 0; gap > 0: open
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< (1 / A_i) int psi_i x dA, on side B
-};
-
-struct FacetPairs {
   /// Orthonormal: the normal, out of A towards B, and two tangents.
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
-  std::vector<FacetPair> pairs;  ///< none where the sides have nothing in common
 };
 
-/// Some facets of a body that are to lie in one plane. `mesh` must outlive it.
+/// Some facets of a body. `mesh` must outlive it.
 struct Face {
   const SolidMesh& mesh;
   std::vector<SolidFacet> facets;
 };
 
-/// Why two faces have no pairs: one is empty, curved or has curved edges, or they are not parallel and opposite.
+/// Why two faces have no pairs: one is empty, or they are plane and not parallel and opposite.
 std::optional<std::string> why_no_pairs(const Face& a, const Face& b);
 
 /// Whether `b` is the side whose corners are the pairs: the one with the smaller facets, more corners, or less even
@@ -51,7 +51,7 @@ std::optional<std::string> why_no_pairs(const Face& a, const Face& b);
 bool has_pairs_on_second(const Face& a, const Face& b);
 
 /// Gaps within the rounding of the coordinates are 0. A pair with less than 1e-6 of the area that its corner has on
-/// side B is united with the largest one beside it.
-FacetPairs facet_pairs(const Face& a, const Face& b);
+/// side B is united with the largest one beside it. None where the sides have nothing in common.
+std::vector<FacetPair> facet_pairs(const Face& a, const Face& b);
 
 }  // namespace scabo::mesh

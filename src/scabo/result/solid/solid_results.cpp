@@ -9,6 +9,7 @@
 #include "scabo/result/old_results.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
+#include "scabo/result/solid/solid_faces.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -83,7 +84,10 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
              const analysis::SolidIncrement& increment, std::size_t number) {
   const auto& [step, of_step] = posed.step_and_number[number];
   const bool solved = increment.status == contact::Status::solved;
-  Json json = {{"step", model.steps[step].name}, {"increment", of_step}, {"factors", Json::object()}};
+  Json json = {{"step", step + 1},
+               {"increment", of_step},
+               {"reached", static_cast<double>(of_step) / model.steps[step].increments},
+               {"factors", Json::object()}};
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     json["factors"][model.loads[i].name] = increment.factors.loads[static_cast<Eigen::Index>(i)];
   for (std::size_t i = 0; i < model.supports.size(); ++i)
@@ -128,8 +132,8 @@ std::string rows_of(const model::SpaceModel& model, const analysis::PosedSolids&
     const auto c = static_cast<std::size_t>(pair.contact);
     const double N = pair.normal_force();
     const Eigen::Vector3d shear = (pair.force - N * pair.normal) / pair.area;
-    fmt::format_to(std::back_inserter(rows), "{},{},{},{}", csv_quoted(model.steps[step].name), of_step,
-                   csv_quoted(model.contacts[c].name), ++counts[c]);
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{}", step + 1, of_step, csv_quoted(model.contacts[c].name),
+                   ++counts[c]);
     for (const Eigen::Vector3d& vector : {pair.point, pair.normal})
       for (const double value : vector) fmt::format_to(std::back_inserter(rows), ",{}", value);
     fmt::format_to(std::back_inserter(rows), ",{},{},{},{},{},{},{},{},{},{},{}\n", pair.area, pair.gap, pair.slip.x(),
@@ -157,7 +161,8 @@ std::string solid_summary_content(const model::SpaceModel& model, const analysis
   json["status"] = running ? "running" : made ? status_of(increments.back().status) : "not_converged";
   json["reason"] = made && !increments.back().reason.empty() ? Json(increments.back().reason) : Json();
   json["warnings"] = texts_of(model.warnings);
-  json["model"] = {{"nodes", nodes}, {"dofs", 3 * nodes}, {"finite_elements", cells}};
+  json["model"] = {{"nodes", nodes}, {"dofs", 3 * nodes}, {"finite_elements", cells}, {"steps", Json::array()}};
+  for (const model::SpaceStep& step : model.steps) json["model"]["steps"].push_back(step.name);
   json["increments"] = Json::array();
   for (std::size_t k = 0; k < increments.size(); ++k)
     json["increments"].push_back(json_of(model, posed, increments[k], k));
@@ -191,6 +196,7 @@ SolidResults::SolidResults(std::filesystem::path path, const model::SpaceModel& 
       collection_(path_ / "fields.pvd") {
   replace_file(path_ / "summary.json", solid_summary_content(model, posed, {}, true));
   table_.append(columns_of_solids);
+  if (!model_.contacts.empty()) faces_.emplace(path_ / "contact.pvd");
 }
 
 void SolidResults::add(const analysis::SolidIncrement& increment) {
@@ -202,6 +208,11 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
     const std::string file = fmt::format("fields_{:04d}.vtu", number + 1);
     replace_file(path_ / file, vtu_content(solid_cells(posed_.model, increment.u)));
     collection_.add(static_cast<double>(number + 1), file);
+    if (faces_) {
+      const std::string of_faces = fmt::format("contact_{:04d}.vtu", number + 1);
+      replace_file(path_ / of_faces, vtu_content(solid_faces(posed_.model, increment)));
+      faces_->add(static_cast<double>(number + 1), of_faces);
+    }
   }
   replace_file(path_ / "summary.json", solid_summary_content(model_, posed_, made_, true));
 }

@@ -1,8 +1,9 @@
-// The results directory of a model in space: summary.json, contact.csv, fields.pvd with one .vtu for each increment
-// (docs/model/space.md). Increments are added as they finish.
+// The results directory of a model in space: summary.json, contact.csv, fields.pvd and contact.pvd with one .vtu for
+// each increment (docs/model/space.md). Increments are added as they finish.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ class SolidResults {
   DirectoryLock lock_;
   GrowingFile table_;
   FieldCollection collection_;
+  std::optional<FieldCollection> faces_;        // of models with contacts
   std::vector<analysis::SolidIncrement> made_;  // without displacements
 };
 

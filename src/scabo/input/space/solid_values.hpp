@@ -1,0 +1,27 @@
+// Values of models in space: numbers with a limit, vectors, shapes of bodies and sizes of their meshes.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scabo/input/reader.hpp"
+#include "scabo/model/solid_shape.hpp"
+
+namespace scabo::input {
+
+/// For every key that has a meaning in the plane alone.
+Later only_in_the_plane(const std::vector<const char*>& keys);
+
+/// A number above `least`, or `least` itself as well; `least` if there is none.
+double read_number_from(Report& report, const std::optional<Value>& value, double least, bool itself);
+
+/// `[x, y, z]`; zero if it is anything else, which is reported.
+Eigen::Vector3d read_vector_in_space(Report& report, const Value& value);
+
+/// `{box: {corner: [0, 0, 0], size: [1, 1, 1]}}`; nothing after a mistake.
+std::optional<model::SolidShape> read_solid_shape(Report& report, const Value& value);
+
+/// `{size: 0.1, refine: [{near: [0, 0, 0], size: 0.01}]}`.
+model::SolidSizes read_solid_sizes(Report& report, const Value& value);
+
+}  // namespace scabo::input

@@ -1,0 +1,90 @@
+"""Pictures of bodies in space: what is seen of them, and the maps of their contact faces."""
+import unittest
+
+import made_up  # noqa: F401  the package for pictures
+import numpy as np
+from plot import geometry, solids, vtu
+
+
+def grid():
+    """Two tetrahedra with one facet in common; quadratic, straight edges; displacement (0, 0, z)."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], dtype=float)
+    points, numbers, cells = list(corners), {}, []
+    for cell in ([0, 1, 2, 3], [1, 2, 3, 4]):
+        a, b, c, d = corners[cell]
+        if np.cross(b - a, c - a) @ (d - a) < 0:
+            cell = [cell[1], cell[0], *cell[2:]]
+        middles = []
+        for i, j in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)):
+            key = tuple(sorted((cell[i], cell[j])))
+            if key not in numbers:
+                numbers[key] = len(points)
+                points.append(0.5 * (corners[cell[i]] + corners[cell[j]]))
+            middles.append(numbers[key])
+        cells += cell + middles
+    points = np.array(points)
+    displacement = np.zeros_like(points)
+    displacement[:, 2] = points[:, 2]
+    return vtu.Grid(points, np.array(cells), np.array([10, 20]), np.array([24, 24], dtype="u1"),
+                    {"displacement": displacement, "von_mises": points[:, 0], "stress": np.tile(np.arange(6.0), (len(points), 1))}, {})
+
+
+class Seen(unittest.TestCase):
+    def test_facets_outside_are_those_of_one_cell_and_turn_outwards(self):
+        of = grid()
+        facets = solids.outer_facets(of)
+        self.assertEqual(len(facets), 6)
+        middle = of.points[:5].mean(axis=0)
+        volume = 0.0
+        for a, b, c in of.points[facets[:, :3]]:
+            self.assertGreater(np.cross(b - a, c - a) @ (a - middle), 0)
+            volume += np.cross(b, c) @ a / 6
+        self.assertAlmostEqual(volume, 1 / 6 + 1 / 3)
+        for k in range(3):
+            np.testing.assert_allclose(of.points[facets[:, 3 + k]], 0.5 * (of.points[facets[:, k]] + of.points[facets[:, (k + 1) % 3]]))
+        self.assertEqual(len(solids.triangles_of(facets)), 24)
+
+    def test_directions_are_a_turn(self):
+        for view in ((-60, 25), (0, 90), (135, -40)):
+            axes = solids.directions(*view)
+            np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-15)
+            self.assertAlmostEqual(np.linalg.det(axes), 1.0)
+        np.testing.assert_allclose(solids.directions(0, 0)[2], [1, 0, 0], atol=1e-15)
+
+    def test_the_nearest_triangle_is_seen_with_its_values(self):
+        points = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [2, 0, 1], [0, 2, 1]], dtype=float)
+        image = solids.seen_image(points, np.array([[0, 1, 2], [3, 4, 5]]), np.array([0, 4, 8, -1, -1, -1.0]), pixels=80)
+        at = lambda x, y: image.values[int((y - image.low[1]) / image.pixel), int((x - image.low[0]) / image.pixel)]
+        self.assertEqual(at(0.5, 0.5), -1)
+        self.assertAlmostEqual(at(2.0, 1.0), 2 + 2 * 1.0, delta=0.2)
+        self.assertTrue(np.isnan(at(3.5, 3.5)))
+        behind = solids.visible_pieces(image, np.array([[0, 1, 1]]), points)
+        self.assertLess(len(behind), 12)  # the part under the near triangle is hidden
+
+    def test_values_of_components(self):
+        of = grid()
+        np.testing.assert_array_equal(solids.values_of(of, "yz"), 4)
+        np.testing.assert_array_equal(solids.values_of(of, "uz"), of.points[:, 2])
+        np.testing.assert_array_equal(solids.values_of(of, "displacement"), of.points[:, 2])
+        self.assertEqual(solids.magnification_of(of), 1.0)
+
+
+class Maps(unittest.TestCase):
+    def test_a_face_across_an_axis_keeps_the_other_two_and_any_other_its_lengths(self):
+        square = np.array([[0, 0, 2], [3, 0, 2], [3, 1, 2], [0, 1, 2]], dtype=float)
+        turn = solids.directions(30, 50)
+        for turned in (False, True):
+            points, normal = (square @ turn, np.array([0, 0, 1]) @ turn) if turned else (square, np.array([0, 0, 1.0]))
+            data = {"contact": np.array([2] * 4), "normal": np.tile(normal, (4, 1)), "pressure": np.arange(4.0), "gap": np.zeros(4),
+                    "shear": np.tile([3.0, 4.0, 0.0], (4, 1)), "slip": np.zeros((4, 3)), "state": np.array([0, 1, 2, 1])}
+            of = solids.map_of("joint", vtu.Grid(points, np.array([0, 1, 2, 0, 2, 3]), np.array([3, 6]), np.array([5, 5]), data,
+                                                 {"contact": np.array([2, 2])}), 2)
+            self.assertAlmostEqual(geometry.areas(of.places, of.corners).sum(), 3.0)
+            np.testing.assert_array_equal(of.values["shear"], 5.0)
+            self.assertEqual(list(of.states), ["open", "stick", "slip", "stick"])
+            if not turned:
+                self.assertEqual(of.axes, ("x", "y"))
+
+
+if __name__ == "__main__":
+    unittest.main()
