@@ -119,6 +119,7 @@ class Revolution(support.InTemporaryDirectory):
         content = json.loads(page.split('id="content">')[1].split("</script>")[0])
         self.assertIn("hoop stress", [quantity["name"] for quantity in content["field"]["quantities"]])
         self.assertAlmostEqual(content["field"]["low"][0], -2.0)
+        self.assertIn("Forces are those of the whole circumference.", content["verdict"]["text"])
 
 
 if __name__ == "__main__":
