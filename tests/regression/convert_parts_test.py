@@ -67,8 +67,15 @@ class Included(Converting):
         self.assertEqual(run.returncode, 1)
         (self.directory / "round.inc").write_text("*INCLUDE, INPUT=round.inc\n")
         run = self.convert(SQUARE + HELD + STATIC + "*DLOAD\n*INCLUDE, INPUT=round.inc\n" + END)
-        self.assertIn("included too deeply", run.stderr)
+        self.assertIn("round.inc:1:1: 'round.inc' is included within itself", run.stderr)
         self.assertEqual(run.returncode, 1)
+
+    def test_what_is_said_about_an_include_that_is_not_taken(self):
+        for words, wanted in (("INPUT=sub\\load.dlo", "write / between the names of folders"), ("INPUT=load.dlo, PASSWORD=x", "*INCLUDE with PASSWORD is not taken"),
+                              ("INPUT=", "*INCLUDE names no file")):
+            run = self.convert(SQUARE + HELD + STATIC + f"*DLOAD\n*INCLUDE, {words}\n" + END)
+            self.assertIn(wanted, run.stderr)
+            self.assertEqual(run.returncode, 1)
 
 
 class DataThatIsMissing(Converting):

@@ -82,6 +82,19 @@ class Pipes(InTemporaryDirectory):
                 self.assertEqual(run.returncode, 1)
                 self.assertIn("is a pipe or a device, which is read only once", run.stderr)
 
+    def test_pipes_in_the_place_of_results_are_refused(self):
+        model = self.directory / "model.yaml"
+        model.write_text(MODEL, encoding="utf-8")
+        for name in ("summary.json", "log.txt", "fields_0001.vtu", "checkpoint.hdf5", "problems/0001.hdf5"):
+            with self.subTest(name):
+                pipe = self.directory / "results" / name
+                pipe.parent.mkdir(parents=True, exist_ok=True)
+                os.mkfifo(pipe)
+                run = scabo("run", model, "--quiet", "-o", self.directory / "results")
+                pipe.unlink()
+                self.assertEqual(run.returncode, 3, run.stderr)
+                self.assertIn(f"Scabo did not write the {name} there", run.stderr)
+
     def test_a_run_that_waits_for_its_model_ends_when_told_to(self):
         path = self.directory / "silent.yaml"
         os.mkfifo(path)

@@ -141,16 +141,17 @@ std::string reason_of(const Judgement& judgement, Judge by, double tolerance, co
                                                                                  : "natural-map residual";
   char text[400];
   if (judgement.rounding > tolerance)
-    std::snprintf(text, sizeof text,
-                  "; the best iterate has a %s of %.2g, but the contact forces are so large that rounding makes the "
-                  "motions uncertain by %.2g, so that it is not known to be a solution",
-                  figure, judgement.figure, judgement.rounding);
+    std::snprintf(
+        text, sizeof text,
+        "the best iterate has a %s of %.2g, but rounding makes its motions uncertain by %.2g of their scale, so "
+        "that it is not known to be a solution",
+        figure, judgement.figure, judgement.rounding);
   else if (!std::isfinite(judgement.figure))
-    std::snprintf(text, sizeof text, "; forces or motions are too large to be computed: use other units");
+    std::snprintf(text, sizeof text, "the best iterate has a %s that is not a finite number", figure);
   else
-    std::snprintf(text, sizeof text, "; the best iterate has a %s of %.2g, above the tolerance %.2g", figure,
+    std::snprintf(text, sizeof text, "the best iterate has a %s of %.2g, above the tolerance %.2g", figure,
                   judgement.figure, tolerance);
-  return story + text;
+  return story.empty() ? text : story + "; " + text;
 }
 
 double natural_map_residual(const Problem& problem, const Vector& p, const Vector& a) {

@@ -163,18 +163,27 @@ bool AbaqusLines::next_data(std::vector<std::string_view>& fields) {
 void AbaqusLines::insert(const AbaqusKeyword& keyword) {
   const std::string name = keyword.value("INPUT");
   if (name.empty()) builder_.fail(keyword.at, keyword.written + " names no file; write INPUT=file");
-  const std::size_t from = static_cast<std::size_t>(keyword.at.file);
-  if (open_.size() > most_nested_includes || names_.size() > most_includes) {
-    builder_.fail(keyword.at,
-                  fmt::format("'{}' is included too deeply: files that include one another?", printable(name)));
-  }
+  for (const auto& [parameter, value] : keyword.parameters)
+    if (parameter != "INPUT" && !parameter.empty())
+      builder_.fail(keyword.at, fmt::format("{} with {} is not taken: put the text of the file into INPUT=file alone",
+                                            keyword.written, printable(parameter)));
+  if (open_.size() > most_nested_includes || names_.size() > most_includes)
+    builder_.fail(keyword.at, fmt::format("'{}' is included by more than {} files within each other, or after more "
+                                          "than {} others; put them into fewer files",
+                                          printable(name), most_nested_includes, most_includes));
   std::optional<IncludedFile> file;
   // Both programs take names from the folder of the deck, wherever they stand.
+  const std::size_t from = static_cast<std::size_t>(keyword.at.file);
   if (read_include_) file = read_include_(name, names_.front());
   if (read_include_ && !file) file = read_include_(name, names_[from]);
-  if (!file) {
-    builder_.fail(keyword.at, fmt::format("the included file '{}' cannot be read; put it beside this file", name));
-  }
+  if (!file)
+    builder_.fail(keyword.at,
+                  fmt::format("the included file '{}' cannot be read; {}", printable(name),
+                              name.find('\\') == std::string::npos ? "put it beside this file"
+                                                                   : "write / between the names of folders, not \\"));
+  for (const Open& open : open_)
+    if (!open.lines && names_[static_cast<std::size_t>(open.file)] == file->name)
+      builder_.fail(keyword.at, fmt::format("'{}' is included within itself; take this line out", printable(name)));
   texts_.push_back(std::move(file->text));
   names_.push_back(file->name);
   open({TextCursor(texts_.back(), file->name), builder_.add_file(file->name)});

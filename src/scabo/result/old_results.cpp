@@ -69,6 +69,8 @@ std::optional<std::string_view> mark_of(const std::string& name) {
 /// Also true for a file that a full disk or a kill left empty: nothing is lost by removing it.
 bool written_by_scabo(const fs::path& file, std::string_view mark) {
   std::array<char, 4096> beginning{};  // an HDF5 file has the names of its groups there
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;  // opening a pipe would wait for its other end
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return false;
   stream.read(beginning.data(), beginning.size());
@@ -111,10 +113,11 @@ void add_old_problems(const fs::path& path, std::vector<fs::path>& old) {
   if (!fs::is_directory(path, error)) refuse("");
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     if (entry->path().extension() != ".hdf5") continue;
+    if (!entry->is_regular_file(error)) refuse(entry->path().filename().string());
     std::string beginning(4096, '\0');
     std::ifstream(entry->path(), std::ios::binary)
         .read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    if (entry->is_directory(error) || !beginning.starts_with("\x89HDF") || beginning.find("scabo") == std::string::npos)
+    if (!beginning.starts_with("\x89HDF") || beginning.find("scabo") == std::string::npos)
       refuse(entry->path().filename().string());
     old.push_back(entry->path());
   }
@@ -138,7 +141,7 @@ void remove_old_results(const fs::path& path, std::string_view summary) {
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     const auto mark = mark_of(entry->path().filename().string());
     if (!mark) continue;
-    if (entry->is_directory(error) || !written_by_scabo(entry->path(), *mark))
+    if (!written_by_scabo(entry->path(), *mark))
       throw WriteError("cannot write results to", path,
                        fmt::format("Scabo did not write the {} there: move it, or choose another directory",
                                    entry->path().filename().string()));

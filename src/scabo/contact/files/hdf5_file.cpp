@@ -83,8 +83,8 @@ struct Dataset {
     count = type.valid() && space.valid() ? H5Sget_simple_extent_npoints(space) : -1;
     if (count < 0) reader.fail(path, "cannot be read: the file is damaged or incomplete; use a complete copy");
     if (count > most_values)
-      reader.fail(path, fmt::format("has {} values, more than any problem that can be solved: the file is damaged",
-                                    static_cast<long long>(count)));
+      reader.fail(path, fmt::format("has {} values, more than the {} that a problem may have",
+                                    static_cast<long long>(count), static_cast<long long>(most_values)));
   }
   static hid_t open(const Hdf5Reader& reader, hid_t file, const std::string& path) {
     if (!exists(file, path))

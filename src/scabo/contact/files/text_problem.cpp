@@ -29,7 +29,7 @@ class Words {
     at_ = {line_, static_cast<int>(position_ - line_start_) + 1, what};
     const std::size_t start = position_;
     while (position_ < text_.size() && !is_space(text_[position_])) ++position_;
-    if (start == position_) fail("the file ends here: it is incomplete, or its sizes are wrong");
+    if (start == position_) fail("the file ends here: use a complete copy, whose sizes are those of its data");
     return text_.substr(start, position_ - start);
   }
 
@@ -71,8 +71,8 @@ class Words {
     if (position_ == text_.size()) return;
     next("end");
     fail(
-        "data follow after mu, where the problem ends: the sizes at the start are wrong, or it is a problem of another "
-        "kind (rolling friction, global form)");
+        "data follow after mu, where a problem of the sizes at the start ends: write one of these sizes, in local form "
+        "and without rolling friction");
   }
 
   /// Position of the last word read.
@@ -81,10 +81,10 @@ class Words {
   /// Checks that there cannot be more values than remaining bytes, before memory is allocated for them.
   void expect_room(double values) const {
     if (values > static_cast<double>(text_.size() - position_))
-      fail(
-          fmt::format("{:.0f} values must follow, more than the rest of the file can contain: it is incomplete, or its "
-                      "sizes are wrong",
-                      values));
+      fail(fmt::format(
+          "{:.0f} values must follow, but only {} bytes are left: use a complete copy, whose sizes are those "
+          "of its data",
+          values, text_.size() - position_));
   }
 
  private:
