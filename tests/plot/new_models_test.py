@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import support
 
-KINDS = ["beam", "dam", "wall", "hertz", "crack", "earthquake"]
+KINDS = ["beam", "dam", "wall", "hertz", "crack", "growth", "earthquake"]
 
 
 class NewModels(support.InTemporaryDirectory):
@@ -58,6 +58,13 @@ class NewModels(support.InTemporaryDirectory):
         factors = self.solve("crack")[-1]["cracks"]["plate.flaw"]
         self.assertAlmostEqual(factors["K_I"] / (2.8255 * 1e6 * math.sqrt(math.pi * 0.5)), 1.0, delta=1e-4)
         self.assertLess(abs(factors["K_II"]), 1e-6 * factors["K_I"])
+
+    def test_growth_needs_the_moment_of_beam_theory(self):
+        increments = self.solve("growth")
+        moment = math.sqrt(200e9 / (1 - 0.3**2) * 1e3 * 0.1**3 / 12)
+        self.assertEqual(len(increments), 11)
+        for entry in increments:
+            self.assertAlmostEqual(entry["growth"]["load_factor"] * 1e3 / moment, 1.0, delta=1e-3)
 
     def test_earthquake_leaves_the_block_at_rest_on_its_weight(self):
         increments = self.solve("earthquake")
