@@ -160,6 +160,18 @@ void Events::iteration(const contact::Iteration& iteration) {
                  {"method", iteration.stage}}));
 }
 
+namespace {
+
+/// Where cracks have come to.
+Json json_of(const analysis::GrowthResult& growth) {
+  Json tips = Json::object();
+  for (const analysis::TipResult& tip : growth.tips)
+    tips[tip.name] = {number(tip.position.x()), number(tip.position.y())};
+  return {{"load_factor", number(growth.load_factor)}, {"cycles", or_null(growth.cycles)}, {"tips", tips}};
+}
+
+}  // namespace
+
 void Events::increment_end(const model::Model& model, const analysis::IncrementResult& result, bool is_first) {
   if (!on_) return;
   if (!increment_) increment_begin({result.step, result.step_name, result.increment, std::nullopt});
@@ -185,6 +197,7 @@ void Events::increment_end(const model::Model& model, const analysis::IncrementR
                  {"coarse_iterations", result.coarse_iterations},
                  {"halvings", result.halvings},
                  {"pairs", pairs},
+                 {"growth", result.growth ? json_of(*result.growth) : Json()},
                  {"reason", result.reason.empty() ? Json() : Json(result.reason)},
                  {"seconds", seconds_since(begun_)},
                  {"done", done},

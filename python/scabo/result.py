@@ -200,8 +200,8 @@ class Result:
     @property
     def cracks(self) -> dict[str, dict[str, np.ndarray]]:
         """Of a step in which cracks grow: for each tip by name, as in "plate.flaw.end", columns over the states of growth:
-        increment (an index into ``increments``), x, y, length, K_I, K_II, T, G, kink (radians), load_factor, critical_at
-        and grows (docs/results.md). Empty without growth."""
+        increment (an index into ``increments``), x, y, length, K_I, K_II, T, G, kink (radians), load_factor, critical_at,
+        grows, range and cycles (docs/results.md). Empty without growth."""
         columns: dict[str, dict[str, list[Any]]] = {}
         for number, increment in enumerate(self._increments):
             growth = increment.as_dict().get("growth", {})
@@ -210,7 +210,7 @@ class Result:
                 row = {"increment": number, "x": tip["position"][0], "y": tip["position"][1], "length": tip["length"],
                        **{key: np.nan if factors.get(key) is None else factors[key] for key in ("K_I", "K_II", "T", "G")},
                        "kink": tip["kink"], "load_factor": growth["load_factor"], "critical_at": tip["critical_at"],
-                       "grows": tip["grows"]}
+                       "grows": tip["grows"], "range": tip.get("range"), "cycles": growth.get("cycles")}
                 of_tip = columns.setdefault(name, {key: [] for key in row})
                 for key, value in row.items():
                     of_tip[key].append(np.nan if value is None else value)

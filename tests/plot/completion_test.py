@@ -67,7 +67,7 @@ class Completion(support.InTemporaryDirectory):
         self.assertNotIn("c.txt", offered)
         self.assertEqual(self.bash("plot", ""), ["a.results"])
         self.assertEqual(self.bash("run", "a.yaml", "-o", ""), ["a.results"])
-        self.assertEqual(self.bash("new", ""), ["axisymmetric", "beam", "crack", "dam", "earthquake", "hertz", "part3d", "wall"])
+        self.assertEqual(self.bash("new", ""), ["axisymmetric", "beam", "crack", "dam", "earthquake", "growth", "hertz", "part3d", "wall"])
         self.assertEqual(self.bash("plot", "--what", "co"), ["contact", "convergence"])
         self.assertEqual(self.bash("run", "--threads", ""), [])
         self.assertIn("c.txt", self.bash("contact", ""))

@@ -17,7 +17,7 @@ KEYS = {
     "increment_begin": {"step", "step_name", "increment", "increments"},
     "iteration": {"iteration", "residual", "states_changed", "method"},
     "increment_end": {"step", "step_name", "increment", "reached", "converged", "residual", "certificate", "iterations",
-                      "coarse_iterations", "halvings", "pairs", "reason", "seconds", "done", "seconds_left"},
+                      "coarse_iterations", "halvings", "pairs", "growth", "reason", "seconds", "done", "seconds_left"},
     "warning": {"kind", "text"},
     "error": {"text", "file", "line", "column", "path"},
     "finished": {"status", "exit_status", "mechanism"},
@@ -59,6 +59,17 @@ class Events(support.InTemporaryDirectory):
     def run_steps(self, *words, increments=4):
         return scabo("run", BEAM, "-o", self.directory / "results", "--json-lines", "--set",
                      f"steps=[{{name: press, increments: {increments}}}]", *words)
+
+    def test_cracks_that_grow(self):
+        model = self.directory / "growth.yaml"
+        self.assertEqual(scabo("new", "growth", "-o", model).returncode, 0)
+        run = scabo("run", model, "--json-lines", "--set", "steps.0.growth.until={steps: 1}")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        first, second = (end["growth"] for end in self.of_kind(self.events(run.stdout), "increment_end"))
+        self.assertAlmostEqual(first["load_factor"] / second["load_factor"], 1.0, delta=1e-3)
+        self.assertIsNone(first["cycles"])
+        self.assertEqual(first["tips"]["beam.flaw.end"], [0.4, 0])
+        self.assertAlmostEqual(second["tips"]["beam.flaw.end"][0], 0.42, delta=1e-9)
 
     def test_a_run(self):
         run = self.run_steps()

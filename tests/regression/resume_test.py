@@ -72,6 +72,26 @@ output: {every: 10, history: {tip: block.top_left.ux, kinetic: kinetic_energy}}
 """.replace("LONG", "20" if SANITIZED else "100")
 
 
+GROWTH = """
+scabo: 1
+title: A crack that grows in a plate, after its weight
+analysis: {plane: strain}
+materials: {stone: {young: 30e9, poisson: 0.2, density: 2400}}
+bodies:
+  plate:
+    material: stone
+    shape: {rectangle: {corner: [0, 0], size: [1, 2]}}
+    mesh: {kind: quadtree, size: 0.125}
+    cracks: [{path: [[0, 0.8], [0.25, 1]], name: flaw}]
+supports: [{on: plate.bottom, fix: [x, y]}]
+loads: {pull: {on: plate.top, traction: [0, 1e6]}, weight: {on: plate, gravity: [0, -9.81]}}
+steps:
+  - {name: weight, loads: {weight: 1}, increments: 2}
+  - {name: grow, loads: {pull: 1}, growth: {LAW, step: 0.04, until: {steps: 12}}}
+output: {every: 3, history: {tip: plate.top_left.uy}, points: [[0.5, 1.5]]}
+"""
+
+
 def content(directory):
     """All files by name; of summary.json and log.txt what does not depend on the machine's speed."""
     files = {}
@@ -173,6 +193,21 @@ class Resume(unittest.TestCase):
         run = scabo("resume", self.results, "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assert_same(content(self.directory / "whole"))
+
+    def test_killed_while_cracks_grow(self):
+        for law in ("toughness: {K_Ic: 1e6}", "law: paris, C: 1e-29, m: 3, between: [{pull: 0.1}, {pull: 1}]"):
+            with self.subTest(law=law):
+                self.model.write_text(GROWTH.replace("LAW", law), encoding="utf-8")
+                run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                whole = content(self.directory / "whole")
+                self.assertEqual(whole["cracks.csv"].count(b"\n"), 14)
+                for checkpoints in (1, 4, 8):
+                    shutil.rmtree(self.results, ignore_errors=True)
+                    self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
+                    run = scabo("resume", self.results, "--quiet")
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                    self.assert_same(whole)
 
     def test_half_written_files_are_cut_off(self):
         whole, _ = self.unbroken()

@@ -24,6 +24,12 @@ const std::vector<Vec2>& path_of(const analysis::StaticSolution& solution) {
   return solution.grown->paths.front().points;
 }
 
+/// Work is stored or released, to rounding.
+void expect_balance(const analysis::GrowthEnergy& energy) {
+  EXPECT_NEAR(energy.external - energy.elastic - energy.released, 0.0,
+              1e-9 * (std::abs(energy.external) + std::abs(energy.elastic)));
+}
+
 // Double cantilever under moments M at the ends of its arms, of height h: G = 12 M^2 / (E' h^3) per unit width, at any
 // length, so that the moment at which the crack grows is (E' G_c h^3 / 12)^1/2. The crack goes straight on.
 TEST(Growth, ADoubleCantileverUnderEndMoments) {
@@ -50,8 +56,39 @@ steps: [{growth: {toughness: {G_c: 10}, step: 0.5, until: {steps: 3}}}]
     EXPECT_NEAR(at.tips.at(0).length, 4.0 + 0.5 * static_cast<double>(k), 1e-12);
     EXPECT_NEAR(at.tips[0].G.value(), 10.0, 1e-3);
     EXPECT_NEAR(at.tips[0].kink, 0.0, 1e-4);
+    if (k == 0) continue;
+    ASSERT_TRUE(at.energy.has_value());  // 5 = 10 over a length of 0.5
+    EXPECT_NEAR(at.energy->released, 5.0, 5e-3);
+    EXPECT_NEAR(at.energy->integral, 5.0, 5e-3);
+    expect_balance(*at.energy);
   }
   EXPECT_EQ(solution.grown->ended, "3 growth steps done");
+}
+
+/// The double cantilever opened by end forces P, cells of `size`: the load at which it grows from 4.
+double end_force(double size) {
+  return growth_at(run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 200e9, poisson: 0.3}}}}
+bodies:
+  beam:
+    material: steel
+    shape: {{polygon: {{vertices: [[0, -1], [12, -1], [12, 1], [0, 1], [0, 0]]}}}}
+    mesh: {{kind: quadtree, size: {}, order: 3}}
+    cracks: [{{path: [[0, 0], [4, 0]], name: flaw}}]
+supports: [{{on: beam.vertex_2, fix: [x, y]}}, {{on: beam.vertex_3, fix: [x]}}]
+loads:
+  upper: {{on: beam.edge_4, traction: [0, 1e3]}}
+  lower: {{on: beam.edge_5, traction: [0, -1e3]}}
+steps: [{{growth: {{toughness: {{G_c: 10}}, step: 0.5, until: {{steps: 1}}}}}}]
+)",
+                                   size)),
+                   1)
+      .load_factor;
+}
+
+TEST(Growth, ADoubleCantileverUnderEndForcesAndTwiceAsFine) {
+  EXPECT_NEAR(end_force(0.25) / end_force(0.125), 1.0, 5e-3);
 }
 
 // Central crack under remote tension, in a plate 100 times as wide: both tips are critical at once and grow together,
@@ -83,6 +120,30 @@ steps: [{growth: {toughness: {K_Ic: 2e6}, step: 0.2, until: {length: 2.6}}}]
   const std::vector<Vec2>& path = path_of(solution);
   EXPECT_NEAR((path.front() - Vec2(-1.3, 0)).norm(), 0.0, 1e-4);
   EXPECT_NEAR((path.back() - Vec2(1.3, 0)).norm(), 0.0, 1e-4);
+}
+
+// The same crack opened by water of the same pressure on its faces, which follows it: the same factors.
+TEST(Growth, PressureFollowsTheCrack) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: stress}
+materials: {steel: {young: 200e9, poisson: 0.3}}
+bodies:
+  plate:
+    material: steel
+    shape: {rectangle: {corner: [-100, -100], size: [200, 200]}}
+    mesh: {kind: quadtree, size: 20, order: 3}
+    cracks: [{path: [[-1, 0], [1, 0]], name: flaw}]
+supports: [{on: plate.bottom_left, fix: [x, y]}, {on: plate.bottom_right, fix: [y]}]
+loads:
+  left: {on: plate.flaw.left, pressure: 1e6}
+  right: {on: plate.flaw.right, pressure: 1e6}
+steps: [{growth: {toughness: {K_Ic: 2e6}, step: 0.2, until: {length: 2.6}}}]
+)");
+  ASSERT_EQ(last(solution).increment, 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double a = 1.0 + 0.1 * static_cast<double>(k);
+    EXPECT_NEAR(growth_at(solution, k).load_factor * 1e6 * std::sqrt(pi * a) / 2e6, 1.0, 1e-3);
+  }
 }
 
 /// An inclined edge crack under tension; `sign`: mirrored at x = 0; lengths in metres times `length`, forces in newtons
@@ -125,6 +186,45 @@ TEST(Growth, MirroredAndInOtherUnitsThePathIsTheSame) {
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(growth_at(other, k).load_factor / growth_at(first, k).load_factor, 1.0, 1e-6);
   }
+}
+
+/// The same crack for 0.25 on, of step `step`; `turned`: everything by 90 degrees counter-clockwise, (x, y) -> (-y, x).
+std::vector<Vec2> inclined_for_a_quarter(const std::string& mesh, double step, bool turned = false) {
+  const auto solution = run(fmt::format(
+      R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 30e9, poisson: 0.2}}}}
+bodies:
+  plate:
+    material: stone
+    shape: {{rectangle: {{corner: {}, size: {}}}}}
+    mesh: {{{}}}
+    cracks: [{{path: {}, name: flaw}}]
+supports: [{{on: plate.{}, fix: [x, y]}}]
+loads: {{pull: {{on: plate.{}, traction: {}}}}}
+steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: {}, until: {{steps: {}}}}}}}]
+)",
+      turned ? "[-2, 0]" : "[0, 0]", turned ? "[2, 1]" : "[1, 2]", mesh,
+      turned ? "[[-0.8, 0], [-1, 0.25]]" : "[[0, 0.8], [0.25, 1]]", turned ? "right" : "bottom",
+      turned ? "left" : "top", turned ? "[-1e6, 0]" : "[0, 1e6]", step, std::lround(0.25 / step)));
+  last(solution);
+  return path_of(solution);
+}
+
+TEST(Growth, TurnedByNinetyDegreesThePathIsTheSame) {
+  const auto path = inclined_for_a_quarter("kind: quadtree, size: 0.125", 0.125),
+             other = inclined_for_a_quarter("kind: quadtree, size: 0.125", 0.125, true);
+  ASSERT_EQ(path.size(), other.size());
+  for (std::size_t k = 0; k < path.size(); ++k)
+    EXPECT_NEAR((other[k] - Vec2(-path[k].y(), path[k].x())).norm(), 0.0, 1e-6);
+}
+
+// Within a tenth of a step.
+TEST(Growth, ByPolygonsOrFinerOrWithHalfTheStepThePathIsTheSame) {
+  const Vec2 end = inclined_for_a_quarter("kind: quadtree, size: 0.125", 0.125).back();
+  EXPECT_NEAR((inclined_for_a_quarter("kind: polygons, size: 0.125", 0.125).back() - end).norm(), 0.0, 0.0125);
+  EXPECT_NEAR((inclined_for_a_quarter("kind: quadtree, size: 0.0625", 0.125).back() - end).norm(), 0.0, 0.0125);
+  EXPECT_NEAR((inclined_for_a_quarter("kind: quadtree, size: 0.125", 0.0625).back() - end).norm(), 0.0, 0.0125);
 }
 
 // Loads that stay: under a tension that stays and one that is scaled, on the same edge, their sum is that of the scaled
@@ -173,6 +273,109 @@ steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.125}}]
 )");
   EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
   EXPECT_NE(solution.reason.find("close the crack at its tip 'plate.flaw.end'"), std::string::npos) << solution.reason;
+}
+
+// A crack through a bent plate, open at its growing end and overlapping at the other.
+TEST(Growth, FacesThatOverlapElsewhereEndTheRunWithASentence) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: strain}
+materials: {stone: {young: 30e9, poisson: 0.2}}
+bodies:
+  plate:
+    material: stone
+    shape: {rectangle: {corner: [0, 0], size: [4, 1]}}
+    mesh: {kind: quadtree, size: 0.25}
+    cracks: [{path: [[2, 0.2], [2, 0.85]], name: flaw}]
+supports: [{on: plate.bottom_left, fix: [x, y]}, {on: plate.bottom_right, fix: [y]}]
+loads: {left: {on: plate.left, moment: 1e3}, right: {on: plate.right, moment: -1e3}}
+steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.05, cracks: [plate.flaw.end]}}]
+)");
+  EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
+  EXPECT_NE(solution.reason.find("the faces of crack 'plate.flaw' overlap by"), std::string::npos) << solution.reason;
+}
+
+/// An edge crack of length 0.2 in a strip under cycles of tension, and what else the growth says.
+analysis::StaticSolution cycled(const std::string& growth, const std::string& more = "") {
+  return run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{steel: {{young: 200e9, poisson: 0.3}}}}
+bodies:
+  strip:
+    material: steel
+    shape: {{rectangle: {{corner: [0, 0], size: [1, 3]}}}}
+    mesh: {{kind: quadtree, size: 0.25, order: 3}}
+    cracks: [{{path: [[0, 1.5], [0.2, 1.5]], name: flaw}}]
+supports: [{{on: strip.bottom, fix: [y]}}, {{on: strip.bottom_left, fix: [x]}}]
+loads: {{pull: {{on: strip.top, traction: [0, 50e6]}}{}}}
+steps: [{{growth: {{{}}}}}]
+)",
+                         more, growth));
+}
+
+// Life of an edge crack by Paris' law against Simpson's rule over every second state, from the ranges that the run
+// reports.
+TEST(FatigueGrowth, LifeIsTheIntegralOverTheRangesOfTheRun) {
+  const double C = 1e-29, m = 3.0, step = 0.02;
+  const auto solution =
+      cycled("law: paris, C: 1e-29, m: 3, between: [{pull: 0.1}, {pull: 1}], step: 0.02, until: {length: 0.4}");
+  last(solution);
+  ASSERT_EQ(solution.increments.size(), 11u);
+  double life = 0.0;
+  for (std::size_t k = 0; k + 2 < 11; k += 2) {
+    const auto slowness = [&](std::size_t i) {
+      return 1.0 / (C * std::pow(growth_at(solution, i).tips.at(0).range.value(), m));
+    };
+    life += 2.0 * step / 6.0 * (slowness(k) + 4.0 * slowness(k + 1) + slowness(k + 2));
+  }
+  EXPECT_NEAR(growth_at(solution, 10).cycles.value() / life, 1.0, 1e-3);
+  const analysis::TipResult& first = growth_at(solution, 0).tips[0];
+  EXPECT_NEAR(first.range.value() / (0.9 * first.K_I), 1.0, 1e-9);
+  EXPECT_EQ(growth_at(solution, 0).cycles.value(), 0.0);
+}
+
+// 105,199.70 cycles (VERIFICATION: Paris' law in the infinite plate, a from 10 to 20 mm, range 100 MPa).
+TEST(FatigueGrowth, ACentralCrackByParis) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: stress}
+materials: {steel: {young: 200e9, poisson: 0.3}}
+bodies:
+  plate:
+    material: steel
+    shape: {rectangle: {corner: [-2, -2], size: [4, 4]}}
+    mesh: {kind: quadtree, size: 0.4, order: 3}
+    cracks: [{path: [[-0.01, 0], [0.01, 0]], name: flaw}]
+supports: [{on: plate.bottom_left, fix: [x, y]}, {on: plate.bottom_right, fix: [y]}]
+loads:
+  up: {on: plate.top, traction: [0, 100e6]}
+  down: {on: plate.bottom, traction: [0, -100e6]}
+steps: [{growth: {law: paris, C: 1e-29, m: 3, between: [{up: 0, down: 0}, {up: 1, down: 1}], step: 2e-3,
+         until: {length: 0.04}}}]
+)");
+  last(solution);
+  EXPECT_NEAR(growth_at(solution, solution.increments.size() - 1).cycles.value() / 105199.70, 1.0, 1e-3);
+}
+
+TEST(FatigueGrowth, ABreakEndsIt) {
+  const auto solution = cycled(
+      "law: walker, C: 1e-29, m: 3, gamma: 0.5, between: [{pull: 0.5}, {pull: 1}], step: 0.05, toughness: {K_Ic: "
+      "100e6}");
+  last(solution);
+  EXPECT_NE(solution.grown->ended.find("the body breaks at 'strip.flaw.end' after"), std::string::npos)
+      << solution.grown->ended;
+}
+
+TEST(FatigueGrowth, CyclesThatNoLawKnowsEndTheRunWithASentence) {
+  const std::string law = "law: paris, C: 1e-29, m: 3, step: 0.02, until: {steps: 1}, between: ";
+  const auto reason = [&](const std::string& between, const std::string& more = "") {
+    const auto solution = cycled(law + between, more);
+    EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
+    return solution.reason;
+  };
+  EXPECT_NE(reason("[{pull: 1}, {pull: 0.1}]").find("exchange the two"), std::string::npos);
+  EXPECT_NE(reason("[{pull: -0.5}, {pull: 1}]").find("overlap by"), std::string::npos);
+  EXPECT_NE(reason("[{pull: 0.5, drag: 0}, {pull: 1, drag: 1}]", ", drag: {on: strip.top, traction: [20e6, 0]}")
+                .find("turns within a cycle"),
+            std::string::npos);
 }
 
 // Bittencourt, Wawrzynek, Ingraffea, Sousa (1996): beam of 20 x 8 with three holes of radius .25 in three-point

@@ -1,6 +1,6 @@
 # Puts the models of `scabo new` into the program.
 set(models_dir ${CMAKE_CURRENT_LIST_DIR})
-foreach(kind beam dam wall hertz crack earthquake axisymmetric part3d)
+foreach(kind beam dam wall hertz crack growth earthquake axisymmetric part3d)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${models_dir}/${kind}.yaml)
   file(READ ${models_dir}/${kind}.yaml SCABO_MODEL_${kind})
 endforeach()

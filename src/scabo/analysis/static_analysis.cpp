@@ -86,7 +86,8 @@ StaticSolution solve_with_growth(model::Model model, mesh::Mesh mesh, const Opti
                        [](Quasistatic& statics, StaticSolution& solution, const Options& with) {
                          Options before = with;
                          before.on_end = {};
-                         march(statics, solution, before, solution.model.steps.size() - 1);
+                         if (!continues_growth(solution.model, with))
+                           march(statics, solution, before, solution.model.steps.size() - 1);
                          if (solution.outcome == Outcome::solved) grow(solution, with);
                        });
 }

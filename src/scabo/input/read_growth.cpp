@@ -1,5 +1,7 @@
 // `growth` of a step: which cracks grow, by which criterion, against which toughness, and until when.
 //
+// Under cycles of load `law` and its constants take the place of a toughness, and `between` has the factors.
+//
 // `scale` names the loads and supports that the load factor multiplies; by default those whose factor the step changes.
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@ namespace scabo::input {
 namespace {
 
 constexpr const char* growth_example = "{toughness: {K_Ic: 1e6}, step: 0.01}";
+constexpr const char* fatigue_example = "{law: paris, C: 1e-28, m: 3, between: [{pull: 0.1}, {pull: 1}], step: 0.01}";
 
 /// `beam.notch`, or one of its ends, `beam.notch.start` or `beam.notch.end`.
 std::optional<GrowingCrack> read_growing_crack(Reading& reading, const Value& value) {
@@ -53,6 +56,14 @@ void read_until(Reading& reading, const Value& value, GrowthStep& growth) {
     growth.steps = static_cast<int>(read_integer(reading.report, *steps, limits::growth_steps).value_or(1));
 }
 
+void report_unknown(Reading& reading, const Value& at, const std::string& name) {
+  if (reading.own_support_names.contains(name)) return;  // it could not be read
+  std::vector<std::string> known = reading.load_names;
+  known.insert(known.end(), reading.own_support_names.begin(), reading.own_support_names.end());
+  reading.report.error(
+      at, fmt::format("there is no load or named support called {}{}", quoted_name(name), suggestion(name, known)));
+}
+
 void read_scale(Reading& reading, const Value& value, const Index& supports, GrowthStep& growth) {
   const auto names = read_list(reading.report, value, "[pull]");
   for (const Value& item : names.value_or(std::vector<Value>{})) {
@@ -62,13 +73,71 @@ void read_scale(Reading& reading, const Value& value, const Index& supports, Gro
       if (load->second >= 0) growth.loads[static_cast<std::size_t>(load->second)] = 1;
     } else if (const auto support = supports.find(*name); support != supports.end()) {
       growth.supports[static_cast<std::size_t>(support->second)] = 1;
-    } else if (!reading.own_support_names.contains(*name)) {
-      std::vector<std::string> known = reading.load_names;
-      known.insert(known.end(), reading.own_support_names.begin(), reading.own_support_names.end());
-      reading.report.error(item, fmt::format("there is no load or named support called {}{}", quoted_name(*name),
-                                             suggestion(*name, known)));
+    } else {
+      report_unknown(reading, item, *name);
     }
   }
+}
+
+/// Number of a load or support in the model by its name, -1 where the model has it but it could not be read, or none.
+std::optional<int> find(const Index& index, const std::string& name) {
+  const auto found = index.find(name);
+  return found == index.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// Factors at one end of the cycles, in place of those of the step.
+void read_end_of_cycle(Reading& reading, const Value& value, const Index& supports, std::size_t end,
+                       LoadCycles& cycles) {
+  if (value.node->kind != Node::Kind::map) {
+    reading.report.error(value,
+                         fmt::format("must be a map of factors, as in {{pull: 0.1}}, not {}", describe(*value.node)));
+    return;
+  }
+  for (const MapEntry& entry : value.node->entries) {
+    const Value factor{entry.value, value.path + "." + entry.key};
+    if (const auto load = find(reading.index_of_load, entry.key)) {
+      const double number = read_number(reading.report, factor).value_or(unread);
+      if (*load >= 0) cycles.loads[end][static_cast<std::size_t>(*load)] = number;
+    } else if (const auto support = find(supports, entry.key)) {
+      cycles.supports[end][static_cast<std::size_t>(*support)] = read_number(reading.report, factor).value_or(unread);
+    } else {
+      report_unknown(reading, factor, entry.key);
+    }
+  }
+}
+
+void read_cycles(Reading& reading, const MapReader& map, const Index& supports, const Step& step, GrowthStep& growth) {
+  const auto law = map.get("law");
+  if (!law) {
+    for (const char* key : {"C", "m", "gamma", "K_c", "between"})
+      map.refuse(key, fmt::format("is for cycles of load, which need a 'law', as in {}", fatigue_example));
+    return;
+  }
+  LoadCycles& cycles = growth.cycles.emplace();
+  cycles.C = cycles.m = unread;
+  const auto choice = read_choice(reading.report, *law, {"paris", "forman", "walker"}, {});
+  if (choice && *choice == "forman") cycles.law = FatigueLaw::forman;
+  if (choice && *choice == "walker") cycles.law = FatigueLaw::walker;
+  cycles.C = number_or_unread(reading, map.need("C"));
+  cycles.m = number_or_unread(reading, map.need("m"));
+  if (const auto gamma = map.get("gamma")) cycles.gamma = number_or_unread(reading, gamma);
+  if (const auto K_c = map.get("K_c")) cycles.K_c = number_or_unread(reading, K_c);
+  if (!choice) cycles.gamma = cycles.K_c = std::nullopt;
+  cycles.loads = {std::vector<double>(step.load_factors.size(), unread), step.load_factors};
+  cycles.supports = {step.support_factors, step.support_factors};
+  map.refuse("scale", "has no meaning under cycles of load: 'between' has their factors");
+  const auto between = map.need("between");
+  if (!between) return;
+  const auto ends = read_list(reading.report, *between, "[{pull: 0.1}, {pull: 1}]");
+  if (!ends) return;
+  if (ends->size() != 2) {
+    reading.report.error(*between,
+                         "must have two entries, factors at the lowest and at the highest load, as in "
+                         "[{pull: 0.1}, {pull: 1}]");
+    return;
+  }
+  cycles.loads[0] = step.load_factors;
+  for (const std::size_t end : {0u, 1u}) read_end_of_cycle(reading, (*ends)[end], supports, end, cycles);
 }
 
 std::vector<char> changed(const std::vector<double>& from, const std::vector<double>& to) {
@@ -80,10 +149,10 @@ std::vector<char> changed(const std::vector<double>& from, const std::vector<dou
 }  // namespace
 
 void read_growth(Reading& reading, const Value& value, const Index& supports, const Step& before, Step& step) {
-  const MapReader map(reading.report, value, {"criterion", "toughness", "step", "cracks", "scale", "until"},
-                      growth_example,
-                      {{"law", "growth under cycles of load comes later, and under a load needs 'toughness'"},
-                       {"between", "growth under cycles of load comes later, and under a load needs 'toughness'"}});
+  const MapReader map(
+      reading.report, value,
+      {"criterion", "toughness", "step", "cracks", "scale", "until", "law", "C", "m", "gamma", "K_c", "between"},
+      growth_example);
   GrowthStep growth;
   growth.step = unread;
   if (!map.is_map()) return;
@@ -94,9 +163,10 @@ void read_growth(Reading& reading, const Value& value, const Index& supports, co
     if (choice && *choice == "strain_energy_density") growth.criterion = GrowthCriterion::strain_energy_density;
     if (choice && *choice == "zero_K_II") growth.criterion = GrowthCriterion::zero_K_II;
   }
-  if (const auto toughness = map.need("toughness"))
+  read_cycles(reading, map, supports, step, growth);
+  if (const auto toughness = growth.cycles ? map.get("toughness") : map.need("toughness"))
     read_toughness(reading, *toughness, growth);
-  else
+  else if (!growth.cycles)
     growth.K_Ic = unread;
   growth.step = number_or_unread(reading, map.need("step"));
   if (const auto cracks = map.get("cracks"))

@@ -86,6 +86,35 @@ void check_scaled(Checking& checking, const std::string& path, const Step& step)
                    "a factor follows a curve, which it cannot where the load follows from the growth: give a number");
 }
 
+/// Cycles of load.
+void check_cycles(Checking& checking, const std::string& path, const Step& step) {
+  const GrowthStep& growth = *step.growth;
+  const LoadCycles& cycles = *growth.cycles;
+  checking.positive(path, "C", cycles.C);
+  checking.positive(path, "m", cycles.m);
+  const auto of_law = [&](const char* key, const std::optional<double>& constant, bool wanted, const char* law) {
+    if (wanted && !constant) checking.error(path, "", fmt::format("law: {} needs '{}'", law, key));
+    if (constant && !wanted) checking.error(path, key, fmt::format("is a constant of law: {}: leave it out", law));
+    return constant.has_value() && wanted;
+  };
+  if (of_law("gamma", cycles.gamma, cycles.law == FatigueLaw::walker, "walker"))
+    checking.within(path, "gamma", *cycles.gamma, "0", "1");
+  if (of_law("K_c", cycles.K_c, cycles.law == FatigueLaw::forman, "forman"))
+    checking.positive(path, "K_c", *cycles.K_c);
+  if (growth.G_c)
+    checking.error(path, "toughness.G_c", "is not compared with cycles of load: give K_Ic, or leave 'toughness' out");
+  if (growth.load_factor)
+    checking.error(path, "until.load_factor", "has no meaning under cycles of load: give 'length' or 'steps'");
+  for (const std::size_t end : {0u, 1u})
+    if (cycles.loads[end].size() != checking.model.loads.size() ||
+        cycles.supports[end].size() != checking.model.supports.size())
+      return checking.error(path, "between", "must have a factor for every load and support");
+  if (cycles.loads[0] == cycles.loads[1] && cycles.supports[0] == cycles.supports[1])
+    checking.error(path, "between", "has the same factors twice: give the lowest and the highest load of a cycle");
+  if (!step.load_curves.empty() || !step.support_curves.empty())
+    checking.error(path, "", "a factor follows a curve, which it cannot under cycles of load: give a number");
+}
+
 /// Limits of growth, and what is left until them.
 void check_until(Checking& checking, const std::string& path, const GrowthStep& growth) {
   if (growth.tip) checking.vector(path, "until.tip", *growth.tip);
@@ -170,13 +199,16 @@ void check_growth_steps(Checking& checking) {
       checking.error(path, "", "is quasi-static and does not go with steps in time");
     if (step.automatic || step.increments != 1)
       checking.error(path, "", "has as many increments as it takes: leave 'increments' out");
-    if (growth.K_Ic.has_value() == growth.G_c.has_value())
+    if (growth.cycles ? growth.K_Ic && growth.G_c : growth.K_Ic.has_value() == growth.G_c.has_value())
       checking.error(path, "toughness", "must be one of K_Ic and G_c, as in {K_Ic: 1e6}");
     if (growth.K_Ic) checking.positive(path, "toughness.K_Ic", *growth.K_Ic);
     if (growth.G_c) checking.positive(path, "toughness.G_c", *growth.G_c);
     if (checking.positive(path, "step", growth.step)) check_shortest(checking, path, growth);
     if (!check_names(checking, path, growth)) continue;
-    if (!checking.gaps.conditions) check_scaled(checking, path, step);
+    if (growth.cycles)
+      check_cycles(checking, path, step);
+    else if (!checking.gaps.conditions)
+      check_scaled(checking, path, step);
     check_until(checking, path, growth);
     check_bodies_of(checking, growth);
     check_beside_growth(checking);

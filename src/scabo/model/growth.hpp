@@ -1,6 +1,7 @@
 // A step in which cracks grow: where to, against which toughness, and until when (analysis/growth).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -20,11 +21,25 @@ struct GrowingCrack {
   Source source;
 };
 
+/// Growth per cycle of load, da/dN (analysis/growth/fatigue.hpp).
+enum class FatigueLaw { paris, forman, walker };
+
+/// Cycles of load between two sets of factors.
+struct LoadCycles {
+  FatigueLaw law = FatigueLaw::paris;
+  double C = 0.0, m = 0.0;      ///< > 0; C: length over (force / length^(3/2))^m; forman: ^(m - 1)
+  std::optional<double> gamma;  ///< walker: 0 to 1
+  std::optional<double> K_c;    ///< forman: force / length^(3/2), > 0
+  /// Factors of all loads and supports at the lowest and at the highest load.
+  std::array<std::vector<double>, 2> loads, supports;
+};
+
 /// Loads are lambda times a pattern plus constants. In every state lambda is such that the leading tip is critical;
 /// then the crack grows by a given length.
 struct GrowthStep {
   GrowthCriterion criterion = GrowthCriterion::hoop_stress;
-  std::optional<double> K_Ic, G_c;    ///< force / length^(3/2), force / length; > 0, one of the two
+  std::optional<double> K_Ic, G_c;    ///< force / length^(3/2), force / length; > 0, one of the two; of cycles at most
+  std::optional<LoadCycles> cycles;   ///< instead of growth under a load; `loads` and `supports` have no meaning then
   double step = 0.0;                  ///< length, > 0: sum of the growth of all tips between two states
   std::vector<GrowingCrack> cracks;   ///< empty: all of the model
   std::vector<char> loads, supports;  ///< for each of the model: lambda multiplies its factor

@@ -121,6 +121,19 @@ std::string report_passes(const analysis::StaticSolution& solution) {
   return table(rows) + "\n";
 }
 
+namespace {
+
+/// Where growth has come to: the load or the cycles, and how far what it released is from the integral of G.
+std::string report_state_of(const analysis::GrowthResult& growth) {
+  if (growth.cycles) return fmt::format("{:.7g} cycles, ", *growth.cycles);
+  std::string text = fmt::format("load factor {:.6g}, ", growth.load_factor);
+  if (growth.energy)
+    text += fmt::format("released {:.5g} (by G {:.5g}), ", growth.energy->released, growth.energy->integral);
+  return text;
+}
+
+}  // namespace
+
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment) {
   const model::Step& step = model.steps.at(static_cast<std::size_t>(increment.step - 1));
   std::string text = step.growth      ? fmt::format("step {}, increment {}:", increment.step_name, increment.increment)
@@ -133,7 +146,7 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
     text += ' ';
   else
     text.back() = ';', text += ' ';
-  if (increment.growth) text += fmt::format("load factor {:.6g}, ", increment.growth->load_factor);
+  if (increment.growth) text += report_state_of(*increment.growth);
   text += count(increment.newton_iterations, "iteration");
   if (increment.coarse_iterations > 0) text += fmt::format(" and {} on fewer pairs", increment.coarse_iterations);
   if (increment.halvings > 0) text += fmt::format(", halved {}", count(increment.halvings, "time"));

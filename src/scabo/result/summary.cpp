@@ -125,12 +125,21 @@ Json json_of(const element::StressIntensity& crack) {
 
 Json json_of(const analysis::GrowthResult& growth) {
   Json json = {{"load_factor", number_or_null(growth.load_factor)}, {"tips", Json::object()}};
-  for (const analysis::TipResult& tip : growth.tips)
-    json["tips"][tip.name] = {{"position", json_of(tip.position)},
-                              {"length", number_or_null(tip.length)},
-                              {"kink", number_or_null(tip.kink)},
-                              {"critical_at", number_or_null(tip.load_factor)},
-                              {"grows", tip.grows}};
+  if (growth.cycles) json["cycles"] = number_or_null(*growth.cycles);
+  if (const auto& energy = growth.energy)
+    json["energy"] = {{"external", number_or_null(energy->external)},
+                      {"elastic", number_or_null(energy->elastic)},
+                      {"released", number_or_null(energy->released)},
+                      {"integral", number_or_null(energy->integral)}};
+  for (const analysis::TipResult& tip : growth.tips) {
+    Json& of = json["tips"][tip.name];
+    of = {{"position", json_of(tip.position)},
+          {"length", number_or_null(tip.length)},
+          {"kink", number_or_null(tip.kink)},
+          {"critical_at", number_or_null(tip.load_factor)},
+          {"grows", tip.grows}};
+    if (tip.range) of["range"] = number_or_null(*tip.range);
+  }
   return json;
 }
 

@@ -132,7 +132,7 @@ analysis::StaticSolution solve_and_write(const StaticRun& run) {
 }  // namespace
 
 bool keeps_checkpoints(const model::Model& model) {
-  return model.analysis.type == model::AnalysisType::static_ && increments_of(model) > 1 && !model::has_growth(model);
+  return model.analysis.type == model::AnalysisType::static_ && increments_of(model) > 1;
 }
 
 analysis::RunOrigin origin_of(const model::Model& model, const std::vector<std::string>& settings,

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scabo/analysis/growth/criteria.hpp"
+#include "scabo/analysis/growth/fatigue.hpp"
 
 namespace scabo::analysis {
 namespace {
@@ -79,6 +80,23 @@ TEST(GrowthCriteria, FactorsAtKinks) {
     EXPECT_NEAR(II[0], row.F12, 5e-6);
     EXPECT_NEAR(II[1], row.F22, 5e-6);
   }
+}
+
+// R = 0.5, Delta K = 10.
+TEST(GrowthPerCycle, ByTheThreeLaws) {
+  model::LoadCycles cycles;
+  cycles.C = 2.0;
+  cycles.m = 3.0;
+  EXPECT_NEAR(growth_per_cycle(cycles, 10.0, 20.0), 2000.0, 1e-9);
+  cycles.law = model::FatigueLaw::walker;
+  cycles.gamma = 0.5;
+  EXPECT_NEAR(growth_per_cycle(cycles, 10.0, 20.0), 2000.0 * std::pow(0.5, -1.5), 1e-9);
+  cycles.gamma = 1.0;
+  EXPECT_NEAR(growth_per_cycle(cycles, 10.0, 20.0), 2000.0, 1e-9);
+  cycles.law = model::FatigueLaw::forman;
+  cycles.K_c = 50.0;
+  EXPECT_NEAR(growth_per_cycle(cycles, 10.0, 20.0), 2000.0 / (0.5 * 50.0 - 10.0), 1e-9);
+  EXPECT_TRUE(std::isinf(growth_per_cycle(cycles, 25.0, 50.0)));
 }
 
 }  // namespace

@@ -26,13 +26,20 @@ const model::Material& material_at(const Prepared& prepared, const Tip& tip) {
   return prepared.model.materials[static_cast<std::size_t>(cell->materials.front())];
 }
 
+}  // namespace
+
 bool is_loaded(const Factors& factors) {
   const auto acts = [](double factor) { return factor != 0.0; };
   return std::any_of(factors.loads.begin(), factors.loads.end(), acts) ||
          std::any_of(factors.supports.begin(), factors.supports.end(), acts);
 }
 
-}  // namespace
+MaterialConstants material_constants(const Prepared& prepared, const Tip& tip) {
+  const model::Material& material = material_at(prepared, tip);
+  const double nu = material.poisson;
+  if (prepared.model.analysis.plane == model::Plane::strain) return {3.0 - 4.0 * nu, material.young / (1.0 - nu * nu)};
+  return {(3.0 - nu) / (1.0 + nu), material.young};
+}
 
 Factors factors_at(const model::Model& model, double lambda) {
   const model::GrowthStep& growth = *model.steps.back().growth;
@@ -58,10 +65,9 @@ Reached reach_from_rest(const Prepared& prepared, const Factors& factors, const 
 }
 
 std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
-                                                             const Factors& factors, const Options& options) {
-  const Reached reached = reach_from_rest(prepared, factors, options);
-  if (!reached.reason.empty()) return reached.reason;
-  const std::vector<CrackResult> cracks = crack_results(prepared.discretisation, describe(prepared, reached.state));
+                                                             const State& state) {
+  const IncrementResult described = describe(prepared, state);
+  const std::vector<CrackResult> cracks = crack_results(prepared.discretisation, described);
   std::vector<Vec2> found;
   for (const Tip& tip : tips) {
     const std::string name = name_of(prepared.model, tip);
@@ -78,6 +84,13 @@ std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& pre
   return found;
 }
 
+std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
+                                                             const Factors& factors, const Options& options) {
+  const Reached reached = reach_from_rest(prepared, factors, options);
+  if (!reached.reason.empty()) return reached.reason;
+  return factors_of_tips(prepared, tips, reached.state);
+}
+
 std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& prepared, const std::vector<Tip>& tips,
                                                                 const Options& options) {
   const model::GrowthStep& growth = *prepared.model.steps.back().growth;
@@ -92,10 +105,8 @@ std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& 
   const std::vector<Vec2>& whole = std::get<std::vector<Vec2>>(found);
   std::vector<TipPattern> patterns;
   for (std::size_t t = 0; t < tips.size(); ++t) {
-    const model::Material& material = material_at(prepared, tips[t]);
-    const bool strain = prepared.model.analysis.plane == model::Plane::strain;
-    const double nu = material.poisson, modulus = strain ? material.young / (1.0 - nu * nu) : material.young;
-    patterns.push_back({constant[t], whole[t] - constant[t], strain ? 3.0 - 4.0 * nu : (3.0 - nu) / (1.0 + nu),
+    const auto [kappa, modulus] = material_constants(prepared, tips[t]);
+    patterns.push_back({constant[t], whole[t] - constant[t], kappa, modulus,
                         growth.K_Ic ? *growth.K_Ic : std::sqrt(modulus * *growth.G_c)});
   }
   return patterns;

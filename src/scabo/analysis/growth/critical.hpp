@@ -15,20 +15,34 @@ namespace scabo::analysis {
 /// Tips that are critical at load factors up to so much above that of the leading one grow with it.
 constexpr double together = 1e-3;
 
+/// Whether any load or support has a factor other than 0.
+bool is_loaded(const Factors& factors);
+
 /// Of loads and supports in the last step.
 Factors factors_at(const model::Model& model, double lambda);
 
 /// The state at these factors, from rest.
 Reached reach_from_rest(const Prepared& prepared, const Factors& factors, const Options& options);
 
-/// Stress intensity factors of all tips at these factors of the loads, [K_I, K_II], or why there are none.
+/// Constants of the material around a tip.
+struct MaterialConstants {
+  double kappa = 0.0;    ///< criteria.hpp
+  double modulus = 0.0;  ///< E', force / length^2
+};
+MaterialConstants material_constants(const Prepared& prepared, const Tip& tip);
+
+/// Stress intensity factors of all tips in a state, [K_I, K_II], or why there are none.
+std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
+                                                             const State& state);
+/// The same at these factors of the loads, from rest.
 std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
                                                              const Factors& factors, const Options& options);
 
 /// Factors at a tip: constant + lambda per_lambda.
 struct TipPattern {
   Vec2 constant = Vec2::Zero(), per_lambda = Vec2::Zero();  ///< [K_I, K_II]
-  double kappa = 0.0, toughness = 0.0;                      ///< criteria.hpp; K_Ic
+  double kappa = 0.0, modulus = 0.0;                        ///< MaterialConstants
+  double toughness = 0.0;                                   ///< K_Ic
 
   Vec2 at(double lambda) const { return constant + lambda * per_lambda; }
 };

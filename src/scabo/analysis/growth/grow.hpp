@@ -11,6 +11,9 @@
 // solved from rest on the present crack, as nothing depends on the history. The direction is that at the middle of the
 // step: the kink at the tip, and the one that is left where the crack has gone half of the way that this shows.
 //
+// Under cycles of load (fatigue.hpp) the state is that at the highest load of a cycle; the tips share the step in
+// proportion to their growth per cycle at its middle.
+//
 // It ends at a length, at a place, at a load factor, after a number of steps, or where the crack meets an edge, a
 // region, another crack or itself within one and a half steps; with a reason in the result where no load makes the
 // crack grow, or where its faces overlap.
@@ -23,7 +26,12 @@ namespace scabo::analysis {
 /// Throws InputError for a model with steps in which nothing can grow.
 void check_growth(const model::Model& model);
 
-/// Goes through the last step of the solution, in which cracks grow, from its first mesh with its systems.
+/// Whether a run continues within the last step, in which cracks grow.
+bool continues_growth(const model::Model& model, const Options& options);
+
+/// Goes through the last step of the solution, in which cracks grow, from its first mesh with its systems. A run that
+/// continues makes the cracks as long as they were, by the positions of the tips in its increments, and computes its
+/// last state again, without telling it.
 void grow(StaticSolution& solution, const Options& options);
 
 }  // namespace scabo::analysis

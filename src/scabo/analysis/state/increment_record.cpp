@@ -175,10 +175,17 @@ void exchange(Io& io, TipResult& of) {
   io(of.length), io(of.K_I), io(of.K_II);
   exchange(io, of.T), exchange(io, of.G);
   io(of.kink), io(of.load_factor), io(of.grows);
+  exchange(io, of.range);
+}
+template <typename Io>
+void exchange(Io& io, GrowthEnergy& of) {
+  io(of.external), io(of.elastic), io(of.released), io(of.integral);
 }
 template <typename Io>
 void exchange(Io& io, GrowthResult& of) {
   io(of.load_factor);
+  exchange(io, of.cycles);
+  exchange(io, of.energy);
   exchange(io, of.tips);
 }
 template <typename Io>

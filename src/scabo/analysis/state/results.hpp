@@ -150,15 +150,27 @@ struct TipResult {
   double length = 0.0;           ///< of its crack
   double K_I = 0.0, K_II = 0.0;  ///< force / length^(3/2)
   std::optional<double> T, G;
-  double kink = 0.0;         ///< counter-clockwise from the direction of the crack, radians
-  double load_factor = 0.0;  ///< at which it would be critical
-  bool grows = false;        ///< in the step that follows
+  double kink = 0.0;            ///< counter-clockwise from the direction of the crack, radians
+  double load_factor = 0.0;     ///< at which it would be critical
+  bool grows = false;           ///< in the step that follows
+  std::optional<double> range;  ///< under cycles of load: Delta K of the equivalent factor
+};
+
+/// Of the growth between two states, force times length. First the crack grows under the load of the first, then the
+/// load becomes that of the second: external = elastic + released.
+struct GrowthEnergy {
+  double external = 0.0;  ///< work of loads, and of supports that move
+  double elastic = 0.0;   ///< by which the stored energy becomes larger
+  double released = 0.0;  ///< by which growth under the load of the first state makes the potential energy smaller
+  double integral = 0.0;  ///< of G over the growth of all tips under that load: what is released, from the factors
 };
 
 /// Where cracks stand in an increment of a step in which they grow.
 struct GrowthResult {
-  double load_factor = 0.0;     ///< lambda, at which the leading tip is critical
-  std::vector<TipResult> tips;  ///< in the order of bodies and cracks, the start of a crack before its end
+  double load_factor = 0.0;            ///< lambda, at which the leading tip is critical; 1 under cycles of load
+  std::optional<double> cycles;        ///< of load so far
+  std::optional<GrowthEnergy> energy;  ///< of the growth since the state before; none under cycles of load
+  std::vector<TipResult> tips;         ///< in the order of bodies and cracks, the start of a crack before its end
 };
 
 struct IncrementResult {
