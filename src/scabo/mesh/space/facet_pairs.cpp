@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,12 +49,26 @@ struct Seen {
   std::vector<int> nodes;
   std::array<Vec2, 3> corners;
   Vector heights;
+  Matrix places;  // 2 x n, of the nodes of a curved facet; empty: the edges are seen as straight
 
   double area() const { return 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]); }
   Vector lambda_at(const Vec2& x) const {
     Vector lambda(3);
     for (std::size_t k = 0; k < 3; ++k)
       lambda[static_cast<Eigen::Index>(k)] = 0.5 * cross(corners[(k + 1) % 3] - x, corners[(k + 2) % 3] - x) / area();
+    return lambda;
+  }
+  /// Where the curved facet itself is seen at x, by Newton's method from where its corners have it.
+  Vector curved_lambda_at(const Vec2& x, const geometry::SimplexBasis& basis) const {
+    Vector lambda = lambda_at(x);
+    if (places.size() == 0) return lambda;
+    constexpr int steps = 4;  // quadratic convergence from a distance of the square of the size
+    for (int step = 0; step < steps; ++step) {
+      const Vec2 off = places * basis.values(lambda) - x;
+      const Eigen::Matrix2d J = places * basis.derivatives(lambda);
+      lambda.tail<2>() -= J.inverse() * off;
+      lambda[0] = 1.0 - lambda[1] - lambda[2];
+    }
     return lambda;
   }
   geometry::Box box() const {
@@ -73,7 +88,7 @@ struct View {
 
 /// `curved`: the middle nodes are where they are, else halfway between corners, whose coordinates have more digits.
 Seen seen_along(const Face& face, const SolidFacet& facet, const View& view, bool curved) {
-  Seen seen{facet, {}, Vector(static_cast<Eigen::Index>(facet.size()))};
+  Seen seen{facet, {}, Vector(static_cast<Eigen::Index>(facet.size())), {}};
   if (area_of(face, facet).dot(view.directions.col(0)) < 0.0)  // side B is seen from inside
     seen.nodes = facet.size() == 3 ? SolidFacet{facet[0], facet[2], facet[1]}
                                    : SolidFacet{facet[0], facet[2], facet[1], facet[5], facet[4], facet[3]};
@@ -82,9 +97,12 @@ Seen seen_along(const Face& face, const SolidFacet& facet, const View& view, boo
     seen.heights[static_cast<Eigen::Index>(k)] = x[0];
     seen.corners[k] = x.tail<2>();
   }
-  for (Eigen::Index k = 3; k < seen.heights.size(); ++k)
-    seen.heights[k] = curved ? view(face.mesh.nodes.col(seen.nodes[static_cast<std::size_t>(k)]))[0]
-                             : 0.5 * (seen.heights[k - 3] + seen.heights[(k - 2) % 3]);
+  if (curved) seen.places.resize(2, seen.heights.size());
+  for (Eigen::Index k = 0; k < seen.heights.size(); ++k) {
+    const Vector3d x = view(face.mesh.nodes.col(seen.nodes[static_cast<std::size_t>(k)]));
+    if (curved) seen.places.col(k) = x.tail<2>();
+    if (k >= 3) seen.heights[k] = curved ? x[0] : 0.5 * (seen.heights[k - 3] + seen.heights[(k - 2) % 3]);
+  }
   return seen;
 }
 
@@ -128,8 +146,8 @@ void integrate(const std::array<Vec2, 3>& triangle, const Seen& a, const Seen& b
   const geometry::SimplexRule& rule = basis_of(b).rule();
   for (Eigen::Index i = 0; i < rule.weights.size(); ++i) {
     const Vec2 x = rule.points(0, i) * triangle[0] + rule.points(1, i) * triangle[1] + rule.points(2, i) * triangle[2];
-    const Vector on_a = a.lambda_at(x), psi = b.lambda_at(x);
-    const Vector N_a = basis_of(a).values(on_a), N_b = basis_of(b).values(psi);
+    const Vector psi = b.lambda_at(x), N_a = basis_of(a).values(a.curved_lambda_at(x, basis_of(a))),
+                 N_b = basis_of(b).values(b.curved_lambda_at(x, basis_of(b)));
     const double height = N_b.dot(b.heights), gap = height - N_a.dot(a.heights);
     const Vector3d point = view.origin + view.directions * Vector3d(height, x.x(), x.y());
     for (std::size_t k = 0; k < 3; ++k) {
