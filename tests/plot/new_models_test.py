@@ -6,11 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import support
 
-<<<<<<< HEAD
-KINDS = ["beam", "dam", "wall", "hertz", "crack", "earthquake", "axisymmetric", "part3d"]
-=======
-KINDS = ["beam", "dam", "wall", "hertz", "crack", "growth", "earthquake"]
->>>>>>> growth
+KINDS = ["beam", "dam", "wall", "hertz", "crack", "growth", "earthquake", "axisymmetric", "part3d"]
 
 
 class NewModels(support.InTemporaryDirectory):
@@ -63,7 +59,6 @@ class NewModels(support.InTemporaryDirectory):
         self.assertAlmostEqual(factors["K_I"] / (2.8255 * 1e6 * math.sqrt(math.pi * 0.5)), 1.0, delta=1e-4)
         self.assertLess(abs(factors["K_II"]), 1e-6 * factors["K_I"])
 
-<<<<<<< HEAD
     def test_part_in_space_is_held_by_friction_as_its_comment_says(self):
         last = self.solve("part3d")[-1]
         normal, tangential = last["contacts"]["joint"]["normal_force"], last["contacts"]["joint"]["tangential_force"]
@@ -72,14 +67,13 @@ class NewModels(support.InTemporaryDirectory):
         self.assertAlmostEqual(last["reactions"]["ground"][2] / normal[2], 1.0, delta=1e-9)
         run = support.scabo("run", "part3d.yaml", "--quiet", "--set", "loads.push.traction.0=1.3e6", cwd=self.directory)
         self.assertEqual(run.returncode, 2, run.stderr)
-=======
+
     def test_growth_needs_the_moment_of_beam_theory(self):
         increments = self.solve("growth")
         moment = math.sqrt(200e9 / (1 - 0.3**2) * 1e3 * 0.1**3 / 12)
         self.assertEqual(len(increments), 11)
         for entry in increments:
             self.assertAlmostEqual(entry["growth"]["load_factor"] * 1e3 / moment, 1.0, delta=1e-3)
->>>>>>> growth
 
     def test_earthquake_leaves_the_block_at_rest_on_its_weight(self):
         increments = self.solve("earthquake")
