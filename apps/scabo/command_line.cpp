@@ -379,7 +379,9 @@ class CommandLine {
         ->allow_extra_args(false);
     plot_->add_option("--scale", plot_options_.scale, "Magnification of displacements; default: one that shows them")
         ->option_text("S");
-    plot_->add_option("--window", plot_options_.text, "Only this part of the plane, in stress, mesh, cracks and mechanism")
+    plot_
+        ->add_option("--window", plot_options_.text,
+                     "Only this part of the plane, in stress, mesh, cracks and mechanism")
         ->option_text("X0,X1,Y0,Y1");
     plot_->add_flag("--mirror", plot_options_.mirror, "Bodies of revolution: both halves of the section");
     plot_

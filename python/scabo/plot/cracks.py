@@ -57,7 +57,8 @@ def draw_curves(axis, tips, units):
     if cycled:
         axis.set(xlabel="cycles of load", ylabel=length.label("length of the crack"))
     else:
-        axis.set(xlabel=length.label("length of the crack"), ylabel="load factor")
+        axis.set(xlabel=length.label("length of the crack"), ylabel="load factor",
+                 ylim=(0, 1.1 * max(tip["load_factor"].max() for tip in tips.values())))
     axis.grid(True)
     style.plain_frame(axis)
     if len(tips) > 1:
