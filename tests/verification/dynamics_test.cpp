@@ -210,6 +210,81 @@ TEST(Dynamics, ABlockSlipsUnderAPulse) {
   EXPECT_NEAR(slips(solution).back(), -V * V / (2.0 * 9.81) * (1.0 / 0.3 - 1.0 / 0.5), 2e-5);
 }
 
+/// A wall of rigid blocks 1 x 0.5 m in running bond on a rigid floor, under its weight, then ground that accelerates.
+std::string rigid_wall(int columns, int courses, const std::string& curve, double duration) {
+  std::string bodies, loads, contacts, weights;
+  std::vector<std::pair<double, double>> below;
+  for (int z = 0; z < courses; ++z) {
+    std::vector<std::pair<double, double>> spans;
+    for (double x = z % 2 == 0 ? 0.0 : -0.5; x < columns; x += 1.0)
+      spans.emplace_back(std::max(x, 0.0), std::min(x + 1.0, static_cast<double>(columns)));
+    const auto add = [&](const std::string& a, const std::string& b) {
+      contacts += fmt::format("  {}_{}: {{between: [{}, {}], friction: 0.6}}\n", a.substr(0, a.find('.')),
+                              b.substr(0, b.find('.')), a, b);
+    };
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      const auto [left, right] = spans[k];
+      const std::string name = fmt::format("b{}x{}", z, k);
+      bodies += fmt::format(
+          "  {}: {{rigid: true, density: 2000, shape: {{rectangle: {{corner: [{}, {}], size: [{}, 0.5]}}}}}}\n", name,
+          left, 0.5 * z, right - left);
+      loads += fmt::format("  w{}x{}: {{on: {}, force: [0, {}]}}\n", z, k, name, -9810.0 * (right - left));
+      weights += fmt::format("{}w{}x{}: 1", weights.empty() ? "" : ", ", z, k);
+      if (k > 0) add(fmt::format("b{}x{}.right", z, k - 1), name + ".left");
+      if (z == 0) add("floor.top", name + ".bottom");
+      for (std::size_t j = 0; z > 0 && j < below.size(); ++j)
+        if (std::min(right, below[j].second) > std::max(left, below[j].first))
+          add(fmt::format("b{}x{}.top", z - 1, j), name + ".bottom");
+    }
+    below = std::move(spans);
+  }
+  return fmt::format(R"(
+scabo: 1
+bodies:
+  floor: {{rigid: true, density: 2000, shape: {{rectangle: {{corner: [-1, -1], size: [{}, 1]}}}}}}
+{}supports: [{{on: floor.bottom, fix: [x, y]}}]
+loads:
+{}contacts:
+{}curves: {{quake: {{{}}}}}
+steps:
+  - {{name: rest, loads: {{{}}}}}
+  - {{name: shake, dynamic: {{duration: {}, step: 2e-3, ground: {{x: quake}}}}, increments: 10}}
+)",
+                     columns + 2, bodies, loads, contacts, curve, weights, duration);
+}
+
+/// Normal and tangential force on all stones of the first course.
+Vec2 force_of_base(const StaticSolution& solution, const IncrementResult& at) {
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t c = 0; c < at.contacts.size(); ++c)
+    if (solution.model.contacts[c].name.starts_with("floor"))
+      sum += Vec2(at.contacts[c].normal_force, at.contacts[c].tangential_force);
+  return sum.cwiseAbs();
+}
+
+// 16 t under 1 m/s2: nothing moves against the ground, all energies are rounding, and every step is solved.
+TEST(Dynamics, AWallThatSticksToItsGroundStaysAtRest) {
+  const StaticSolution solution = run(rigid_wall(4, 4, "table: [[0, 1], [0.05, 1]]", 0.05));
+  ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+  for (const IncrementResult& at : solution.increments) {
+    for (const ContactResult& contact : at.contacts)
+      for (const analysis::PairResult& pair : contact.pairs) EXPECT_LE(std::abs(pair.slip), 1e-11);
+    EXPECT_LE(at.certificate.worst(), 1e-10);
+    if (at.time) EXPECT_NEAR(force_of_base(solution, at)[1], 16e3, 1e-6 * 16e3);
+  }
+}
+
+// Under 8 m/s2 a wall slides on its base; its blocks turn a little, so that it presses a little more than its weight.
+TEST(Dynamics, AWallOfRigidBlocksSlidesOnItsGround) {
+  const StaticSolution solution = run(rigid_wall(10, 10, "table: [[0, 8], [0.02, 8]]", 0.02));
+  ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+  for (const IncrementResult& at : solution.increments)
+    if (at.time) EXPECT_LT(at.certificate.energy_balance, 1e-9);
+  const Vec2 force = force_of_base(solution, solution.increments.back());
+  EXPECT_NEAR(force[0], 981e3, 0.02 * 981e3);
+  EXPECT_NEAR(force[1], 0.6 * force[0], 1e-9 * force[0]);
+}
+
 // GetFEM's bar: u = (1 - x)/2 at first, E = density = length = 1, fixed at x = 1, wall at x = 0: the period is 3 and
 // the pressure 1/2 for 1 < t < 2.
 TEST(Dynamics, ABarThatIsLetGoHitsAgainAndAgain) {

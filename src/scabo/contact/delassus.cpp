@@ -1,27 +1,27 @@
 #include "scabo/contact/delassus.hpp"
 
+#include <cmath>
 #include <mutex>
-#include <random>
+#include <optional>
 
 #include "scabo/base/error.hpp"
 #include "scabo/contact/pair_operator.hpp"
-#include "scabo/linalg/symmetric_positive_solver.hpp"
 
 namespace scabo::contact {
 
 struct Delassus::Data {
-  enum class Kind { dense, sparse, condensed, products } kind = Kind::dense;
+  enum class Kind { dense, sparse, products } kind = Kind::dense;
   Eigen::Index size = 0;
   Matrix dense;
-  Eigen::SparseMatrix<double> sparse;  // or B
-  std::shared_ptr<const linalg::SymmetricPositiveSolver> K;
+  Eigen::SparseMatrix<double> sparse;
   std::shared_ptr<const PairOperator> products;
-  mutable Matrix columns_of_pairs;  // condensed and products: result of diagonal_blocks
+  mutable Matrix columns_of_pairs;  // of products: their diagonal blocks
   mutable std::mutex guard;
 };
 
-/// Entries that are computed when they are first asked for.
+/// Entries that are computed when they are first asked for, and the bodies.
 struct Delassus::Formed {
+  std::optional<Eigen::SparseMatrix<double>> bodies = {};
   mutable Matrix W;
   mutable std::once_flag once;
 };
@@ -29,26 +29,6 @@ struct Delassus::Formed {
 namespace {
 
 constexpr Eigen::Index columns_at_a_time = 64;  // dense right-hand sides: bounded memory
-
-/// Diagonal blocks from products with a few vectors (Bekas, Kokiopoulou, Saad, Appl. Numer. Math. 57 (2007) 1214): each
-/// vector has random signs on every 64th pair, so that contributions of distant pairs average out.
-Matrix probed_blocks(const Delassus& W, int d) {
-  constexpr Eigen::Index colours = 64;
-  const Eigen::Index N = W.size() / d;
-  Matrix blocks(d, W.size());
-  std::minstd_rand random(1);
-  Vector sign(N);
-  for (double& s : sign) s = (random() >> 8) % 2 == 0 ? 1.0 : -1.0;
-  for (Eigen::Index colour = 0; colour < colours; ++colour) {
-    Matrix probes = Matrix::Zero(W.size(), d);
-    for (Eigen::Index i = colour; i < N; i += colours)
-      for (int k = 0; k < d; ++k) probes(d * i + k, k) = sign[i];
-    const Matrix images = W.times(probes);
-    for (Eigen::Index i = colour; i < N; i += colours)
-      blocks.middleCols(d * i, d) = sign[i] * images.middleRows(d * i, d);
-  }
-  return blocks;
-}
 
 }  // namespace
 
@@ -71,17 +51,6 @@ Delassus::Delassus(Eigen::SparseMatrix<double> sparse) {
   formed_ = std::make_shared<const Formed>();
 }
 
-Delassus::Delassus(std::shared_ptr<const linalg::SymmetricPositiveSolver> K, Eigen::SparseMatrix<double> B) {
-  auto data = std::make_shared<Data>();
-  data->kind = Data::Kind::condensed;
-  data->size = B.cols();
-  data->K = std::move(K);
-  data->sparse = std::move(B);
-  data->sparse.makeCompressed();
-  data_ = std::move(data);
-  formed_ = std::make_shared<const Formed>();
-}
-
 Delassus::Delassus(std::shared_ptr<const PairOperator> products) {
   auto data = std::make_shared<Data>();
   data->kind = Data::Kind::products;
@@ -97,29 +66,28 @@ Delassus Delassus::with_holder(std::shared_ptr<const PairHolder> holder) const {
   return result;
 }
 
+Delassus Delassus::with_bodies(Eigen::SparseMatrix<double> Y) const {
+  Delassus result = *this;
+  auto formed = std::make_shared<Formed>();
+  formed->bodies = std::move(Y);
+  result.formed_ = std::move(formed);
+  return result;
+}
+
+const Eigen::SparseMatrix<double>* Delassus::bodies() const {
+  return formed_ && formed_->bodies ? &*formed_->bodies : nullptr;
+}
+
 Eigen::Index Delassus::size() const { return data_ ? data_->size : 0; }
 bool Delassus::is_dense() const { return !data_ || data_->kind == Data::Kind::dense; }
 bool Delassus::is_sparse() const { return data_ && data_->kind == Data::Kind::sparse; }
 
 Matrix Delassus::times(const Matrix& p) const {
   ensure(p.rows() == size(), "the Delassus operator and the forces differ in size");
-  if (!data_) return p;
-  Matrix result;
-  switch (data_->kind) {
-    case Data::Kind::dense:
-      result = data_->dense * p;
-      break;
-    case Data::Kind::sparse:
-      return data_->sparse * p;
-    case Data::Kind::condensed:
-      result = data_->sparse.transpose() * data_->K->solve(data_->sparse * p);
-      break;
-    case Data::Kind::products:
-      result.resize(p.rows(), p.cols());
-      for (Eigen::Index j = 0; j < p.cols(); ++j) result.col(j) = data_->products->times(p.col(j));
-      break;
-  }
-  if (factor_ != 1.0) result *= factor_;
+  if (is_sparse()) return data_->sparse * p;
+  if (data_ && is_dense()) return factor_ * (data_->dense * p);
+  Matrix result(p.rows(), p.cols());
+  for (Eigen::Index j = 0; j < p.cols(); ++j) result.col(j) = times(Vector(p.col(j)));
   return result;
 }
 
@@ -140,11 +108,6 @@ void Delassus::apply(const Eigen::Ref<const Vector>& p, Vector& result) const {
     case Data::Kind::sparse:
       result.noalias() = data_->sparse * p;
       return;
-    case Data::Kind::condensed: {
-      const Vector forces = data_->sparse * p;
-      result = data_->sparse.transpose() * data_->K->solve(forces);
-      break;
-    }
     case Data::Kind::products:
       result = data_->products->times(p);
       break;
@@ -168,30 +131,11 @@ Matrix Delassus::diagonal_blocks(int d) const {
   }
   const std::scoped_lock lock(data_->guard);
   Matrix& kept = data_->columns_of_pairs;
-  if (data_->kind == Data::Kind::products) {
-    if (kept.size() == 0) kept = data_->products->diagonal_blocks();
-    if (d == kept.rows()) return factor_ * kept;
-    ensure(d == 1, "blocks of pairs have as many components as the pairs");
-    for (Eigen::Index k = 0; k < size(); ++k) blocks(0, k) = factor_ * kept(k % kept.rows(), k);
-    return blocks;
-  }
-  if (kept.rows() == d) return factor_ * kept;
-  constexpr Eigen::Index most_exact = 4000;
-  if (size() > most_exact) {
-    Delassus alone = *this;
-    alone.factor_ = 1.0;
-    kept = probed_blocks(alone, d);
-    return factor_ * kept;
-  }
-  const Eigen::Index chunk = columns_at_a_time / d * d;
-  for (Eigen::Index first = 0; first < size(); first += chunk) {
-    const Eigen::Index count = std::min(chunk, size() - first);
-    const Eigen::SparseMatrix<double> part = data_->sparse.middleCols(first, count);
-    const Matrix W = part.transpose() * data_->K->solve(Matrix(part));
-    for (Eigen::Index i = 0; i < count; i += d) blocks.middleCols(first + i, d) = W.block(i, i, d, d);
-  }
-  kept = blocks;
-  return factor_ * kept;
+  if (kept.size() == 0) kept = data_->products->diagonal_blocks();
+  if (d == kept.rows()) return factor_ * kept;
+  ensure(d == 1, "blocks of pairs have as many components as the pairs");
+  for (Eigen::Index k = 0; k < size(); ++k) blocks(0, k) = factor_ * kept(k % kept.rows(), k);
+  return blocks;
 }
 
 Vector Delassus::diagonal() const {
@@ -236,11 +180,14 @@ const Eigen::SparseMatrix<double>& Delassus::sparse() const {
 
 Delassus Delassus::scaled(double factor) const {
   if (!data_) return *this;
-  if (data_->kind == Data::Kind::sparse) return Delassus(Eigen::SparseMatrix<double>(factor * data_->sparse));
   Delassus result = *this;
-  result.factor_ *= factor;
-  result.formed_ = std::make_shared<const Formed>();
-  return result;
+  if (is_sparse()) {
+    result = Delassus(Eigen::SparseMatrix<double>(factor * data_->sparse));
+  } else {
+    result.factor_ *= factor;
+    result.formed_ = std::make_shared<const Formed>();
+  }
+  return bodies() ? result.with_bodies(std::sqrt(factor) * *bodies()) : result;
 }
 
 }  // namespace scabo::contact

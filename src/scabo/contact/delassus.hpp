@@ -1,11 +1,10 @@
 // Delassus operator W: relative motion of the pairs per contact force, dN x dN (d components per pair, N pairs; length
-// per force). There are four representations:
+// per force). There are three representations:
 //
 //     dense      the matrix itself: condensed elastic bodies, up to some thousand pairs
 //     sparse     bodies that few pairs couple: stacks of blocks, collections of others
-//     condensed  W = B' K^-1 B: factorised stiffness K (n x n) and pair matrix B (n x dN, displacements per unit of
-//                pair motion); never formed unless dense() is asked for
-//     products   those of a structure (pair_operator.hpp): elastic bodies with more pairs; the same
+//     products   those of a structure (pair_operator.hpp): elastic bodies with more pairs; never formed unless dense()
+//                is asked for
 //
 // The operator is kept as given: problems from other programs may be slightly unsymmetric. Copies are cheap because the
 // content is shared and never changes; a factor is applied to products and entries (sparse matrices are copied).
@@ -15,10 +14,6 @@
 #include <memory>
 
 #include "scabo/base/types.hpp"
-
-namespace scabo::linalg {
-class SymmetricPositiveSolver;
-}
 
 namespace scabo::contact {
 
@@ -30,12 +25,14 @@ class Delassus {
   Delassus() = default;    ///< for zero pairs
   Delassus(Matrix dense);  // implicit: a matrix is a Delassus operator
   explicit Delassus(Eigen::SparseMatrix<double> sparse);
-  Delassus(std::shared_ptr<const linalg::SymmetricPositiveSolver> K, Eigen::SparseMatrix<double> B);
   explicit Delassus(std::shared_ptr<const PairOperator> products);
 
   /// The same operator with a holder of its pairs. Motions that it gets and gives are those of W before any factor.
   Delassus with_holder(std::shared_ptr<const PairHolder> holder) const;
   const PairHolder* holder() const { return holder_.get(); }  ///< null: none
+  /// The same operator of rigid bodies, W = Y'Y, with few rows of Y for each.
+  Delassus with_bodies(Eigen::SparseMatrix<double> Y) const;
+  const Eigen::SparseMatrix<double>* bodies() const;  ///< Y; null: not known
 
   Eigen::Index size() const;  ///< dN
   bool is_dense() const;
@@ -46,9 +43,7 @@ class Delassus {
   /// result = W p; allocates no memory if W is dense or sparse and `result` has the right size.
   void apply(const Eigen::Ref<const Vector>& p, Vector& result) const;
   friend Vector operator*(const Delassus& W, const Vector& p) { return W.times(p); }
-  /// d x dN: the diagonal block of pair i in columns d i .. d i + d - 1. For a condensed operator the blocks cost dN
-  /// solves and are kept; above 4000 rows they are estimated by probing with 64 d vectors of random signs, accurate to
-  /// a few percent: they are used only for scaling and preconditioning.
+  /// d x dN: the diagonal block of pair i in columns d i .. d i + d - 1.
   Matrix diagonal_blocks(int d) const;
   Vector diagonal() const;
 
@@ -68,7 +63,7 @@ class Delassus {
   struct Formed;
   std::shared_ptr<const Data> data_;
   double factor_ = 1.0;                   // of data_
-  std::shared_ptr<const Formed> formed_;  // entries with the factor
+  std::shared_ptr<const Formed> formed_;  // entries and Y with the factor
   std::shared_ptr<const PairHolder> holder_;
 };
 

@@ -197,6 +197,17 @@ void add_cells(Estimate& estimate, std::size_t b, double n, double k, Plan& plan
   plan.contact += 2.0 * estimate.solutions * costs.solve_seconds * n * log2_of(n);
 }
 
+/// Whether the stages of the contact solver that follow Newton's method may have to take over: some body has neither
+/// support nor spring nor tie.
+bool may_need_interior_points(const model::Model& model) {
+  std::vector<char> held(model.bodies.size(), 0);
+  const auto hold = [&](const model::Place& on) { held[static_cast<std::size_t>(on.body)] = 1; };
+  for (const model::Support& support : model.supports) hold(support.on);
+  for (const model::Spring& spring : model.springs) hold(spring.on);
+  for (const model::Tie& tie : model.ties) hold(tie.a), hold(tie.b);
+  return std::find(held.begin(), held.end(), 0) != held.end();
+}
+
 /// The contact problems. W has a block for each body, dense within it; the systems of Newton's method are as sparse.
 void add_contact(const Estimate& estimate, Plan& plan) {
   const CostConstants& costs = estimate.costs;
@@ -216,6 +227,10 @@ void add_contact(const Estimate& estimate, Plan& plan) {
   const double iterations = costs.wall_first_iterations + costs.wall_iterations * (estimate.solutions - 1.0);
   plan.contact += many_bodies ? iterations * costs.wall_seconds * components * width
                               : estimate.solutions * costs.contact_seconds * components * components;
+  if (!may_need_interior_points(estimate.model)) return;
+  const double step = many_bodies ? costs.wall_seconds * components * width
+                                  : costs.interior_seconds * components * components * components;
+  plan.interior = costs.interior_steps * estimate.solutions * step;
 }
 
 }  // namespace
@@ -251,6 +266,8 @@ bool is_long(const Plan& plan) { return plan.seconds() > long_seconds || plan.by
 std::string describe(const Plan& plan) {
   std::string text = fmt::format("{}; about {} of memory, {}", describe_sizes(plan.sizes), size_text(plan.bytes),
                                  duration_text(plan.seconds()));
+  if (const double most = plan.seconds() + plan.interior; most >= 1.0 && most > 2.0 * plan.seconds())
+    text += fmt::format(", up to {} where contact takes interior points", duration_text(most));
   if (plan.first_mesh_only) text += ", on the first mesh; refinement needs more";
   text += '\n';
   if (!is_long(plan)) return text;

@@ -16,8 +16,10 @@
 //                         flexibility_seconds k^2
 //     contact             contact_bytes k^2; contact_seconds (2N)^2 for each increment; of many bodies, eliminated by
 //                         nested dissection, wall_bytes 2N k besides and wall_seconds 2N k for each iteration, k
-//                         averaged; of more than 6,000 pairs of few bodies a factor of all bodies, joined_iterations
-//                         times in an increment
+//                         averaged. Where bodies are held by contact alone an increment may besides take
+//                         interior_steps of interior points, each interior_seconds (2N)^3 or wall_seconds 2N k: which
+//                         ones do is not known before. Of more than 6,000 pairs of few bodies a factor of all bodies,
+//                         joined_iterations times in an increment
 //
 // Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
@@ -60,6 +62,8 @@ struct CostConstants {
   double condense_seconds = 3.8e-7;         ///< for k n^0.5
   double flexibility_seconds = 1.4e-9;      ///< for k^2
   double contact_bytes = 50.0;              ///< for k^2 of each body: W and matrices of Newton's method
+  double interior_seconds = 1e-10;          ///< for (2N)^3 and one step of interior points of few bodies
+  double interior_steps = 60.0;             ///< of an increment in which Newton's method finds nothing: 10 to 100
   double contact_seconds = 6.5e-8;          ///< for (2N)^2 and one increment
   double wall_seconds = 1e-6;               ///< for 2N k of many bodies and one iteration, k of an average body
   double wall_first_iterations = 8.0;       ///< of the first increment: 2 to 10
@@ -77,6 +81,7 @@ struct Plan {
   bool first_mesh_only = false;  ///< refinement makes finer ones, which are not known yet
   double bytes = 0.0;
   double mesh = 0.0, cells = 0.0, factorise = 0.0, condense = 0.0, contact = 0.0, fields = 0.0;  ///< seconds
+  double interior = 0.0;  ///< seconds besides, where every increment takes interior points; none, some or all may
   double seconds() const { return mesh + cells + factorise + condense + contact + fields; }
 };
 Plan plan_of(const model::Model& model, const mesh::Mesh& mesh, const CostConstants& costs = {});

@@ -1,5 +1,6 @@
 #include "scabo/system/contact_system.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -170,6 +171,30 @@ contact::Delassus sum_of(std::vector<PartFlexibility> parts, const std::vector<i
   return contact::Delassus(std::move(W));
 }
 
+/// W with its bodies where all parts are rigid: W = Y'Y, Y = A^1/2 B' of each part.
+contact::Delassus with_bodies(contact::Delassus W, const std::vector<TouchedPart>& touched, const Structure& structure,
+                              const std::vector<int>& place) {
+  constexpr Eigen::Index most = 6;  // degrees of freedom of a rigid body
+  Triplets entries;
+  int columns = 0;
+  for (std::size_t p = 0; p < touched.size(); ++p) {
+    if (touched[p].dofs.empty()) continue;
+    if (structure.parts[p]->size() > most) return W;
+    if (!structure.parts[p]->is_flexible()) continue;
+    const Eigen::SelfAdjointEigenSolver<Matrix> A(structure.parts[p]->flexibility(touched[p].dofs));
+    const Vector roots = A.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    const Matrix rows = touched[p].motion * Matrix(A.eigenvectors() * roots.asDiagonal());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      if (const int row = place[static_cast<std::size_t>(touched[p].rows[static_cast<std::size_t>(i)])]; row >= 0)
+        for (int k = 0; k < rows.cols(); ++k) entries.emplace_back(row, columns + k, rows(i, k));
+    columns += static_cast<int>(rows.cols());
+  }
+  if (W.size() == 0) return W;
+  Eigen::SparseMatrix<double> of_rows(W.size(), columns);
+  of_rows.setFromTriplets(entries.begin(), entries.end());
+  return W.with_bodies(of_rows.transpose());
+}
+
 template <typename T>
 std::vector<T> selected(const std::vector<T>& all, const std::vector<int>& which) {
   std::vector<T> some;
@@ -216,6 +241,12 @@ contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& p
     if (place[row] >= 0) rows.push_back(static_cast<int>(row));
   const auto kept = static_cast<Eigen::Index>(rows.size());
   if (rows.empty()) return {};
+  if (const Eigen::SparseMatrix<double>* Y = W.bodies()) {
+    Eigen::SparseMatrix<double> of_rows = block_of(Y->transpose(), place, {}, kept, Y->rows());
+    contact::Delassus block = W.is_sparse() ? contact::Delassus(block_of(W.sparse(), place, place, kept, kept))
+                                            : contact::Delassus(Matrix(W.dense()(rows, rows)));
+    return block.with_bodies(of_rows.transpose());
+  }
   if (W.is_sparse()) return contact::Delassus(block_of(W.sparse(), place, place, kept, kept));
   if (const contact::PairHolder* holder = W.is_dense() ? nullptr : W.holder())
     if (Matrix block = holder->flexibility(rows); block.rows() == kept) return block;
@@ -374,6 +405,7 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion))
                          : sum_of(std::move(flexibilities.of_part), place, kept, sparse);
   if (joined) system.W = system.W.with_holder(joined);
+  system.W = with_bodies(std::move(system.W), touched, structure, place);
   system.G = contact::RigidMap(std::move(G));
   system.gap.resize(static_cast<Eigen::Index>(moving.size()));
   for (std::size_t i = 0; i < moving.size(); ++i)

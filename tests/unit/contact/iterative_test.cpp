@@ -244,8 +244,7 @@ TEST(HeldDirections, AgreeWithDenseOnes) {
         return one;
       }();
       const Eigen::SparseMatrix<double> root = Matrix(dense.W.dense().llt().matrixU()).sparseView();
-      held.W =
-          Delassus(std::make_shared<const linalg::SymmetricPositiveSolver>(unit_stiffness), root).with_holder(holder);
+      held.W = Delassus(std::make_shared<const FactorisedPairs>(unit_stiffness, root, 2)).with_holder(holder);
       ASSERT_FALSE(held.W.is_dense());
       const Solution solution = solve(held);
       ASSERT_EQ(solution.status, Status::solved) << solution.reason;

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "scabo/contact/judge.hpp"
+#include "scabo/contact/kkt/body_system.hpp"
 #include "scabo/contact/kkt/joint_system.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/contact/sweeps/gauss_seidel.hpp"
@@ -109,6 +110,58 @@ TEST(Joints, SweepsAreThoseOfThePairs) {
     EXPECT_LE((p - q).lpNorm<Eigen::Infinity>(), 1e-10 * force);
     EXPECT_LE((joints.motion() - motion_of(problem, q, Vector())).lpNorm<Eigen::Infinity>(), 1e-12 * force);
   }
+}
+
+// Rows that slip and rows that stick, by the motions of the bodies and by the matrix itself; with the bodies' motions
+// in W, and in G.
+TEST(Bodies, SystemsAreThoseOfThePairs) {
+  for (const int d : {2, 3})
+    for (const bool at_rest : {false, true}) {
+      Problem problem = tower_of_blocks(d, 6, 4, 0.4, 10.0, true);
+      const Eigen::Index n = problem.q.size();
+      if (at_rest) {
+        const Eigen::SparseMatrix<double> Y = *problem.W.bodies();
+        problem.G = RigidMap(Eigen::SparseMatrix<double>(Y.transpose()));
+        problem.f = random_numbers(Y.rows(), 2);
+        problem.W = Delassus(Eigen::SparseMatrix<double>(n, n)).with_bodies(Eigen::SparseMatrix<double>(0, n));
+      }
+      ASSERT_TRUE(BodySystem::is_of(problem));
+      SaddleRows rows;
+      rows.resize(static_cast<std::size_t>(n));
+      rows.E = at_rest ? 1e-3 : 0.0;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        rows.pair[static_cast<std::size_t>(j)] = static_cast<int>(j / d);
+        rows.L(j % d, j) = rows.C(j % d, j) = 1.0;
+        if (j % d == 0) rows.C(1, j) = 0.4;
+        rows.D[j] = j % 3 == 0 ? 1e-2 : 10.0;
+      }
+      Vector moved;
+      Matrix A(n + problem.G.cols(), n + problem.G.cols());
+      assemble_dense(problem, rows, moved, A);
+      const Vector x = random_numbers(A.rows(), 4), b = A * x;
+      EXPECT_LE((rows.times(problem, x) - b).norm(), 1e-13 * b.norm());
+      BodySystem bodies(problem);
+      ASSERT_TRUE(bodies.factorise(rows, rows.D));
+      Vector found;
+      bodies.solve(b, found);
+      EXPECT_LE((found - x).norm(), 1e-10 * x.norm());
+    }
+}
+
+// Forces are not unique, the motions that they cause are.
+TEST(Bodies, MotionsAreThoseWithoutThem) {
+  for (const int d : {2, 3})
+    for (const double ratio : {1.0, 1000.0}) {
+      const Problem plain = tower_of_blocks(d, d == 2 ? 40 : 12, 4, 0.4, ratio),
+                    known = tower_of_blocks(d, d == 2 ? 40 : 12, 4, 0.4, ratio, true);
+      SolverOptions options;
+      options.judge = Judge::natural_map;
+      const Solution without = solve(plain, {}, options), with = solve(known, {}, options);
+      ASSERT_EQ(without.status, Status::solved) << without.reason;
+      ASSERT_EQ(with.status, Status::solved) << with.reason;
+      const Vector u = motion_of(plain, without.p, {}), v = motion_of(plain, with.p, {});
+      EXPECT_LE((u - v).lpNorm<Eigen::Infinity>(), 1e-7 * plain.q.lpNorm<Eigen::Infinity>()) << d << ' ' << ratio;
+    }
 }
 
 /// D from 1e-9 (stick) to 1e9 (open), both in every joint, and a T on one side, as interior points have them.

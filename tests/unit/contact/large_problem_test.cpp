@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include "scabo/contact/pair_operator.hpp"
+#include "scabo/contact/files/global_problem.hpp"
 #include "scabo/contact/solve.hpp"
-#include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "support/decompositions.hpp"
 
 namespace scabo::contact {
@@ -78,7 +77,7 @@ TEST(Delassus, DenseSparseAndCondensedAgree) {
   Matrix B_dense(4, 4);
   B_dense << 1, 0, 0, 1, 0, 1, 0, 0, -1, 0, 1, 0, 0, -1, 0, 1;
   const Matrix W = B_dense.transpose() * test::solve_lu(Matrix(K), B_dense);
-  const Delassus condensed(std::make_shared<const linalg::SymmetricPositiveSolver>(K), B_dense.sparseView());
+  const Delassus condensed(std::make_shared<const FactorisedPairs>(K, B_dense.sparseView(), 2));
   const Vector p = Eigen::Vector4d(1.0, -2.0, 0.5, 3.0);
   for (const Delassus& kind : {Delassus(W), Delassus(Eigen::SparseMatrix<double>(W.sparseView())), condensed,
                                Delassus(std::make_shared<const Products>(W))}) {

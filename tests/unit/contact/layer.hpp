@@ -6,8 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "scabo/contact/problem.hpp"
-#include "scabo/linalg/symmetric_positive_solver.hpp"
+#include "scabo/contact/files/global_problem.hpp"
 
 namespace scabo::test {
 
@@ -43,7 +42,7 @@ inline contact::Delassus layer_flexibility(int pairs, int depth) {
   Eigen::SparseMatrix<double> B(size, 2 * pairs);
   for (int i = 0; i < pairs; ++i)
     for (int a = 0; a < 2; ++a) B.insert(2 * node(i, 0) + a, 2 * i + a) = 1.0;
-  return contact::Delassus(std::make_shared<const linalg::SymmetricPositiveSolver>(K), B);
+  return contact::Delassus(std::make_shared<const contact::FactorisedPairs>(K, B, 2));
 }
 
 /// The layer pressed and sheared in waves, so that pairs open, stick and slip.

@@ -20,8 +20,8 @@ struct TowerCase {
 
 /// Unit cubes on one another and on the ground (edge 1, mass 1, inertia 1/6), m x m pairs on each face (m in the
 /// plane). The masses grow from the lowest, 1, to the highest, `ratio`. Free velocities at random plus the fall of one
-/// step: q = H' v lies in the range of H'.
-inline Problem tower_of_blocks(int d, int blocks, int m, double mu, double ratio = 1.0) {
+/// step: q = H' v lies in the range of H'. `known`: W tells its bodies.
+inline Problem tower_of_blocks(int d, int blocks, int m, double mu, double ratio = 1.0, bool known = false) {
   const int motions = d == 3 ? 6 : 3, across = d == 3 ? m : 1, N = blocks * m * across;
   std::vector<Eigen::Triplet<double>> entries;
   int pair = 0;
@@ -59,6 +59,7 @@ inline Problem tower_of_blocks(int d, int blocks, int m, double mu, double ratio
   Problem problem;
   problem.dimension = d;
   problem.W = Delassus(Eigen::SparseMatrix<double>(H.transpose() * H));
+  if (known) problem.W = problem.W.with_bodies(H);
   problem.q = H.transpose() * v;
   problem.mu = Vector::Constant(N, mu);
   return problem;

@@ -73,5 +73,30 @@ TEST(Plan, MaterialsBreakTheSymmetryOfAShape) {
   EXPECT_NEAR(quarter / whole, 16.0, 1e-6);
 }
 
+// Newton's method may find nothing where contact alone holds bodies, and what follows it takes many factorisations.
+TEST(Plan, SaysHowLongLooseBodiesMayTake) {
+  const auto plan = [](const std::string& supports) {
+    const model::Model model = input::parse_model(R"(
+scabo: 1
+materials: {stone: {young: 20e9, poisson: 0.2}}
+bodies:
+  below: {material: stone, shape: {rectangle: {corner: [0, 0], size: [4, 1]}}, mesh: {size: 0.01, kind: superelement}}
+  above: {material: stone, shape: {rectangle: {corner: [0, 1], size: [4, 1]}}, mesh: {size: 0.01, kind: superelement}}
+supports: [{on: below.bottom, fix: [x, y]})" + supports +
+                                                      R"(]
+loads: {down: {on: above.top, pressure: 1e6}}
+contacts: {bed: {between: [below.top, above.bottom], friction: 1.5}}
+)",
+                                                  "stones.yaml");
+    return plan_of(model, analysis::check(model));
+  };
+  const Plan loose = plan(""), held = plan(", {on: above.left, fix: [x]}");
+  EXPECT_GT(loose.interior, loose.contact);
+  EXPECT_NE(describe(loose).find("where contact takes interior points"), std::string::npos);
+  EXPECT_DOUBLE_EQ(loose.contact, held.contact);
+  EXPECT_DOUBLE_EQ(held.interior, 0.0);
+  EXPECT_EQ(describe(held).find("interior points"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace scabo::run

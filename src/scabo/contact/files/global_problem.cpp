@@ -1,9 +1,10 @@
 #include "scabo/contact/files/global_problem.hpp"
 
 #include <Eigen/SparseLU>
+#include <algorithm>
+#include <random>
+#include <utility>
 #include <vector>
-
-#include "scabo/linalg/symmetric_positive_solver.hpp"
 
 namespace scabo::contact {
 
@@ -50,7 +51,40 @@ bool is_symmetric(const Sparse& M) {
   return difference.norm() == 0.0;
 }
 
+/// Diagonal blocks from products with a few vectors (Bekas, Kokiopoulou, Saad, Appl. Numer. Math. 57 (2007) 1214): each
+/// vector has random signs on every 64th pair, so that contributions of distant pairs average out.
+Matrix probed_blocks(const FactorisedPairs& W, Index d) {
+  constexpr Index colours = 64;
+  const Index N = W.size() / d;
+  Matrix blocks(d, W.size());
+  std::minstd_rand random(1);
+  Vector sign(N);
+  for (double& s : sign) s = (random() >> 8) % 2 == 0 ? 1.0 : -1.0;
+  for (Index colour = 0; colour < colours; ++colour)
+    for (Index k = 0; k < d; ++k) {
+      Vector probe = Vector::Zero(W.size());
+      for (Index i = colour; i < N; i += colours) probe[d * i + k] = sign[i];
+      const Vector image = W.times(probe);
+      for (Index i = colour; i < N; i += colours) blocks.col(d * i + k) = sign[i] * image.segment(d * i, d);
+    }
+  return blocks;
+}
+
 }  // namespace
+
+Matrix FactorisedPairs::diagonal_blocks() const {
+  constexpr Index most_exact = 4000, at_a_time = 60;  // rows; a whole number of pairs
+  const Index d = dimension_;
+  if (size() > most_exact) return probed_blocks(*this, d);
+  Matrix blocks(d, size());
+  for (Index first = 0; first < size(); first += at_a_time) {
+    const Index count = std::min(at_a_time, size() - first);
+    const Sparse part = H_.middleCols(first, count);
+    const Matrix W = part.transpose() * M_.solve(Matrix(part));
+    for (Index i = 0; i < count; i += d) blocks.middleCols(first + i, d) = W.block(i, i, d, d);
+  }
+  return blocks;
+}
 
 struct GlobalReduction::Factor {
   Eigen::SparseLU<Sparse> lu;
@@ -77,7 +111,7 @@ Problem GlobalReduction::problem() const {
       static_cast<double>(global_.H.cols()) * static_cast<double>(factor_->lu.nnzL() + factor_->lu.nnzU());
   if (k == 0 && work > worth_forming && is_symmetric(global_.M)) {
     try {
-      problem.W = Delassus(std::make_shared<const linalg::SymmetricPositiveSolver>(global_.M), global_.H);
+      problem.W = Delassus(std::make_shared<const FactorisedPairs>(global_.M, global_.H, global_.dimension));
       return problem;
     } catch (const linalg::NotPositiveDefinite&) {  // W is formed after all
     }

@@ -150,6 +150,7 @@ bool NewtonDirection::solve_in_turn() {
   const SystemConstants& c = system_constants;
   const Problem& problem = equations_.problem();
   const Eigen::Index n = rows_.size() + problem.G.cols();
+  if (work_->bodies && n >= c.least_sparse) return solve_by_bodies();
   if (problem.W.is_sparse() && n >= c.least_sparse)
     return (problem.dimension == 2 ? solve_by_joints<2>() : solve_by_joints<3>()) || solve_sparse();
   if (holding_pays(problem, n) && solve_by_holding()) return true;
@@ -192,24 +193,10 @@ bool NewtonDirection::solve_by_holding() {
 double NewtonDirection::solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
                                              const GmresOptions& options) {
   const Vector right = right_.head(rows_.size() + equations_.problem().G.cols());
-  const auto multiply = [&](const Vector& x, Vector& result) { apply(x, result); };
+  const auto multiply = [&](const Vector& x, Vector& result) { result = rows_.times(equations_.problem(), x); };
   y_.setZero(right.size());
   const double left = gmres(multiply, precondition, right, y_, options);
   return y_.allFinite() ? left : HUGE_VAL;
-}
-
-void NewtonDirection::apply(const Vector& x, Vector& result) {
-  Workspace& work = *work_;
-  const Problem& problem = equations_.problem();
-  const Eigen::Index size = rows_.size(), m = problem.G.cols();
-  work.full.setZero(problem.W.size());
-  rows_.add_forces(x, problem.dimension, work.full);
-  problem.W.apply(work.full, work.image);
-  problem.G.add_motion(x.tail(m), work.image);
-  result.resize(x.size());
-  rows_.motions(work.image, problem.dimension, result);
-  result.head(size) += rows_.D.head(size).cwiseProduct(x.head(size));
-  if (m > 0) result.tail(m) = problem.G.transpose() * work.full - rows_.E * x.tail(m);
 }
 
 NewtonDirection::PairBlocks NewtonDirection::pair_blocks() {

@@ -12,15 +12,9 @@
 // At ties the branches depend on d: a mixed complementarity problem of a few pairs. It is solved by following the
 // branches of d until they are its own.
 //
-// Dense LU up to a few thousand unknowns, sparse LU where W is sparse (many bodies), GMRES otherwise. Where bodies can
-// be joined at the pairs that hold (pair_operator.hpp), and that is cheaper than LU, or W is known by its products
-// alone, the joined bodies are the preconditioner: the matrix above but with n for n + mu e in C. Of more than
-// 1,200 unknowns of a dense W, GMRES solves in double precision, by products with W itself; its preconditioner is the
-// matrix above by halves of joints (line_preconditioner.hpp), and where pairs do not follow each other along joints, of
-// more than 2,500 unknowns, an LU in single precision. Without any LU the
-// preconditioner is the matrix above with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da =
-// ..., then y from D. Where redundant pairs make the matrix singular, the factor of a raised matrix preconditions GMRES
-// on the matrix itself; that of rigid bodies is factorised by their joints (joint_system.hpp).
+// Which factorisation, size and structure decide (docs/methods/12_contact_solver.md, one saddle system). Joined bodies
+// (pair_operator.hpp) are the preconditioner of the matrix above but with n for n + mu e in C. Without any LU it is the
+// matrix with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da = ..., then y from D.
 #pragma once
 
 #include <Eigen/LU>
@@ -63,12 +57,11 @@ class NewtonDirection {
   double solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
                               const GmresOptions& options);
   bool solve_sparse();
+  bool solve_by_bodies();
   template <int d>
   bool solve_by_joints();
   bool solve_by_holding();
   bool solve_iteratively();
-  /// The matrix above times x = [y; da].
-  void apply(const Vector& x, Vector& result);
   /// The preconditioner of GMRES.
   struct PairBlocks {
     std::vector<int> first;                // N + 1, of the unknowns

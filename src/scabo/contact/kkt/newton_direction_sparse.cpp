@@ -32,7 +32,16 @@ bool NewtonDirection::solve_sparse() {
   return y_.allFinite() && left <= c.descending;
 }
 
-/// Rigid bodies with many pairs a joint. Pairs are redundant there: the raised matrix preconditions GMRES.
+/// Rigid bodies. Pairs are redundant there: the raised matrix preconditions GMRES.
+bool NewtonDirection::solve_by_bodies() {
+  const auto own = own_.head(rows_.size()).array();
+  BodySystem& bodies = *work_->bodies;
+  if (!bodies.factorise(rows_, std::max(rows_.E, system_constants.raise) * (1.0 - own) + own)) return false;
+  const auto precondition = [&](const Vector& x, Vector& result) { bodies.solve(x, result); };
+  return solve_preconditioned(precondition, system_constants.singular_gmres) <= system_constants.descending;
+}
+
+/// The same by their joints, where W alone is known and these have many pairs.
 template <int d>
 bool NewtonDirection::solve_by_joints() {
   Workspace& work = *work_;

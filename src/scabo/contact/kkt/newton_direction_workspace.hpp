@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "scabo/contact/constants.hpp"
+#include "scabo/contact/kkt/body_system.hpp"
 #include "scabo/contact/kkt/joint_system.hpp"
 #include "scabo/contact/kkt/line_preconditioner.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
@@ -15,7 +16,10 @@ namespace scabo::contact {
 
 struct NewtonDirection::Workspace {
   explicit Workspace(const Problem& problem) {
-    if (problem.W.is_sparse()) saddle.emplace(problem);
+    if (BodySystem::is_of(problem))
+      bodies.emplace(problem);
+    else if (problem.W.is_sparse())
+      saddle.emplace(problem);
   }
 
   Matrix A, factor;
@@ -27,6 +31,7 @@ struct NewtonDirection::Workspace {
   bool single_fails = false;   // W is too ill-conditioned: of slender bodies
   bool holding_fails = false;  // it takes too many iterations, or none hold the bodies
   Vector full, image, residual;
+  std::optional<BodySystem> bodies;
   std::optional<SparseSaddle> saddle;
   Eigen::SparseMatrix<double> sparse;
   bool joints_sought = false;

@@ -25,6 +25,18 @@ void SaddleRows::motions(const Vector& u, int dimension, Vector& result) const {
     result[j] = L.col(j).head(dimension).dot(u.segment(dimension * pair[static_cast<std::size_t>(j)], dimension));
 }
 
+Vector SaddleRows::times(const Problem& problem, const Vector& x) const {
+  const Index n = size(), m = problem.G.cols();
+  Vector p = Vector::Zero(problem.W.size()), u, result(n + m);
+  add_forces(x, problem.dimension, p);
+  problem.W.apply(p, u);
+  problem.G.add_motion(x.tail(m), u);
+  motions(u, problem.dimension, result);
+  result.head(n) += D.head(n).cwiseProduct(x.head(n));
+  if (m > 0) result.tail(m) = problem.G.transpose() * p - E * x.tail(m);
+  return result;
+}
+
 template <typename Scalar>
 void assemble_dense(const Problem& problem, const SaddleRows& rows, Vector& moved,
                     Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& A) {

@@ -25,6 +25,8 @@ struct SaddleRows {
   void add_forces(const Vector& z, int dimension, Vector& p) const;
   /// L'u, into the first n numbers of `result`.
   void motions(const Vector& u, int dimension, Vector& result) const;
+  /// The saddle matrix times [z; da].
+  Vector times(const Problem& problem, const Vector& x) const;
 };
 
 /// Into the first n + m rows and columns of `A`, which has them; a W that is not dense is formed. `moved` is memory.

@@ -1,62 +1,59 @@
 #include "scabo/contact/kkt/saddle_system.hpp"
 
+#include "scabo/contact/kkt/body_system.hpp"
 #include "scabo/linalg/general_solver.hpp"
 
 namespace scabo::contact {
 
 struct SaddleSystem::Backend {
   virtual ~Backend() = default;
-  /// Rows of the matrix multiplied by `row`.
-  virtual bool factorise(const SaddleRows& rows, const Vector& row) = 0;
-  virtual Vector solve(const Vector& b) const = 0;
-  virtual Vector product(const Vector& x) const = 0;
+  virtual bool factorise(const SaddleRows& rows) = 0;
+  virtual void solve(const Vector& b, Vector& x) const = 0;
 };
 
 struct SaddleSystem::Dense : Backend {
   explicit Dense(const Problem& of) : problem(of) {}
 
-  bool factorise(const SaddleRows& rows, const Vector& row) override {
-    A.resize(row.size(), row.size());
-    assemble_dense(problem, rows, moved, A);
-    A.array().colwise() *= row.array();
-    LU = A;
-    return solver.factorise(LU, A.rows());
+  bool factorise(const SaddleRows& rows) override {
+    const Eigen::Index n = rows.size() + problem.G.cols();
+    LU.resize(n, n);
+    assemble_dense(problem, rows, moved, LU);
+    return solver.factorise(LU, n);
   }
-  Vector solve(const Vector& b) const override {
-    Vector x = b;
-    solver.solve_in_place(x);
-    return x;
-  }
-  Vector product(const Vector& x) const override { return A * x; }
+  void solve(const Vector& b, Vector& x) const override { solver.solve_in_place(x = b); }
 
   const Problem& problem;
   Vector moved;
-  Matrix A, LU;
+  Matrix LU;
   linalg::GeneralSolver solver;
 };
 
 struct SaddleSystem::Sparse : Backend {
   explicit Sparse(const Problem& problem) : saddle(problem) {}
 
-  bool factorise(const SaddleRows& rows, const Vector& row) override {
+  bool factorise(const SaddleRows& rows) override {
     saddle.assemble(rows, A);
-    for (Eigen::Index j = 0; j < A.cols(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it) it.valueRef() *= row[it.row()];
     return saddle.factorise(rows, A);
   }
-  Vector solve(const Vector& b) const override {
-    Vector x;
-    saddle.factor().solve(b, x);
-    return x;
-  }
-  Vector product(const Vector& x) const override { return A * x; }
+  void solve(const Vector& b, Vector& x) const override { saddle.factor().solve(b, x); }
 
   SparseSaddle saddle;
   Eigen::SparseMatrix<double> A;
 };
 
-SaddleSystem::SaddleSystem(const Problem& problem) : motions_(problem.G.cols()) {
-  if (problem.W.is_sparse())
+struct SaddleSystem::Bodies : Backend {
+  explicit Bodies(const Problem& problem) : bodies(problem) {}
+
+  bool factorise(const SaddleRows& rows) override { return bodies.factorise(rows, rows.D); }
+  void solve(const Vector& b, Vector& x) const override { bodies.solve(b, x); }
+
+  BodySystem bodies;
+};
+
+SaddleSystem::SaddleSystem(const Problem& problem) : problem_(problem) {
+  if (BodySystem::is_of(problem))
+    backend_ = std::make_unique<Bodies>(problem);
+  else if (problem.W.is_sparse())
     backend_ = std::make_unique<Sparse>(problem);
   else
     backend_ = std::make_unique<Dense>(problem);
@@ -65,14 +62,19 @@ SaddleSystem::~SaddleSystem() = default;
 SaddleSystem::SaddleSystem(SaddleSystem&&) noexcept = default;
 
 bool SaddleSystem::factorise(const SaddleRows& rows) {
-  row_.setOnes(rows.size() + motions_);
+  rows_ = rows;
+  row_.setOnes(rows.size() + problem_.G.cols());
   row_.head(rows.size()) = (1.0 + rows.D.head(rows.size()).array()).inverse();
-  return backend_->factorise(rows, row_);
+  for (Eigen::Index j = 0; j < rows.size(); ++j) rows_.L.col(j) *= row_[j], rows_.D[j] *= row_[j];
+  return backend_->factorise(rows_);
 }
 
 Vector SaddleSystem::solve(const Vector& right) const {
-  const Vector b = row_.cwiseProduct(right), x = backend_->solve(b);
-  return x + backend_->solve(b - backend_->product(x));
+  const Vector b = row_.cwiseProduct(right);
+  Vector x, more;
+  backend_->solve(b, x);
+  backend_->solve(b - rows_.times(problem_, x), more);
+  return x + more;
 }
 
 }  // namespace scabo::contact

@@ -8,8 +8,9 @@
 // force in C. Large D stand alone in their rows: rows are divided by 1 + D, and solutions are refined once, on which
 // the last digits of the forces depend where W is rank deficient.
 //
-// Two backends: W sparse, LU of the sparse matrix in whole blocks of the pairs, of many bodies ordered by their joints
-// (contact/kkt/joint_order); W dense, LU by LAPACK.
+// Three backends: rigid bodies that are known, by their motions (body_system.hpp; of D well above 0); W sparse, LU of
+// the sparse matrix in whole blocks of the pairs, of many bodies ordered by their joints (contact/kkt/joint_order); W
+// dense, LU by LAPACK.
 #pragma once
 
 #include <memory>
@@ -32,11 +33,13 @@ class SaddleSystem {
 
  private:
   struct Backend;
+  struct Bodies;
   struct Dense;
   struct Sparse;
   std::unique_ptr<Backend> backend_;
-  Eigen::Index motions_;  // m
-  Vector row_;            // n + m, factors of the rows
+  const Problem& problem_;
+  SaddleRows rows_;  // multiplied by
+  Vector row_;       // n + m
 };
 
 }  // namespace scabo::contact

@@ -1,14 +1,8 @@
 // Newton's method on the B-differentiable equations: direction (kkt/newton_direction.hpp), line search on the merit
 // theta = 1/2 |H|^2, until H is small or the given judge accepts the point.
 //
-// H is piecewise smooth, and where hundreds of pairs change their state together one kink after the other stops a
-// search that asks for descent in every step. The search is therefore that of Grippo, Lampariello and Lucidi (SIAM J.
-// Numer. Anal. 23 (1986) 707): a step is taken where the merit falls below the largest of the last few.
-//
-// Where the matrix of a branch is singular, or no step along its direction passes the search, the system is regularised
-// from then on: alpha on its rows of motions, -alpha on its rows of balance, a tenth of |H| over the largest force.
-// What is not determined then moves little, and as alpha falls with |H| convergence stays fast (Yamashita and
-// Fukushima, Computing Suppl. 15 (2001) 239).
+// The search is that of Grippo, Lampariello and Lucidi. Where the matrix of a branch is singular, or no step passes the
+// search, the system is regularised from then on (docs/methods/12_contact_solver.md, stage 1).
 #pragma once
 
 #include <functional>

@@ -76,7 +76,7 @@ StageEnd newton_stage(Search& search) {
     return end.converged || search.late();
   };
   if (search.has_history() && from_history(search, end)) return {end.converged, why_of(end, search)};
-  if (problem.G.cols() > 0)
+  if (problem.G.cols() > 0 || problem.W.bodies() != nullptr)
     if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
       if (done(counted(search, *std::move(bonded)), "newton from bonded pairs"))
         return {end.converged, why_of(end, search)};
