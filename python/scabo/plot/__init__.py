@@ -5,7 +5,7 @@
     figure = scabo_plot.stress(results, component="principal_1")
     figure.savefig("stress.pdf")
 
-`stress`, `mesh`, `contact`, `convergence`, `history`, `mechanism` and, of a sweep's directory, `sweep` each return a Matplotlib figure.
+`stress`, `mesh`, `contact`, `convergence`, `history`, `mechanism`, `envelope`, `spectrum` and, of a sweep's directory, `sweep` each return a Matplotlib figure.
 What they draw comes from functions that return arrays (geometry.py, contacts.py, curves.py); colours, marks and fonts from style.py. The folder is a program too:
 `python3 .../scabo/plot DIR` does what `scabo plot DIR` does. Matplotlib is imported with the first of these functions:
 reports read the files with this package and need only NumPy.
@@ -20,13 +20,14 @@ if TYPE_CHECKING:
     from .contacts import contact
     from .curves import convergence, history
     from .fields import stress
+    from .in_time import envelope, spectrum
     from .mechanisms import mechanism
     from .meshes import mesh
     from .sweeps import sweep
 
-__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "history", "mechanism", "mesh", "stress", "sweep"]
+__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "envelope", "history", "mechanism", "mesh", "spectrum", "stress", "sweep"]
 
-_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "history": "curves", "mechanism": "mechanisms", "mesh": "meshes",
+_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "envelope": "in_time", "spectrum": "in_time", "history": "curves", "mechanism": "mechanisms", "mesh": "meshes",
              "stress": "fields", "sweep": "sweeps"}
 
 
