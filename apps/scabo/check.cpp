@@ -52,7 +52,7 @@ std::string steps_table(const model::Model& model) {
     return fmt::format("Modal analysis: the lowest {}.\n", model::counted(model.analysis.modes, "mode"));
   std::vector<std::vector<std::string>> rows = {{"step", "increments"}};
   for (const model::Step& step : model.steps) rows.push_back({step.name, increments_text(step)});
-  return result::table(rows);
+  return result::table(rows) + result::report_ground(model);
 }
 
 }  // namespace

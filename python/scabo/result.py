@@ -1,6 +1,7 @@
 """Results of a static analysis."""
 from __future__ import annotations
 
+import csv
 import json
 import math
 import operator
@@ -25,6 +26,13 @@ __all__ = ["Contact", "Increment", "Result"]
 _STATES = np.array(["open", "stick", "slip"])
 _PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "history")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
+
+
+def _columns_of(path: pathlib.Path) -> dict[str, np.ndarray]:
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    columns = zip(*rows) if rows else [()] * len(header)
+    return {name: np.array([value or "nan" for value in column], dtype=float) for name, column in zip(header, columns)}
 
 
 class Increment:
@@ -173,6 +181,18 @@ class Result:
     def increments(self) -> list[Increment]:
         """Totals of all converged increments."""
         return list(self._increments)
+
+    @property
+    def history(self) -> dict[str, np.ndarray]:
+        """Columns of history.csv over the increments: step, increment, time, and what ``output.history`` of the model asks
+        for, not a number where it has no value. Empty without it. Without a directory it needs the fields of all
+        increments (``keep_fields``)."""
+        if "history" not in self._summary:
+            return {}
+        if self._directory is not None:
+            return _columns_of(pathlib.Path(self._directory, "history.csv"))
+        with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
+            return _columns_of(pathlib.Path(self._write(os.path.join(folder, "results")), "history.csv"))
 
     @property
     def warnings(self) -> list[str]:

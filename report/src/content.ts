@@ -95,6 +95,7 @@ export interface Content {
   totals: { count: number; contacts: { name: string; normal_force: Series; tangential_force: Series; max_pressure: Series; max_gap: Series }[] };
   reactions: { count: number; supports: { name: string; x: Series; y: Series }[] };
   time_axis: string;
+  in_time: boolean;
   history: { time: number[]; columns: { name: string; values: Series }[]; note: string } | null;
   convergence: {
     step: number[]; increment: number[]; attempt: number[]; iteration: number[]; residual: Series; stage: number[]; stages: string[]; note: string;

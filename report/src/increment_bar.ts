@@ -4,6 +4,8 @@ import type { State } from "./state";
 import { number } from "./units";
 
 const PAUSE = 500; // milliseconds of each increment while playing
+const LENGTH = 15000; // of a motion in time, whose increments are played faster where they are many
+const LEAST = 40; // a display shows no more than 25 pictures of this size in a second
 const SWING = 1600; // of one swing of a mode
 
 export class IncrementBar {
@@ -33,7 +35,9 @@ export class IncrementBar {
     this.slider.value = String(shown.increment);
     const row = content.increments[shown.increment - 1], mode = content.modes[shown.increment - 1];
     const text = content.modal ? `mode ${shown.increment} of ${this.state.count}: ${mode.body}, frequency ${number(mode.frequency, 6)}`
-      : `increment ${shown.increment} of ${this.state.count}: step ${row.step_name}, increment ${row.increment}, at ${number(row.reached, 4)}`;
+      : content.in_time
+        ? `time ${number(row.time, 4)}: increment ${shown.increment} of ${this.state.count}, step ${row.step_name}`
+        : `increment ${shown.increment} of ${this.state.count}: step ${row.step_name}, increment ${row.increment}, at ${number(row.reached, 4)}`;
     this.name.textContent = text;
     this.slider.setAttribute("aria-valuetext", text);
   }
@@ -60,6 +64,6 @@ export class IncrementBar {
     }
     const next = () => this.state.set({ increment: (this.state.shown.increment % this.state.count) + 1 });
     next();
-    this.timer = window.setInterval(next, PAUSE);
+    this.timer = window.setInterval(next, this.state.content.in_time ? Math.min(PAUSE, Math.max(LEAST, LENGTH / this.state.count)) : PAUSE);
   }
 }

@@ -9,7 +9,7 @@ import made_up
 import numpy as np
 import plot
 from matplotlib.collections import PathCollection, PolyCollection
-from plot import contacts, curves, fields, geometry, meshes, style, vtu
+from plot import contacts, curves, fields, geometry, in_time, meshes, style, vtu
 
 
 class WithResults(unittest.TestCase):
@@ -432,6 +432,68 @@ class Curves(WithResults):
         before = style.plt.rcParams["font.size"], style.plt.rcParams["axes.titlelocation"]
         plot.history(self.results)
         self.assertEqual((style.plt.rcParams["font.size"], style.plt.rcParams["axes.titlelocation"]), before)
+
+
+class InTime(WithResults):
+    def in_time(self, columns):
+        """Increments of step 2 are at the times 0.5, 1.0, ..., with these columns of history.csv."""
+        first = self.results.summary["increments"][0]
+        count = len(next(iter(columns.values())))
+        self.results.summary["increments"] = [first] + [{**first, "step": 2, "increment": k + 1, "time": 0.5 * (k + 1)} for k in range(count)]
+        rows = [["step", "increment", "time", *columns], ["1", "1", "0", *["7"] * len(columns)]]
+        rows += [["2", str(k + 1), str(0.5 * (k + 1)), *(str(values[k]) for values in columns.values())] for k in range(count)]
+        (self.directory / "history.csv").write_text("\n".join(map(",".join, rows)) + "\n", encoding="utf-8")
+
+    def test_response_to_a_constant_acceleration(self):
+        """From rest an oscillator swings to (1 + exp(-pi zeta / sqrt(1 - zeta^2))) times where it would stay."""
+        for damping in (0.02, 0.05, 0.2):
+            spectrum = in_time.response(np.linspace(0, 20, 41), 3.0 * np.linspace(0, 20, 41), [1.0, 2.0, 7.0], damping)
+            np.testing.assert_allclose(spectrum, 3.0 * (1 + np.exp(-np.pi * damping / np.sqrt(1 - damping**2))), rtol=2e-3)
+
+    def test_response_to_a_jump_of_the_velocity(self):
+        """A base that starts to move at once: omega v exp(-zeta atan(1 / zeta)), also where the motion ends before the swing does."""
+        for end in (20.0, 0.1):
+            motion = (np.array([0.0, 1e-6, end]), np.array([0.0, 2.0, 2.0]))
+            exact = 2.0 * 2 * np.pi / np.array([1.0, 4.0]) * np.exp(-0.05 / np.sqrt(1 - 0.05**2) * np.arctan(np.sqrt(1 - 0.05**2) / 0.05))
+            np.testing.assert_allclose(in_time.response(*motion, [1.0, 4.0], 0.05), exact, rtol=4e-3)
+
+    def test_columns_and_sums_of_a_history(self):
+        self.in_time({"top": [1.0, 2.0], "ground": [0.5, -1.0]})
+        times, values = in_time.velocity_of(self.results, "top+ground")
+        np.testing.assert_array_equal(times, [0, 0.5, 1.0])
+        np.testing.assert_array_equal(values, [0, 1.5, 1.0])
+        with self.assertRaisesRegex(plot.ResultsError, "the columns of history.csv are top, ground"):
+            in_time.velocity_of(self.results, "crest")
+        with self.assertRaisesRegex(plot.ResultsError, "--component"):
+            in_time.spectrum(self.results, None)
+
+    def test_a_spectrum_is_drawn(self):
+        self.in_time({"top": list(np.sin(np.arange(40))), "ground": list(np.cos(np.arange(40)))})
+        figure = plot.spectrum(self.results, "ground,top+ground", plot.Units("m", "N"))
+        self.assertEqual(len(figure.axes[0].lines), 2)
+        self.assertEqual(figure.axes[0].get_ylabel(), "pseudo-acceleration (m / s²)")
+
+    def test_an_envelope_is_the_largest_of_all_increments(self):
+        bend, seat = in_time.envelopes(self.results)
+        np.testing.assert_allclose(bend.values["opening"], [0.002] * 3 + [0] * 6)
+        np.testing.assert_allclose(bend.values["pressure"], 2e6 * np.arange(1, 10))
+        np.testing.assert_allclose(seat.values["slip left"], [0, -0.002, -0.004])
+        np.testing.assert_array_equal(bend.times["pressure"], [2] * 9)
+        table = self.results.table("contact.csv")
+        table["slip"][table["step"] == 2] = 1e-4  # it slips back
+        seat = in_time.envelopes(self.results, ["_seat"])[0]
+        np.testing.assert_allclose(seat.values["slip"], [1e-4, -0.001, -0.002])
+        np.testing.assert_array_equal(seat.times["slip"], [2, 1, 1])
+        np.testing.assert_allclose(seat.values["slip left"], [1e-4] * 3)
+        axes = plot.envelope(self.results).axes
+        self.assertEqual([axis.get_ylabel().split(" ")[0] for axis in axes], ["opening", "", "pressure", "", "slip", ""])
+
+    def test_energies_in_time_are_those_that_are_not_nothing(self):
+        self.in_time({"top": [1.0, 2.0]})
+        for entry in self.results.summary["increments"]:
+            entry["energy"] = {"external": 2.0, "elastic": 1.0, "friction": 0.4, "kinetic": 0.5, "damping": 0.1, "impact": 1e-9}
+        self.assertEqual([curve.name for curve in curves.energies(self.results).curves],
+                         ["work of loads", "elastic", "friction", "kinetic", "damping"])
 
 
 class NoOverlap(WithResults):

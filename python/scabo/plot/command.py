@@ -10,11 +10,12 @@ import warnings
 from . import memory, screen
 
 KINDS = ("stress", "contact", "convergence", "mesh", "history", "cracks", "mechanism")
+ON_REQUEST = ("envelope", "spectrum")  # not drawn without being named
 NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
 FORMATS = (".png", ".svg", ".pdf")
-APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history"), "contact": ("contact",), "scale": ("stress", "mechanism"),
+APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history", "spectrum"), "contact": ("contact", "envelope"), "scale": ("stress", "mechanism"),
            "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress",),
-           "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism")}  # options that mean something for few kinds
+           "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism", *ON_REQUEST)}  # options that mean something for few kinds
 
 
 class Parser(argparse.ArgumentParser):
@@ -25,10 +26,11 @@ class Parser(argparse.ArgumentParser):
 def parser():
     options = Parser(prog="scabo plot", description="Draws pictures of a results directory")
     options.add_argument("directory", type=pathlib.Path, metavar="DIR", help="results of `scabo run`")
-    options.add_argument("--what", choices=(*KINDS, "all"), default="all", help="what is drawn; default: all that the results have")
+    options.add_argument("--what", choices=(*KINDS, *ON_REQUEST, "all"), default="all",
+                         help="what is drawn; default: all that the results have but envelope and spectrum")
     options.add_argument("--increment", type=int, metavar="N",
                          help="number from 1 over all steps, or of the mode; default -1, the last one")
-    options.add_argument("--component", metavar="NAME", help="of stress, contact or history; a wrong name lists those there are")
+    options.add_argument("--component", metavar="NAME", help="of stress, contact, history or spectrum; a wrong name lists those there are")
     options.add_argument("--contact", action="append", default=[], metavar="NAME", help="only this contact; may be repeated")
     options.add_argument("--scale", type=float, metavar="S", help="magnification of displacements; default: one that shows them")
     options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress, mesh, cracks and mechanism")
@@ -134,7 +136,7 @@ def refuse_other_dimension(options, results):
 
 def figures(options, results, increment):
     """Names and functions of the wanted figures."""
-    from . import contacts, cracks, curves, fields, mechanisms, meshes, solids
+    from . import contacts, cracks, curves, fields, in_time, mechanisms, meshes, solids
     from .units import Units
     units = Units.parse(options.units) if options.units else Units()
     if results.in_space:
@@ -151,6 +153,8 @@ def figures(options, results, increment):
         "mesh": lambda: meshes.mesh(results, units, window),
         "history": lambda: curves.history(results, component, units),
         "cracks": lambda: cracks.cracks(results, units, window),
+        "envelope": lambda: in_time.envelope(results, options.contact, units),
+        "spectrum": lambda: in_time.spectrum(results, component, units),
         "mechanism": lambda: mechanisms.mechanism(results, options.scale, units, window),
     }
 

@@ -244,9 +244,15 @@ def reactions(results):
 
 
 def energies(results):
-    """Of summary.json."""
-    curves = [Curve(name, results.times(), np.array([entry["energy"][key] for entry in results.increments], dtype=float))
-              for key, name in (("external", "work of loads"), ("elastic", "elastic"), ("friction", "friction"))]
+    """Of summary.json; in time those of the balance that are not nothing, the largest ones."""
+    terms = [("external", "work of loads"), ("elastic", "elastic"), ("friction", "friction")]
+    values = lambda key: np.array([entry["energy"].get(key) or 0.0 for entry in results.increments], dtype=float)
+    if results.in_time:
+        more = [("kinetic", "kinetic"), ("damping", "damping"), ("impact", "impact"), ("projection", "projection"), ("massless", "massless parts")]
+        sizes = {key: np.abs(values(key)).max(initial=0.0) for key, _ in more}
+        kept = sorted((key for key in sizes if sizes[key] > 1e-3 * np.abs(values("external")).max(initial=0.0)), key=sizes.get)[-3:]
+        terms += [term for term in more if term[0] in kept]
+    curves = [Curve(name, results.times(), values(key)) for key, name in terms]
     return Panel("energy", (results.time_axis, "number"), ("energy", "energy"), curves)
 
 

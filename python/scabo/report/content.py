@@ -26,7 +26,7 @@ def content_of(results):
         "verdict": words.verdict(summary, increments), "warnings": summary.get("warnings", []), "model": model, "modal": results.modal,
         "passes": summary.get("passes", []), "timing": summary.get("timing", {}), "memory": summary.get("peak_memory_bytes"),
         "modes": summary.get("modes", []) if results.modal else [], "total_mass": summary.get("total_mass"),
-        "certificate": words.certificate(increments), "time_axis": results.time_axis,
+        "certificate": words.certificate(increments), "time_axis": results.time_axis, "in_time": results.in_time,
         "increments": [row_of(entry, number, model, results.in_time) for number, entry in enumerate(increments, start=1)],
         "failed": [{key: entry.get(key) for key in ("step", "increment", "reached", "newton_iterations", "residual")} for entry in failed],
         "cracks": cracks_of(increments), "quantities": increments[-1].get("quantities", []) if increments else [],

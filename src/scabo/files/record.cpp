@@ -66,6 +66,14 @@ void add_values(const std::string& file, const std::vector<Line>& lines, std::si
   }
 }
 
+/// The third line: `VELOCITY TIME SERIES IN UNITS OF CM/S`.
+std::string unit_of_peer(std::string_view text) {
+  const auto says = [&](std::string_view word) { return text.find(word) != std::string_view::npos; };
+  if (says("DISPLACEMENT")) return "cm";
+  if (says("VELOCITY")) return "cm/s";
+  return says("CM/S") ? "cm/s2" : "g";
+}
+
 /// The fourth line has `NPTS= 4000, DT= .005 SEC`, or `4000 .005 NPTS, DT`.
 Record read_peer(const std::string& file, const std::vector<Line>& lines) {
   const Line& header = lines[3];
@@ -77,7 +85,7 @@ Record read_peer(const std::string& file, const std::vector<Line>& lines) {
                    "must have the number of values and their time step, as in NPTS= 4000, DT= .005 SEC");
     count = (*numbers)[0], step = (*numbers)[1];
   }
-  Record record{0.0, *step, {}, "g"};
+  Record record{0.0, *step, {}, unit_of_peer(lines[2].text)};
   add_values(file, lines, 4, record);
   if (static_cast<double>(record.values.size()) != *count)
     fail_in_file(file, header.number, 0,
@@ -138,10 +146,64 @@ Record read_table(const std::string& file, const std::vector<Line>& lines, int c
 
 }  // namespace
 
-double Record::largest() const {
+double Acceleration::largest() const {
   double largest = 0.0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
   return largest;
+}
+
+double Acceleration::velocity() const {
+  double v = 0.0;
+  for (std::size_t i = 1; i < times.size(); ++i) v += 0.5 * (times[i] - times[i - 1]) * (values[i - 1] + values[i]);
+  return v;
+}
+
+double Acceleration::displacement() const {
+  double v = 0.0, u = 0.0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double h = times[i] - times[i - 1];
+    u += h * v + h * h * (2.0 * values[i - 1] + values[i]) / 6.0;
+    v += 0.5 * h * (values[i - 1] + values[i]);
+  }
+  return u;
+}
+
+Acceleration acceleration_of(const Record& record, MotionKind kind, double factor) {
+  Acceleration made;
+  const std::vector<double>& of = record.values;
+  const double h = record.step;
+  const auto add = [&](std::size_t i, double value) {
+    made.times.push_back(record.begin + static_cast<double>(i) * h);
+    made.values.push_back(factor * value);
+  };
+  switch (kind) {
+    case MotionKind::acceleration:
+      for (std::size_t i = 0; i < of.size(); ++i) add(i, of[i]);
+      break;
+    case MotionKind::velocity:
+      for (std::size_t i = 0; i + 1 < of.size(); ++i)
+        for (const std::size_t end : {i, i + 1}) add(end, (of[i + 1] - of[i]) / h);
+      break;
+    case MotionKind::displacement:
+      add(0, 0.0);
+      for (std::size_t i = 1; i + 1 < of.size(); ++i) add(i, (of[i + 1] - 2.0 * of[i] + of[i - 1]) / (h * h));
+      add(of.size() - 1, 0.0);
+      break;
+  }
+  return made;
+}
+
+Baseline baseline_of(const Acceleration& acceleration, bool line) {
+  const double T = acceleration.times.back() - acceleration.times.front(), v = acceleration.velocity();
+  if (!line) return {v / T, 0.0};
+  // c0 T + c1 T^2/2 = v,  c0 T^2/2 + c1 T^3/6 = u
+  const double slope = 12.0 * (0.5 * v * T - acceleration.displacement()) / (T * T * T);
+  return {v / T - 0.5 * slope * T, slope};
+}
+
+void subtract(const Baseline& baseline, Acceleration& acceleration) {
+  for (std::size_t i = 0; i < acceleration.times.size(); ++i)
+    acceleration.values[i] -= baseline.constant + baseline.slope * (acceleration.times[i] - acceleration.times.front());
 }
 
 Record read_record(const std::string& file, int column) {

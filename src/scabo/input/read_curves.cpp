@@ -1,9 +1,6 @@
 // `curves`: tables, ramps and sines that factors of loads and supports follow, within a step or over several.
 #include <fmt/format.h>
 
-#include <filesystem>
-
-#include "scabo/files/record.hpp"
 #include "scabo/input/numbers.hpp"
 #include "scabo/input/reading.hpp"
 
@@ -65,76 +62,6 @@ std::optional<CurveSine> read_sine(Reading& reading, const Value& value) {
   return reading.report.count() > before ? std::nullopt : std::optional(sine);
 }
 
-/// Metres per second squared of one unit of a record, or the number itself; nothing if it is broken.
-std::optional<double> read_unit_of_record(Reading& reading, const Value& value) {
-  const std::string& text = value.node->text;
-  constexpr double standard_gravity = 9.80665;
-  if (value.node->kind == Node::Kind::scalar) {
-    if (text == "g") return standard_gravity;
-    if (text == "m/s2") return 1.0;
-    if (text == "cm/s2" || text == "gal") return 0.01;
-    if (std::holds_alternative<double>(parse_number(text))) return read_number(reading.report, value);
-  }
-  reading.report.error(value, "must be g, m/s2, cm/s2, or the number by which values are multiplied");
-  return {};
-}
-
-/// Whether the largest value of a record can be that of an earthquake in its unit; else it is reported.
-bool is_plausible(Reading& reading, const Value& value, double largest, const std::string& unit, double factor) {
-  constexpr double most = 30.0, least = 1e-3, standard_gravity = 9.80665;  // 3 g and a ten-thousandth
-  const double peak = largest * factor;
-  const bool named = unit == "g" || unit == "m/s2" || unit == "cm/s2" || unit == "gal";
-  if (!named || (peak < most && peak > least)) return true;
-  reading.report.error(value, fmt::format("the largest value of the record is {:.4g}, which in {} is {:.3g} times the "
-                                          "acceleration of gravity: the record has another unit; if it is right, give "
-                                          "'unit' as the number {:g}",
-                                          largest, unit, peak / standard_gravity, factor));
-  return false;
-}
-
-/// `{file: koyna.AT2, unit: g}`: an acceleration over time, 0 before and after it.
-std::optional<CurveTable> read_record_of(Reading& reading, const Value& value) {
-  const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"file", "unit", "column"}, "{file: koyna.AT2, unit: g}");
-  const auto name = map.need("file");
-  const auto given = map.get("unit"), column = map.get("column");
-  const auto file = name ? read_text(reading.report, *name) : std::nullopt;
-  const auto number = column ? read_integer(reading.report, *column, {2, 1000}) : std::optional<long>(2);
-  if (!file || !number) return {};
-  const std::string path = (std::filesystem::path(reading.model.file).parent_path() / *file).string();
-  reading.model.files.push_back(path);
-  files::Record record;
-  try {
-    record = files::read_record(path, static_cast<int>(*number));
-  } catch (const InputError& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics())
-      reading.report.error(*name, diagnostic.at.line > 0
-                                      ? fmt::format("{}:{}: {}", *file, diagnostic.at.line, diagnostic.message)
-                                      : fmt::format("{}: {}", *file, diagnostic.message));
-    return {};
-  }
-  if (!given && !record.unit) {
-    reading.report.error(value, "needs 'unit': g, m/s2, cm/s2, or the number by which values are multiplied");
-    return {};
-  }
-  std::optional<double> factor;
-  if (given)
-    factor = read_unit_of_record(reading, *given);
-  else
-    factor = *record.unit == "g" ? 9.80665 : 0.01;
-  if (!factor || reading.report.count() > before) return {};
-  if (!is_plausible(reading, value, record.largest(), given ? given->node->text : *record.unit, *factor)) return {};
-  CurveTable table;
-  const auto last = static_cast<double>(record.values.size() - 1);
-  table.first = record.begin;
-  table.last = record.begin + last * record.step;
-  table.points.push_back({0.0, 0.0});
-  for (std::size_t i = 0; i < record.values.size(); ++i)
-    table.points.push_back({static_cast<double>(i) / last, *factor * record.values[i]});
-  table.points.push_back({1.0, 0.0});
-  return table;
-}
-
 /// `[press, shake]`, of equal length, or `{press: 1, shake: 3}`, with their lengths.
 std::optional<CurveOver> read_over(Reading& reading, const Value& value) {
   constexpr const char* example = "[press, shake] or {press: 1, shake: 3}";
@@ -188,7 +115,7 @@ void read_curves(Reading& reading, const Value& value) {
       curve.kind = *read;
     } else {
       const auto read = table    ? read_curve_table(reading, *table)
-                        : record ? read_record_of(reading, *record)
+                        : record ? read_record_of(reading, *record, curve)
                                  : read_ramp(reading, *ramp);
       if (!read) continue;
       curve.kind = *read;

@@ -119,12 +119,32 @@ void read_initial(Reading& reading, const Value& value) {
   }
 }
 
+/// `added_mass: [{on: dam.upstream, level: 92, density: 1000}]`.
+void read_added_masses(Reading& reading, const Value& value) {
+  constexpr const char* example = "{on: dam.upstream, level: 92, density: 1000}";
+  const auto items = read_list(reading.report, value, fmt::format("[{}]", example));
+  for (const Value& item : items.value_or(std::vector<Value>{})) {
+    const std::size_t before = reading.report.count();
+    const MapReader map(reading.report, item, {"on", "level", "bottom", "density", "up"}, example);
+    AddedMass water;
+    water.source = item.source();
+    if (const auto on = map.need("on")) water.on = read_place(reading, *on).place;
+    water.level = number_or_unread(reading, map.need("level"));
+    water.density = number_or_unread(reading, map.need("density"));
+    if (const auto bottom = map.get("bottom")) water.bottom = read_number(reading.report, *bottom);
+    if (const auto up = map.get("up"))
+      if (const auto direction = read_vector(reading.report, *up))
+        water.up = direction->norm() > 0.0 ? Vec2(direction->stableNormalized()) : Vec2(Vec2::Zero());
+    if (water.on && reading.report.count() == before) reading.model.added_masses.push_back(std::move(water));
+  }
+}
+
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs",
-                       "loads", "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output",
-                       "tolerance", "restart", "initial"},
+                      {"scabo",   "title",  "parameters",         "analysis", "materials", "bodies",    "supports",
+                       "springs", "loads",  "contact_properties", "contacts", "ties",      "curves",    "steps",
+                       "solver",  "output", "tolerance",          "restart",  "initial",   "added_mass"},
                       "'scabo: 1' and sections",
                       {{"units", about_units}, {"unit", about_units}, {"unit_system", about_units}});
   if (!map.is_map()) {
@@ -161,6 +181,7 @@ void read_sections(Reading& reading, const Value& root) {
   reading.steps_known = reading.report.count() == before_steps;
   find_named_steps(reading);
   if (const auto initial = map.get("initial")) read_initial(reading, *initial);
+  if (const auto water = map.get("added_mass")) read_added_masses(reading, *water);
   if (const auto output = map.get("output")) read_output(reading, *output);
   if (const auto tolerance = map.get("tolerance"))
     read_tolerance(reading, *tolerance);

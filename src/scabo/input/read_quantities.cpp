@@ -32,6 +32,8 @@ constexpr QuantityWord quantity_words[] = {
 constexpr QuantityWord history_words[] = {{"force_x", Quantity::Kind::contact_force, 0},
                                           {"force_y", Quantity::Kind::contact_force, 1},
                                           {"moment", Quantity::Kind::contact_moment, 0},
+                                          {"vx", Quantity::Kind::velocity, 0},
+                                          {"vy", Quantity::Kind::velocity, 1},
                                           {"max_pressure", Quantity::Kind::max_pressure, 0},
                                           {"centre_x", Quantity::Kind::centre_of_pressure, 0},
                                           {"centre_y", Quantity::Kind::centre_of_pressure, 1},
@@ -51,6 +53,14 @@ constexpr QuantityWord history_words[] = {{"force_x", Quantity::Kind::contact_fo
                                           {"K_tt", Quantity::Kind::corner_stress, 0},
                                           {"K_rt", Quantity::Kind::corner_stress, 1}};
 
+/// Of the whole model, with a history only.
+constexpr QuantityWord model_words[] = {
+    {"external_energy", Quantity::Kind::external_energy, 0},  {"friction_energy", Quantity::Kind::friction_energy, 0},
+    {"kinetic_energy", Quantity::Kind::energy_in_time, 0},    {"damping_energy", Quantity::Kind::energy_in_time, 1},
+    {"impact_energy", Quantity::Kind::energy_in_time, 2},     {"projection_energy", Quantity::Kind::energy_in_time, 3},
+    {"massless_energy", Quantity::Kind::energy_in_time, 4},   {"ground_velocity_x", Quantity::Kind::ground_velocity, 0},
+    {"ground_velocity_y", Quantity::Kind::ground_velocity, 1}};
+
 class QuantityReader {
  public:
   /// `for_history`: also numbers without an error bar.
@@ -63,18 +73,12 @@ class QuantityReader {
     quantity_.name = *text;
     quantity_.source = value_.source();
     if (*text == "elastic_energy") return quantity_;
-    constexpr const char* in_time[] = {"kinetic_energy", "damping_energy", "impact_energy", "projection_energy",
-                                       "massless_energy"};
-    for (int k = 0; for_history_ && k < 5; ++k)
-      if (*text == in_time[k]) {
-        quantity_.kind = Quantity::Kind::energy_in_time;
-        quantity_.component = k;
+    for (const QuantityWord& known : model_words)
+      if (for_history_ && *text == known.word) {
+        quantity_.kind = known.kind;
+        quantity_.component = known.component;
         return quantity_;
       }
-    if (for_history_ && (*text == "external_energy" || *text == "friction_energy")) {
-      quantity_.kind = *text == "external_energy" ? Quantity::Kind::external_energy : Quantity::Kind::friction_energy;
-      return quantity_;
-    }
     const auto dot = text->rfind('.');
     const std::string word = dot == std::string::npos ? *text : text->substr(dot + 1);
     const auto* found = std::find_if(std::begin(quantity_words), std::end(quantity_words),
@@ -102,6 +106,7 @@ class QuantityReader {
       case Quantity::Kind::reaction:
         return of_support(name);
       case Quantity::Kind::displacement:
+      case Quantity::Kind::velocity:
         return name.find('.') == std::string::npos ? of_point(name) : of_corner(name);
       case Quantity::Kind::stress_intensity:
       case Quantity::Kind::t_stress:
@@ -334,6 +339,7 @@ std::optional<EdgeResultant> read_edge_resultant(Reading& reading, const MapRead
   const ReadPlace place = read_place(reading, *map.get("edge"));
   if (const auto about = map.get("about")) edge.about = read_vector(reading.report, *about).value_or(Vec2::Zero());
   if (const auto axes = map.get("axes")) edge.axes = read_axes(reading, *axes).value_or(ResultAxes{});
+  map.refuse("relative_to", "belongs to a displacement: leave it out");
   map.refuse("displacement", "'edge' already says what is wanted: remove one of the two");
   if (!place.place || reading.report.count() > before) return {};
   edge.on = *place.place;
@@ -344,6 +350,7 @@ std::optional<PlaceDisplacement> read_place_displacement(Reading& reading, const
   const std::size_t before = reading.report.count();
   PlaceDisplacement place;
   const auto of = QuantityReader(reading, *map.get("displacement"), true).read_point();
+  if (const auto other = map.get("relative_to")) place.relative_to = QuantityReader(reading, *other, true).read_point();
   if (const auto axes = map.get("axes")) place.axes = read_axes(reading, *axes).value_or(ResultAxes{});
   map.refuse("about", "is the point of a moment, and a displacement has none: leave it out");
   if (!of || reading.report.count() > before) return {};
@@ -353,10 +360,11 @@ std::optional<PlaceDisplacement> read_place_displacement(Reading& reading, const
 
 /// A history that is a map.
 std::optional<decltype(HistoryItem::of)> read_history_map(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"section", "edge", "displacement", "about", "axes"}, history_forms);
+  const MapReader map(reading.report, value, {"section", "edge", "displacement", "relative_to", "about", "axes"},
+                      history_forms);
   if (!map.is_map()) return {};
   if (const auto cut = map.get("section")) {
-    for (const char* key : {"edge", "displacement", "about", "axes"})
+    for (const char* key : {"edge", "displacement", "relative_to", "about", "axes"})
       map.refuse(key, "does not go with 'section', which has axes along and across its line: leave it out");
     return read_section(reading, *cut);
   }

@@ -110,6 +110,8 @@ void read_contacts_and_ties(Reading& reading, const std::optional<Value>& proper
 void find_contacts_of_loads(Reading& reading);
 /// Before the steps, which refer to them.
 void read_curves(Reading& reading, const Value& value);
+/// `record` of a curve: the table of an acceleration, and Curve::record.
+std::optional<CurveTable> read_record_of(Reading& reading, const Value& value, Curve& curve);
 /// `growth` of a step whose factors are known, as are those of the step `before`; `supports`: those named by the user.
 void read_growth(Reading& reading, const Value& value, const Index& supports, const Step& before, Step& step);
 /// If the section is absent, there is one step that takes everything to factor 1.

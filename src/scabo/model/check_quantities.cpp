@@ -124,6 +124,11 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, model.bodies.size());
       checking.vector(path, "at", quantity.at);
       break;
+    case Quantity::Kind::velocity:
+      if (!is_dynamic(model)) checking.error(path, "", "belongs to steps in time, and the model has none");
+      if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, model.bodies.size());
+      checking.vector(path, "at", quantity.at);
+      break;
     case Quantity::Kind::stress_intensity:
     case Quantity::Kind::t_stress:
     case Quantity::Kind::energy_release:
@@ -154,6 +159,7 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
     case Quantity::Kind::external_energy:
     case Quantity::Kind::friction_energy:
       break;
+    case Quantity::Kind::ground_velocity:
     case Quantity::Kind::energy_in_time:
       if (!is_dynamic(model)) checking.error(path, "", "belongs to steps in time, and the model has none");
       break;
@@ -223,6 +229,7 @@ void check_history(Checking& checking) {
     if (const auto* edge = std::get_if<EdgeResultant>(&item.of)) check_edge_resultant(checking, path, *edge);
     if (const auto* place = std::get_if<PlaceDisplacement>(&item.of)) {
       check_quantity(checking, path, place->of, false);
+      if (place->relative_to) check_quantity(checking, path, *place->relative_to, false);
       check_result_axes(checking, path, place->axes);
     }
   }

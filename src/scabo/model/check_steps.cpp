@@ -124,6 +124,22 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
   check(step.support_curves, &Step::support_factors, true);
 }
 
+/// A record of the ground is an acceleration, and a support is moved by a displacement.
+void check_records_of_supports(Checking& checking, const std::string& path, const Step& step) {
+  const Model& model = checking.model;
+  for (std::size_t i = 0; i < step.support_factors.size(); ++i) {
+    const int curve = support_curve(step, i);
+    if (curve < 0 || static_cast<std::size_t>(curve) >= model.curves.size()) continue;
+    const Curve& of = model.curves[static_cast<std::size_t>(curve)];
+    if (of.record)
+      checking.error(
+          path, "loads." + model.supports[i].name,
+          fmt::format("curve '{}' is the acceleration of a record, and a support is moved by a displacement: "
+                      "let the ground move by it, dynamic: {{ground: {{x: {}}}}}",
+                      of.name, of.name));
+  }
+}
+
 /// In time curves may begin anywhere, but supports do not jump.
 void check_dynamic_step(Checking& checking, const std::string& path, const Step& step, const Step* before) {
   const Model& model = checking.model;
@@ -325,6 +341,7 @@ void check_steps(Checking& checking) {
       return;
     }
     const Step* const before = i > 0 ? &model.steps[i - 1] : nullptr;
+    check_records_of_supports(checking, path, step);
     if (step.dynamic)
       check_dynamic_step(checking, path, step, before);
     else

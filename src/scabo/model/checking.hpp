@@ -89,6 +89,8 @@ void check_quantities(Checking& checking);
 void check_density(Checking& checking);
 /// Velocities before the first time step.
 void check_initial(Checking& checking);
+/// Water that moves with edges.
+void check_added_masses(Checking& checking);
 void check_expansion(Checking& checking);
 void check_bodies_held(Checking& checking);
 void check_something_loads(Checking& checking);

@@ -66,6 +66,35 @@ double mean_between(const Curve& curve, double from, double to, double duration)
   return sum / (b - a);
 }
 
+GroundMotion ground_motion(const Curve& acceleration, double duration, double time) {
+  GroundMotion motion;
+  // Between these times the acceleration is linear, or they are 1/256 of a sine's period.
+  std::vector<double> times{0.0, time};
+  if (const auto* table = std::get_if<CurveTable>(&acceleration.kind)) {
+    for (const CurveTable::Point& point : table->points)
+      times.push_back(std::clamp(table->first + point.at * (table->last - table->first), 0.0, time));
+  } else {
+    const double parts =
+        std::ceil(256.0 * std::max(1.0, std::get<CurveSine>(acceleration.kind).periods * time / duration));
+    for (double k = 1.0; k < parts; k += 1.0) times.push_back(k / parts * time);
+  }
+  std::sort(times.begin(), times.end());
+  constexpr double rounding = 1e-12;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double h = times[i] - times[i - 1];
+    if (!(h > rounding * time)) continue;  // two points of a jump
+    // The means of both halves, with which a line is integrated exactly, and without a jump at its ends.
+    const double middle = 0.5 * (times[i - 1] + times[i]);
+    const double first = mean_between(acceleration, times[i - 1], middle, duration),
+                 second = mean_between(acceleration, middle, times[i], duration);
+    const double mean = 0.5 * (first + second), rise = 2.0 * (second - first);
+    motion.largest = std::max({motion.largest, std::abs(mean - 0.5 * rise), std::abs(mean + 0.5 * rise)});
+    motion.displacement += h * motion.velocity + h * h * (0.5 * mean - rise / 12.0);
+    motion.velocity += h * mean;
+  }
+  return motion;
+}
+
 Curve piece_of(const Curve& curve, double from, double to) {
   Curve piece = curve;
   if (auto* sine = std::get_if<CurveSine>(&piece.kind)) {

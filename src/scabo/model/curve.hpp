@@ -1,6 +1,8 @@
 // A factor that varies within a step other than linearly.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,10 +29,20 @@ struct CurveSine {
   double turns = 0.0;    ///< at the start of the step, >= 0: of a curve over several steps
 };
 
+/// Of a curve that is the acceleration of a recorded ground motion: where it comes from.
+struct RecordOfGround {
+  std::string file;
+  std::string of;  ///< what the file has: `acceleration`, `velocity` or `displacement`
+  /// What a correction of the baseline has taken off: constant, and per time since the begin of the record. Empty: none
+  /// was asked for.
+  std::optional<std::array<double, 2>> baseline;
+};
+
 struct Curve {
   std::string name;
   std::variant<CurveTable, CurveSine> kind;
   Source source;
+  std::optional<RecordOfGround> record = {};
 };
 
 /// The part of a curve between `from` and `to`, as a curve from 0 to 1, of one of the steps that a curve runs over.
@@ -45,6 +57,14 @@ double value_at(const Curve& curve, double time, double duration);
 
 /// Mean of value_at() between two times.
 double mean_between(const Curve& curve, double from, double to, double duration);
+
+/// What an acceleration that follows a curve has done since the begin of a step in time of this duration, at a time in
+/// it.
+struct GroundMotion {
+  double largest = 0.0;  ///< acceleration
+  double velocity = 0.0, displacement = 0.0;
+};
+GroundMotion ground_motion(const Curve& acceleration, double duration, double time);
 
 /// Parts of the step, between 0 and 1, where the curve has a corner or an extreme, ascending.
 std::vector<double> corners_of(const Curve& curve);

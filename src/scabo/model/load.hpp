@@ -128,6 +128,18 @@ struct AtRest {
   int spring = -1;  ///< index into Model::springs; the load acts on its place and has its name
 };
 
+/// Water that moves with an edge of an elastic body (Westergaard 1933): at the depth y below the level, the mass
+/// 7/8 density sqrt(H y) per area moves with the motion along the normal, H being the depth of the reservoir. It has
+/// inertia and neither weight nor pressure: that is Water.
+struct AddedMass {
+  std::optional<Place> on;
+  double level = 0.0;            ///< up . x of the surface
+  std::optional<double> bottom;  ///< up . x of the bottom of the reservoir; empty: of the lowest node of the edge
+  double density = 0.0;          ///< mass / length^3, > 0
+  Vec2 up = Vec2(0.0, 1.0);      ///< unit vector
+  Source source;
+};
+
 struct Load {
   std::string name;
   std::optional<Place> on;  ///< empty: gravity, temperature or stress of every elastic body, or in contacts

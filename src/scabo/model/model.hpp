@@ -89,6 +89,7 @@ struct Model {
   std::vector<Warning> warnings;  ///< about input that has no effect in this analysis, or is named otherwise
   Output output;
   std::optional<QuantityTolerance> tolerance;  ///< meshes are refined until the bar of a number is that small
+  std::vector<AddedMass> added_masses;         ///< water that moves with edges, in time and in modes
 };
 
 /// Whether some step is one in time.

@@ -71,7 +71,8 @@ struct EdgeResultant {
 
 /// Displacement of a point or corner along axes of its own.
 struct PlaceDisplacement {
-  Quantity of;  ///< its point; the component is not used
+  Quantity of;                               ///< its point; the component is not used
+  std::optional<Quantity> relative_to = {};  ///< another point, whose displacement is taken off
   ResultAxes axes;
 };
 

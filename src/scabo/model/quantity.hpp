@@ -27,6 +27,8 @@ struct Quantity {
     external_energy,     ///< work of loads and reactions, force times length
     friction_energy,     ///< dissipated, force times length
     energy_in_time,      ///< kinetic (component 0), damping (1), impact (2), projection (3), massless (4)
+    velocity,            ///< of a point, relative to the ground, length / time
+    ground_velocity,     ///< of the ground, which was at rest before the first step in time, length / time
     spring_force,        ///< of springs on their body, force
     pairs_in_state,      ///< of a contact: how many of its pairs are open, stick or slip (component 0, 1, 2)
     broken_pairs,        ///< of a contact with cohesion: how many have lost it
@@ -40,9 +42,9 @@ struct Quantity {
   };
   Kind kind = Kind::elastic_energy;
   std::string name;        ///< as given by the user
-  int index = -1;          ///< contact, support, spring or body; displacement: -1 for the body that contains the point
+  int index = -1;          ///< contact, support, spring or body; displacement, velocity: -1 for the body with the point
   int component = 0;       ///< 0: x or K_I, 1: y or K_II; others as above
-  Vec2 at = Vec2::Zero();  ///< displacement: the point
+  Vec2 at = Vec2::Zero();  ///< displacement, velocity: the point
   std::string crack;  ///< `flaw`; `flaw.start` or `flaw.end` if both ends are tips; the corner at the scaling centre
   Source source;
 

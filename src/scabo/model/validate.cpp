@@ -247,6 +247,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
     if (model.initial.empty() && !may_be_shaken) check_something_loads(checking);
     check_initial(checking);
   }
+  check_added_masses(checking);
   if (!checking.gaps.steps) {
     if (!modal) check_never_applied(checking);
     if (!modal) check_fits(checking);

@@ -28,11 +28,13 @@ std::pair<std::string, std::string> names_along(const model::ResultAxes& axes, c
   return {".normal", ".tangential"};
 }
 
-/// The point whose displacement is wanted, if one is.
+/// The point whose displacement or velocity is wanted, if one is.
 const model::Quantity* point_of(const model::HistoryItem& item) {
   if (const auto* place = std::get_if<model::PlaceDisplacement>(&item.of)) return &place->of;
   const auto* quantity = std::get_if<model::Quantity>(&item.of);
-  return quantity && quantity->kind == model::Quantity::Kind::displacement ? quantity : nullptr;
+  const bool moves = quantity && (quantity->kind == model::Quantity::Kind::displacement ||
+                                  quantity->kind == model::Quantity::Kind::velocity);
+  return moves ? quantity : nullptr;
 }
 
 std::vector<std::string> columns_of(const model::HistoryItem& item) {
@@ -48,7 +50,7 @@ std::vector<std::string> columns_of(const model::HistoryItem& item) {
   return {item.name + ".normal", item.name + ".shear", item.name + ".moment"};
 }
 
-/// Body and position of a displacement.
+/// Body and position of a displacement or velocity.
 mesh::OutputPoint point_of(const model::Model& model, const model::Quantity& quantity) {
   mesh::OutputPoint point;
   point.at = quantity.at;
@@ -90,11 +92,16 @@ void History::prepare(const analysis::StaticSolution& solution) {
   pairings_ = solution.pairings;
   std::vector<mesh::OutputPoint> points;
   place_.assign(items_.size(), 0);
+  other_place_.assign(items_.size(), 0);
   sections_.assign(items_.size(), {});
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (const auto* quantity = point_of(items_[i])) {
       place_[i] = points.size();
       points.push_back(point_of(solution.model, *quantity));
+      const auto* place = std::get_if<model::PlaceDisplacement>(&items_[i].of);
+      if (!place || !place->relative_to) continue;
+      other_place_[i] = points.size();
+      points.push_back(point_of(solution.model, *place->relative_to));
       continue;
     }
     if (!std::holds_alternative<model::Section>(items_[i].of)) continue;
@@ -107,26 +114,35 @@ void History::prepare(const analysis::StaticSolution& solution) {
   evaluation_.emplace(solution, std::move(points), increments);
 }
 
-void History::take(std::size_t column, double value, int step, int increment) {
+void History::take(std::size_t column, const HistoryExtremes::Value& here) {
   HistoryExtremes& of = columns_[column];
-  const HistoryExtremes::Value here{value, step, increment};
   of.last = here;
-  if (!of.least || value < of.least->value) of.least = here;
-  if (!of.greatest || value > of.greatest->value) of.greatest = here;
+  if (!of.least || here.value < of.least->value) of.least = here;
+  if (!of.greatest || here.value > of.greatest->value) of.greatest = here;
+}
+
+std::vector<PointResult> History::velocities(const analysis::StaticSolution& solution,
+                                             const analysis::IncrementResult& increment) const {
+  const bool asked = std::any_of(items_.begin(), items_.end(), [](const model::HistoryItem& item) {
+    const auto* quantity = std::get_if<model::Quantity>(&item.of);
+    return quantity && quantity->kind == model::Quantity::Kind::velocity;
+  });
+  return asked ? evaluation_->at(solution, analysis::with_velocities(increment)) : std::vector<PointResult>();
 }
 
 std::string History::row(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment) {
   if (!evaluation_ || pairings_ != solution.pairings) prepare(solution);
   const std::vector<PointResult> values =
       evaluation_->points().empty() ? std::vector<PointResult>() : evaluation_->at(solution, increment);
+  const std::vector<PointResult> moving = velocities(solution, increment);
+  const double time = time_of(increment, model::is_dynamic(solution.model));
   fmt::memory_buffer line;
-  fmt::format_to(std::back_inserter(line), "{},{},{}", increment.step, increment.increment,
-                 time_of(increment, model::is_dynamic(solution.model)));
+  fmt::format_to(std::back_inserter(line), "{},{},{}", increment.step, increment.increment, time);
   std::size_t column = 0;
   const auto add = [&](const std::optional<double>& value) {
     if (value && std::isfinite(*value)) {
       fmt::format_to(std::back_inserter(line), ",{}", *value);
-      take(column, *value, increment.step, increment.increment);
+      take(column, {*value, increment.step, increment.increment, time});
     } else {
       line.push_back(',');
       columns_[column].last.reset();
@@ -143,17 +159,18 @@ std::string History::row(const analysis::StaticSolution& solution, const analysi
       continue;
     }
     if (const auto* place = std::get_if<model::PlaceDisplacement>(&items_[i].of)) {
-      const Vec2& u = values[place_[i]].values.displacement;
+      Vec2 u = values[place_[i]].values.displacement;
+      if (place->relative_to) u -= values[other_place_[i]].values.displacement;
       add(u.dot(place->axes.first));
       add(u.dot(place->axes.second()));
       continue;
     }
     if (const auto* quantity = std::get_if<model::Quantity>(&items_[i].of)) {
-      if (quantity->kind == model::Quantity::Kind::displacement)
-        add(values[place_[i]].absent ? std::nullopt
-                                     : std::optional(values[place_[i]].values.displacement[quantity->component]));
-      else
-        add(analysis::value_of(solution, increment, *quantity));
+      const bool by_velocity = quantity->kind == model::Quantity::Kind::velocity;
+      const PointResult* at = point_of(items_[i]) ? &(by_velocity ? moving : values)[place_[i]] : nullptr;
+      add(!at          ? analysis::value_of(solution, increment, *quantity)
+          : at->absent ? std::nullopt
+                       : std::optional(at->values.displacement[quantity->component]));
       continue;
     }
     const SectionPoints& section = sections_[i];
@@ -161,9 +178,7 @@ std::string History::row(const analysis::StaticSolution& solution, const analysi
     double moment = 0.0;
     for (std::size_t k = 0; k < section.points.size(); ++k) {
       const SectionPoint& point = section.points[k];
-      const element::Vec3& stress = values[section.first + k].values.stress;
-      const Vec2 traction(stress[0] * point.normal.x() + stress[2] * point.normal.y(),
-                          stress[2] * point.normal.x() + stress[1] * point.normal.y());
+      const Vec2 traction = element::traction_of(values[section.first + k].values.stress, point.normal);
       force += point.weight * traction;
       moment += point.weight * cross(point.arm, traction);
     }
@@ -186,7 +201,8 @@ void History::restore(std::string_view table) {
     if (numbers.size() != columns_.size() + before || !numbers[0] || !numbers[1]) continue;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (numbers[c + before])
-        take(c, *numbers[c + before], static_cast<int>(*numbers[0]), static_cast<int>(*numbers[1]));
+        take(c, {*numbers[c + before], static_cast<int>(*numbers[0]), static_cast<int>(*numbers[1]),
+                 numbers[2].value_or(0.0)});
       else
         columns_[c].last.reset();
     }

@@ -30,6 +30,7 @@ struct HistoryExtremes {
   struct Value {
     double value = 0.0;
     int step = 0, increment = 0;
+    double time = 0.0;  ///< time_of()
   };
   std::optional<Value> last, least, greatest;  ///< without any value: empty
 };
@@ -55,13 +56,17 @@ class History {
     std::size_t first = 0;  // in the points of the evaluation
   };
   void prepare(const analysis::StaticSolution& solution);
-  void take(std::size_t column, double value, int step, int increment);
+  /// Of all places; empty where no velocity is asked for.
+  std::vector<PointResult> velocities(const analysis::StaticSolution& solution,
+                                      const analysis::IncrementResult& increment) const;
+  void take(std::size_t column, const HistoryExtremes::Value& here);
 
   std::vector<model::HistoryItem> items_;
   std::vector<HistoryExtremes> columns_;
   std::optional<PointEvaluation> evaluation_;  // of all places and sections; empty before the first increment
   int pairings_ = 0;                           // StaticSolution::pairings of the mesh of the evaluation
-  std::vector<std::size_t> place_;             // [item]: its point in the evaluation, of a displacement
+  std::vector<std::size_t> place_;             // [item]: its point in the evaluation, of a displacement or velocity
+  std::vector<std::size_t> other_place_;       // [item]: that of PlaceDisplacement::relative_to
   std::vector<SectionPoints> sections_;        // [item]; empty for numbers
 };
 

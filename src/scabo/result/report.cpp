@@ -95,6 +95,25 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
+std::string report_ground(const model::Model& model) {
+  std::string text;
+  for (const model::Step& step : model.steps)
+    for (std::size_t k = 0; step.dynamic && k < 2; ++k) {
+      if (step.dynamic->ground[k] < 0) continue;
+      const model::Curve& curve = model.curves[static_cast<std::size_t>(step.dynamic->ground[k])];
+      const model::GroundMotion motion = model::ground_motion(curve, step.dynamic->duration, step.dynamic->duration);
+      text += fmt::format("ground along {} in step {} by {}", k == 0 ? 'x' : 'y', step.name, curve.name);
+      if (curve.record) text += fmt::format(" ({} of {})", curve.record->of, curve.record->file);
+      text += fmt::format(": acceleration {:.4g} at most, velocity {:.3g} and displacement {:.3g} at the end",
+                          motion.largest, motion.velocity, motion.displacement);
+      if (curve.record && curve.record->baseline)
+        text += fmt::format("; baseline {:.4g} {:+.4g} t taken off", (*curve.record->baseline)[0],
+                            (*curve.record->baseline)[1]);
+      text += '\n';
+    }
+  return text;
+}
+
 std::string report_header(const model::Model& model, const ModelSizes& sizes) {
   std::string text = fmt::format("Scabo {}\n", version());
   if (!model.title.empty()) text += model.title + '\n';
@@ -106,6 +125,7 @@ std::string report_header(const model::Model& model, const ModelSizes& sizes) {
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
   text += ", " + count(sizes.contact_pairs, "contact pair") + '\n';
   if (model.analysis.revolved()) text += "bodies of revolution: forces are those of the whole circumference\n";
+  text += report_ground(model);
   for (const model::Contact& contact : model.contacts)
     text +=
         fmt::format("contact {}: {} on {}; {}\n", contact.name, contact.b.text, contact.a.text, describe_law(contact));

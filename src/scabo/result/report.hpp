@@ -12,7 +12,11 @@ namespace scabo::result {
 /// A table with columns of a common width: the first left-aligned, the others right-aligned.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
-/// Version, title, sizes and the law of every contact.
+/// What moves the ground in each step in time, one line each: its largest acceleration, and its velocity and
+/// displacement at the end, which show whether a record needs a correction of its baseline.
+std::string report_ground(const model::Model& model);
+
+/// Version, title, sizes, motion of the ground and the law of every contact.
 std::string report_header(const model::Model& model, const ModelSizes& sizes);
 
 /// Degrees of freedom and estimated error of every mesh of the refinement; empty without refinement.

@@ -265,16 +265,41 @@ Json json_of(const analysis::Mechanism& mechanism, const model::Model& model) {
   return json;
 }
 
-Json json_of(const HistoryExtremes& column) {
+Json json_of(const HistoryExtremes& column, bool in_time) {
   const auto value = [](const std::optional<HistoryExtremes::Value>& of) { return of ? Json(of->value) : Json(); };
   const auto place = [](const std::optional<HistoryExtremes::Value>& of) {
     return of ? Json{of->step, of->increment} : Json();
   };
-  return {{"last", value(column.last)},
-          {"min", value(column.least)},
-          {"min_at", place(column.least)},
-          {"max", value(column.greatest)},
-          {"max_at", place(column.greatest)}};
+  Json json = {{"last", value(column.last)},
+               {"min", value(column.least)},
+               {"min_at", place(column.least)},
+               {"max", value(column.greatest)},
+               {"max_at", place(column.greatest)}};
+  if (in_time && column.least) json["min_time"] = column.least->time, json["max_time"] = column.greatest->time;
+  return json;
+}
+
+/// What moves the ground in each step, along x and y.
+Json ground_content(const model::Model& model) {
+  Json list = Json::array();
+  for (const model::Step& step : model.steps)
+    for (std::size_t k = 0; step.dynamic && k < 2; ++k) {
+      if (step.dynamic->ground[k] < 0) continue;
+      const model::Curve& curve = model.curves[static_cast<std::size_t>(step.dynamic->ground[k])];
+      const model::GroundMotion motion = model::ground_motion(curve, step.dynamic->duration, step.dynamic->duration);
+      Json entry = {{"step", step.name},
+                    {"along", k == 0 ? "x" : "y"},
+                    {"curve", curve.name},
+                    {"largest_acceleration", number_or_null(motion.largest)},
+                    {"velocity_at_end", number_or_null(motion.velocity)},
+                    {"displacement_at_end", number_or_null(motion.displacement)}};
+      if (curve.record) {
+        entry["record"] = {{"file", curve.record->file}, {"of", curve.record->of}};
+        if (curve.record->baseline) entry["record"]["baseline"] = *curve.record->baseline;
+      }
+      list.push_back(std::move(entry));
+    }
+  return list;
 }
 
 Json json_of(const analysis::Timing& timing, bool running) {
@@ -384,9 +409,11 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
     json["increments"].push_back(json_of(solution.increments[i], solution.model));
   if (solution.grown) json["growth"] = json_of(*solution.grown);
   if (solution.limit) json["limit"] = json_of(*solution.limit, solution.model);
+  const bool in_time = model::is_dynamic(solution.model);
+  if (model::is_shaken(solution.model)) json["ground"] = ground_content(solution.model);
   if (!history.empty()) {
     json["history"] = Json::object();
-    for (const HistoryExtremes& column : history) json["history"][column.column] = json_of(column);
+    for (const HistoryExtremes& column : history) json["history"][column.column] = json_of(column, in_time);
   }
   json["timing"] = json_of(timing, running);
   json["peak_memory_bytes"] = value_or_null(peak_memory());

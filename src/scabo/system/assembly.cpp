@@ -1,6 +1,7 @@
 #include "scabo/system/assembly.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "scabo/element/facet/mass.hpp"
 #include "scabo/element/plane/finite_element.hpp"
 #include "scabo/linalg/parallel.hpp"
+#include "scabo/system/loads.hpp"
 
 namespace scabo::system {
 
@@ -270,6 +272,45 @@ double rounding_of(const element::SolvedCells& cells) {
   return rounding;
 }
 
+/// Entries of the water that moves with an edge, in the numbering of its body.
+std::vector<Eigen::Triplet<double>> entries_of(const model::AddedMass& water, const model::Model& model,
+                                               const mesh::Mesh& mesh) {
+  const mesh::PlaceNodes edge = mesh::nodes_of(*water.on, mesh);
+  const std::vector<Vec2>& nodes = mesh.bodies[static_cast<std::size_t>(water.on->body)].nodes;
+  double bottom = water.bottom.value_or(water.level);
+  if (!water.bottom)
+    for (const mesh::LineElement& element : edge.elements)
+      for (const int node : element.nodes)
+        bottom = std::min(bottom, water.up.dot(nodes[static_cast<std::size_t>(node)]));
+  const auto depth = [&](const Vec2& x) { return water.level - water.up.dot(x); };
+  const auto layer = [&](const Vec2& x) {
+    return 0.875 * water.density * std::sqrt((water.level - bottom) * std::max(depth(x), 0.0));  // Westergaard 1933
+  };
+  return mass_along_normals(edge.elements, nodes, model.analysis.extent(), layer, {depth, {0.0}});
+}
+
+/// The water that moves with the edges of a part.
+void add_water(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs, std::size_t part, Stiffness& mass) {
+  for (const model::AddedMass& water : model.added_masses) {
+    const int body = water.on->body;
+    if (dofs.part_of(body) != part) continue;
+    std::vector<Eigen::Triplet<double>> entries = entries_of(water, model, mesh);
+    const auto in_part = [&](int dof) {
+      return dofs.of(body, plane_components.node_of(dof), plane_components.component_of(dof));
+    };
+    for (Eigen::Triplet<double>& entry : entries) entry = {in_part(entry.row()), in_part(entry.col()), entry.value()};
+    if (mass.dense) {
+      Matrix with = *mass.dense;
+      for (const Eigen::Triplet<double>& entry : entries) with(entry.row(), entry.col()) += entry.value();
+      mass.dense = std::make_shared<const Matrix>(std::move(with));
+      continue;
+    }
+    linalg::SparseMatrix more(mass.sparse.rows(), mass.sparse.cols());
+    more.setFromTriplets(entries.begin(), entries.end());
+    mass.sparse += more;
+  }
+}
+
 }  // namespace
 
 Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
@@ -371,12 +412,14 @@ Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const
 Stiffness part_mass(const model::Model& model, const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells,
                     const Dofs& dofs, std::size_t part, MassLibrary& masses) {
   const std::vector<int>& bodies = dofs.bodies_of(part);
+  Stiffness mass;
   if (bodies.size() == 1) {
     const auto b = static_cast<std::size_t>(bodies.front());
-    return body_mass(model, mesh.bodies[b], cells[b], masses);
+    mass = body_mass(model, mesh.bodies[b], cells[b], masses);
+  } else {
+    mass.sparse = mass_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), masses);
   }
-  Stiffness mass;
-  mass.sparse = mass_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), masses);
+  add_water(model, mesh, dofs, part, mass);
   return mass;
 }
 

@@ -60,35 +60,69 @@ std::vector<double> parts_of(const mesh::LineElement& element, const geometry::L
   return ends;
 }
 
+/// Calls `visit(N, x, n, ds)` at `points` integration points of each part of an element.
+template <typename Visit>
+void integrate_in_parts(const mesh::LineElement& element, const std::vector<Vec2>& nodes, const Breaks& breaks,
+                        int points, Visit visit) {
+  const auto& basis = geometry::LineBasis::of_order(static_cast<int>(element.nodes.size()) - 1);
+  const geometry::GaussRule rule = geometry::gauss_rule(points);
+  const std::vector<double> ends = parts_of(element, basis, nodes, breaks);
+  for (std::size_t part = 0; part + 1 < ends.size(); ++part) {
+    const double half = 0.5 * (ends[part + 1] - ends[part]);
+    for (std::size_t q = 0; half > 0.0 && q < rule.points.size(); ++q) {
+      const double eta = ends[part] + half * (1.0 + rule.points[q]);
+      const Vector N = basis.values(eta), N_eta = basis.derivatives(eta);
+      Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
+      for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+        x += N[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
+        x_eta += N_eta[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
+      }
+      const double length = x_eta.norm();
+      visit(N, x, Vec2(Vec2(x_eta.y(), -x_eta.x()) / length), half * rule.weights[q] * length);
+    }
+  }
+}
+
+int order_of(const mesh::LineElement& element) { return static_cast<int>(element.nodes.size()) - 1; }
+
 }  // namespace
 
 Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
                        const Extent& extent, const TractionField& traction, const Breaks& breaks) {
   Vector f = Vector::Zero(places_of(nodes.size()));
-  for (const mesh::LineElement& element : elements) {
-    const int order = static_cast<int>(element.nodes.size()) - 1;
-    const auto& basis = geometry::LineBasis::of_order(order);
-    const geometry::GaussRule rule = geometry::gauss_rule(3 * order / 2 + 2);  // N, x and x,eta of curved elements
-    const std::vector<double> ends = parts_of(element, basis, nodes, breaks);
-    for (std::size_t part = 0; part + 1 < ends.size(); ++part) {
-      const double half = 0.5 * (ends[part + 1] - ends[part]);
-      for (std::size_t q = 0; half > 0.0 && q < rule.points.size(); ++q) {
-        const double eta = ends[part] + half * (1.0 + rule.points[q]);
-        const Vector N = basis.values(eta), N_eta = basis.derivatives(eta);
-        Vec2 x = Vec2::Zero(), x_eta = Vec2::Zero();
-        for (std::size_t i = 0; i < element.nodes.size(); ++i) {
-          x += N[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
-          x_eta += N_eta[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(element.nodes[i])];
-        }
-        const double length = x_eta.norm();
-        const Vec2 force =
-            traction(x, Vec2(x_eta.y(), -x_eta.x()) / length) * (half * rule.weights[q] * length * extent.at(x.x()));
-        for (std::size_t i = 0; i < element.nodes.size(); ++i)
-          f.segment<2>(place_of(element.nodes[i])) += N[static_cast<Eigen::Index>(i)] * force;
-      }
-    }
-  }
+  for (const mesh::LineElement& element : elements)
+    // N, x and x,eta of curved elements
+    integrate_in_parts(element, nodes, breaks, 3 * order_of(element) / 2 + 2,
+                       [&](const Vector& N, const Vec2& x, const Vec2& n, double ds) {
+                         const Vec2 force = traction(x, n) * (ds * extent.at(x.x()));
+                         for (std::size_t i = 0; i < element.nodes.size(); ++i)
+                           f.segment<2>(place_of(element.nodes[i])) += N[static_cast<Eigen::Index>(i)] * force;
+                       });
   return f;
+}
+
+std::vector<Eigen::Triplet<double>> mass_along_normals(const std::vector<mesh::LineElement>& elements,
+                                                       const std::vector<Vec2>& nodes, const Extent& extent,
+                                                       const std::function<double(const Vec2& x)>& layer,
+                                                       const Breaks& breaks) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const mesh::LineElement& element : elements) {
+    const auto count = static_cast<Eigen::Index>(element.nodes.size());
+    Matrix M = Matrix::Zero(2 * count, 2 * count);
+    integrate_in_parts(element, nodes, breaks,
+                       2 * order_of(element) + 6,  // a root at the level, to 1e-4 of the element
+                       [&](const Vector& N, const Vec2& x, const Vec2& n, double ds) {
+                         Vector along(2 * count);  // N_i n
+                         for (Eigen::Index i = 0; i < count; ++i) along.segment<2>(2 * i) = N[i] * n;
+                         M += layer(x) * ds * extent.at(x.x()) * along * along.transpose();
+                       });
+    for (Eigen::Index i = 0; i < 2 * count; ++i)
+      for (Eigen::Index j = 0; j < 2 * count; ++j)
+        entries.emplace_back(static_cast<int>(place_of(element.nodes[static_cast<std::size_t>(i / 2)]) + i % 2),
+                             static_cast<int>(place_of(element.nodes[static_cast<std::size_t>(j / 2)]) + j % 2),
+                             M(i, j));
+  }
+  return entries;
 }
 
 VaryingTraction varying_traction(const model::EdgeTable& table, const model::Edge& edge) {

@@ -1,7 +1,9 @@
 // Consistent nodal forces of loads on elastic bodies, and forces on rigid bodies.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <functional>
+#include <vector>
 
 #include "scabo/mesh/mesh.hpp"
 
@@ -22,6 +24,13 @@ struct Breaks {
 };
 Vector traction_forces(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
                        const Extent& extent, const TractionField& traction, const Breaks& breaks);
+
+/// Mass of a layer that moves with line elements along their normals, mass / length^2 at a point, as entries at the
+/// places of the nodes. Smooth but for the breaks.
+std::vector<Eigen::Triplet<double>> mass_along_normals(const std::vector<mesh::LineElement>& elements,
+                                                       const std::vector<Vec2>& nodes, const Extent& extent,
+                                                       const std::function<double(const Vec2& x)>& layer,
+                                                       const Breaks& breaks);
 
 /// A traction on an edge that varies along it, and where it is not smooth.
 struct VaryingTraction {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -34,8 +35,13 @@ TEST_F(Records, OfPeer) {
     EXPECT_EQ(record.values, (std::vector<double>{0.1, -0.25, 0.3, 0.0, 0.05}));
     EXPECT_EQ(record.step, 0.01);
     EXPECT_EQ(record.unit, "g");
-    EXPECT_EQ(record.largest(), 0.3);
   }
+  const auto unit = [&](const std::string& third) {
+    return read_record(file("PEER\nTest\n" + third + "\nNPTS= 2, DT= .01 SEC\n1 2\n")).unit.value_or("");
+  };
+  EXPECT_EQ(unit("VELOCITY TIME SERIES IN UNITS OF CM/S"), "cm/s");
+  EXPECT_EQ(unit("DISPLACEMENT TIME SERIES IN UNITS OF CM"), "cm");
+  EXPECT_EQ(unit("ACCELERATION TIME SERIES IN UNITS OF CM/S/S"), "cm/s2");
   EXPECT_EQ(mistake("P\nT\nA\nNPTS= 3, DT= .01 SEC\n1 2\n"), "4: says that 3 values follow, but 2 do");
 }
 
@@ -55,6 +61,46 @@ TEST_F(Records, InTables) {
   EXPECT_EQ(plain.values, (std::vector<double>{1.0, -3.0, 2.0}));
   EXPECT_FALSE(plain.unit);
   EXPECT_EQ(read_record(file("t;x;y\r\n0;1;7\r\n1;2;8\r\n"), 3).values, (std::vector<double>{7.0, 8.0}));
+}
+
+// A motion of two seconds, u = s^3 with s = t (2 - t): its acceleration from its displacement, its velocity and itself.
+TEST_F(Records, AsAccelerations) {
+  constexpr double h = 0.01;
+  const auto record = [&](const auto& value) {
+    Record made{0.5, h, {}, {}};
+    for (int i = 0; i <= 200; ++i) made.values.push_back(value(h * i, h * i * (2.0 - h * i)));
+    return made;
+  };
+  const auto exact = [](double t, double s) { return 24.0 * s * (1.0 - t) * (1.0 - t) - 6.0 * s * s; };
+  const Acceleration of_u = acceleration_of(record([](double, double s) { return s * s * s; }),
+                                            MotionKind::displacement, 2.0),
+                     of_v = acceleration_of(record([](double t, double s) { return 6.0 * s * s * (1.0 - t); }),
+                                            MotionKind::velocity, 2.0),
+                     of_a = acceleration_of(record(exact), MotionKind::acceleration, 2.0);
+  for (const Acceleration* of : {&of_u, &of_v, &of_a}) {
+    EXPECT_NEAR(of->velocity(), 0.0, 0.01);
+    EXPECT_NEAR(of->displacement(), 0.0, 0.01);
+  }
+  EXPECT_NEAR(of_v.velocity(), 0.0, 1e-12);  // that of the record, exactly
+  EXPECT_NEAR(of_u.times[100], 1.5, 1e-12);
+  EXPECT_NEAR(of_u.values[100], -12.0, 5e-3);
+  EXPECT_NEAR(of_v.values[200], 2.0 * exact(1.005, 1.005 * 0.995), 5e-3);  // the mean from 1.00 to 1.01
+  EXPECT_EQ(of_a.values[100], -12.0);
+}
+
+// With what a correction leaves, the ground stands still at the end.
+TEST_F(Records, WithABaselineTakenOff) {
+  const Record record{1.0, 0.5, {1.0, -3.0, 2.0, 5.0, -1.0}, {}};
+  const Acceleration before = acceleration_of(record, MotionKind::acceleration, 1.0);
+  EXPECT_DOUBLE_EQ(before.velocity(), 2.0);
+  Acceleration mean = before, line = before;
+  subtract(baseline_of(before, false), mean);
+  subtract(baseline_of(before, true), line);
+  EXPECT_NEAR(mean.velocity(), 0.0, 1e-14);
+  EXPECT_GT(std::abs(mean.displacement()), 0.1);
+  EXPECT_NEAR(line.velocity(), 0.0, 1e-14);
+  EXPECT_NEAR(line.displacement(), 0.0, 1e-14);
+  EXPECT_NEAR(line.values[1] - line.values[0], -4.0 - 0.5 * baseline_of(before, true).slope, 1e-14);
 }
 
 TEST_F(Records, WithMistakes) {

@@ -200,6 +200,10 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
         u.reshaped(2, u.size() / 2).colwise() += moved;
     }
     if (prepared.model.bodies[b].rigid) result.fields.displacements[b][2] /= part_of(prepared, body).lever();
+    if (!state.velocity.empty()) {
+      result.fields.velocities.push_back(dofs.of_body(body, state.velocity[dofs.part_of(body)]));
+      if (prepared.model.bodies[b].rigid) result.fields.velocities[b][2] /= part_of(prepared, body).lever();
+    }
     const double presence = presence_of(prepared, state.factors, dofs.part_of(body));
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load) {
       add(result.fields.interior[b], prepared.structure.interior[load][b], presence * state.factors.loads[load]);

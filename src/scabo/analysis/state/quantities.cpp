@@ -7,6 +7,7 @@
 
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/cracks.hpp"
+#include "scabo/analysis/state/step_factors.hpp"
 #include "scabo/element/cell_locator.hpp"
 #include "scabo/element/plane/elasticity.hpp"
 #include "scabo/linalg/general_solver.hpp"
@@ -130,6 +131,11 @@ std::optional<double> value_of(const Discretisation& discretisation, const Incre
       return increment.springs[index][quantity.component];
     case Kind::displacement:
       return displacement_of_point(discretisation, increment, quantity);
+    case Kind::ground_velocity:
+      return ground_velocity(discretisation.model, static_cast<std::size_t>(increment.step) - 1, increment.reached,
+                             static_cast<std::size_t>(quantity.component));
+    case Kind::velocity:
+      return displacement_of_point(discretisation, with_velocities(increment), quantity);
     case Kind::stress_intensity:
     case Kind::t_stress:
     case Kind::energy_release:
@@ -424,10 +430,11 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
     if (const auto* quantity = std::get_if<model::Quantity>(&item.of))
       all.push_back(quantity);
     else if (const auto* place = std::get_if<model::PlaceDisplacement>(&item.of))
-      all.push_back(&place->of);
+      for (const model::Quantity* of : {&place->of, place->relative_to ? &*place->relative_to : nullptr})
+        if (of) all.push_back(of);
   std::vector<Diagnostic> mistakes;
   for (const model::Quantity* quantity : all) {
-    if (quantity->kind == Kind::displacement) {
+    if (quantity->kind == Kind::displacement || quantity->kind == Kind::velocity) {
       const std::vector<int> bodies = bodies_of(model, *quantity);
       if (bodies.size() == 1) continue;
       if (bodies.empty())

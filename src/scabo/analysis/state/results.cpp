@@ -12,6 +12,17 @@ const element::InitialStress& FieldState::initial_of(std::size_t body) const {
   return initial.empty() ? none : initial[body];
 }
 
+IncrementResult with_velocities(const IncrementResult& increment) {
+  IncrementResult moving;
+  moving.absent = increment.absent;
+  moving.fields.interior.resize(increment.fields.displacements.size());
+  moving.fields.displacements = increment.fields.velocities;
+  if (increment.fields.velocities.empty())
+    for (const Vector& u : increment.fields.displacements)
+      moving.fields.displacements.emplace_back(Vector::Zero(u.size()));
+  return moving;
+}
+
 bool IncrementResult::is_absent(int body) const { return std::binary_search(absent.begin(), absent.end(), body); }
 
 double QuantityResult::relative() const {

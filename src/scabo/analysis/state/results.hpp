@@ -111,6 +111,8 @@ struct FieldState {
   /// Per body: 2 per node; for a rigid body [u_x, u_y, rotation] about its centroid. For an unbounded body they are
   /// those of its stiffness (element/plane/stiffness.hpp, eq. 6), because a translation would change its forces.
   std::vector<Vector> displacements;
+  /// Per body, as the displacements; empty: not in time.
+  std::vector<Vector> velocities;
   /// Per body: displacement of the reference point to which it belongs (analysis/state/outside.hpp), or zero; empty:
   /// there is none. Displacements shown in results are relative to it; those of contact pairs (PairResult) are already
   /// relative.
@@ -211,5 +213,9 @@ struct IncrementResult {
   std::optional<UniquenessResult> uniqueness;  ///< if requested
   std::vector<AttemptResult> attempts;         ///< one, or more if the increment was halved
 };
+
+/// Velocities in the place of displacements, and nothing else: what gives the displacement of a point gives its
+/// velocity. They are 0 before the first step in time.
+IncrementResult with_velocities(const IncrementResult& increment);
 
 }  // namespace scabo::analysis

@@ -76,6 +76,18 @@ Factors mean_factors(const model::Model& model, std::size_t step, double from, d
                  [&](const model::Curve& curve) { return model::mean_between(curve, from, to, duration); });
 }
 
+double ground_velocity(const model::Model& model, std::size_t index, double s, std::size_t axis) {
+  double velocity = 0.0;
+  for (std::size_t i = 0; i <= index; ++i) {
+    const auto& dynamic = model.steps[i].dynamic;
+    if (!dynamic || dynamic->ground[axis] < 0) continue;
+    const model::Curve& acceleration = model.curves[static_cast<std::size_t>(dynamic->ground[axis])];
+    const double time = i == index ? s * dynamic->duration : dynamic->duration;
+    velocity += model::ground_motion(acceleration, dynamic->duration, time).velocity;
+  }
+  return velocity;
+}
+
 Factors factors_in(const model::Model& model, std::size_t index, double s) {
   const model::Step& step = model.steps[index];
   if (step.dynamic) return factors_at_time(model, index, s * step.dynamic->duration);

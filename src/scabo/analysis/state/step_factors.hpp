@@ -21,4 +21,7 @@ Factors factors_at_time(const model::Model& model, std::size_t step, double time
 /// Of a step in time, their means between two times.
 Factors mean_factors(const model::Model& model, std::size_t step, double from, double to);
 
+/// Velocity of the ground along x (0) or y (1) at part `s` of a step; it was at rest before the first step in time.
+double ground_velocity(const model::Model& model, std::size_t index, double s, std::size_t axis);
+
 }  // namespace scabo::analysis

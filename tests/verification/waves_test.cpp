@@ -1,0 +1,152 @@
+// Steps in time against closed forms of waves and vibrations, and the frequencies of a dam.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "run.hpp"
+#include "scabo/analysis/modal/modal_analysis.hpp"
+
+namespace scabo::verification {
+namespace {
+
+using analysis::IncrementResult;
+using analysis::StaticSolution;
+
+std::vector<double> frequencies(const std::string& text) {
+  std::vector<double> found;
+  for (const analysis::NaturalMode& mode : analysis::solve_modal(input::parse_model(text, "modes.yaml")).modes)
+    if (!mode.rigid) found.push_back(mode.frequency);
+  return found;
+}
+
+/// Displacement of the node of a body that is nearest to a point.
+Vec2 displacement_at(const StaticSolution& solution, const IncrementResult& at, std::size_t body, const Vec2& point) {
+  const std::vector<Vec2>& nodes = solution.mesh.bodies[body].nodes;
+  const auto nearest = std::min_element(nodes.begin(), nodes.end(), [&](const Vec2& a, const Vec2& b) {
+    return (a - point).norm() < (b - point).norm();
+  });
+  return at.fields.displacements[body].segment<2>(2 * (nearest - nodes.begin()));
+}
+
+// The section of Koyna on rigid ground, plane stress: 18.905, 50.192, 68.185 and 98.914 rad/s. Without water.
+TEST(Waves, FrequenciesOfKoyna) {
+  const std::vector<double> found = frequencies(R"(
+scabo: 1
+analysis: {type: modal, modes: 4, plane: stress}
+materials: {concrete: {young: 31027e6, poisson: 0.2, density: 2643}}
+bodies:
+  dam: {material: concrete, shape: {polygon: {vertices: [[0, 0], [70, 0], [19.25, 66.5], [14.8, 103], [0, 103]]}}, mesh: {kind: fem, size: 4, order: 2}}
+supports: [{on: dam.edge_1, fix: [x, y]}]
+)");
+  ASSERT_EQ(found.size(), 4u);
+  const double exact[] = {18.905, 50.192, 68.185, 98.914};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(2.0 * std::numbers::pi * found[i] / exact[i], 1.0, 3e-3) << i;
+}
+
+// A rod (EA = 10, c = 10) pressed on a rough floor, friction q = 0.2 per length, under a force P = 0.4 on its end from
+// t = 0: the velocity behind the front is (c/EA)(P - q c t/2), the front comes to rest at 2 P/q = 4 and t = 0.4, the
+// end has moved by P^2/(E A q), and two thirds of the work are friction.
+TEST(Waves, InARodOnARoughFloor) {
+  const double P = 0.4, q = 0.2, EA = 10.0, c = 10.0;
+  double before = 0.0;
+  for (const double size : {0.1, 0.05}) {
+    const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress}}
+materials: {{rod: {{young: 100, poisson: 0, density: 1}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [8, 1]}}}}}}
+  rod: {{material: rod, shape: {{rectangle: {{corner: [0, 0], size: [6, 0.1]}}}}, mesh: {{kind: fem, size: {0}, order: 1}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+loads:
+  press: {{on: rod.top, pressure: 1}}
+  push: {{on: rod.left, traction: [4, 0]}}
+contacts: {{base: {{between: [floor.top, rod.bottom], friction: 0.2}}}}
+steps:
+  - {{name: press, loads: {{press: 1}}}}
+  - {{name: push, dynamic: {{duration: 0.6, step: {1}}}, loads: {{push: 1}}, increments: 12}}
+)",
+                                                    size, size / c));
+    const IncrementResult& end = last(solution);
+    const auto moved = [&](const IncrementResult& at, double x) {
+      return displacement_at(solution, at, 1, {x, 0.05}).x();
+    };
+    const double farthest = P * P / (EA * q), error = std::abs(moved(end, 0.0) / farthest - 1.0);
+    EXPECT_LT(error, before > 0.0 ? 0.01 : 0.02);
+    before = error;
+    // Half way in time, t = 0.2: the end has moved (c/EA)(P t - q c t^2/4).
+    EXPECT_NEAR(moved(increment_at(solution, 4), 0.0), c / EA * (P * 0.2 - q * c * 0.04 / 4.0), 0.3 * size * farthest);
+    EXPECT_NEAR(moved(end, 4.3), 0.0, 0.15 * size * farthest);  // beyond the front
+    EXPECT_GT(moved(end, 3.0), 0.02 * farthest);
+    const double work = end.energy.external - solution.increments[0].energy.external;
+    EXPECT_NEAR(work, P * farthest, 0.03 * P * farthest);
+    EXPECT_NEAR(end.energy.friction / work, 2.0 / 3.0, 0.03);
+  }
+}
+
+// A cylindrical cavity of radius 1 in the plane, plane strain, nu = 0.3, under a pressure p from t = 0 on: mu u/(p a)
+// of its wall at c_p t/a = 1, 2, 4. The outer edge at 3.2 sends its reflection back at 4.4.
+TEST(Waves, OfACavityUnderSuddenPressure) {
+  const double G = 1.0, nu = 0.3, c_p = std::sqrt(2.0 * G * (1.0 - nu) / (1.0 - 2.0 * nu));
+  const StaticSolution solution = run(fmt::format(
+      R"(
+scabo: 1
+analysis: {{type: dynamic, plane: strain}}
+materials: {{rock: {{young: 2.6, poisson: 0.3, density: 1}}}}
+bodies:
+  rock:
+    material: rock
+    shape: {{circle: {{centre: [0, 0], radius: 3.2}}}}
+    holes: {{cavity: {{circle: {{centre: [0, 0], radius: 1}}}}}}
+    mesh: {{kind: fem, size: 0.12, order: 1}}
+loads: {{blast: {{on: rock.cavity, pressure: 1}}}}
+steps: [{{dynamic: {{duration: {0}, step: {1}}}, increments: 4}}]
+)",
+      4.0 / c_p, 0.05 / c_p));
+  const double exact[] = {0.262197, 0.449342, 0.0, 0.597571};
+  for (const std::size_t k : {0, 1, 3}) {
+    double sum = 0.0;  // of the nodes of the wall
+    int count = 0;
+    const std::vector<Vec2>& nodes = solution.mesh.bodies[0].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (std::abs(nodes[i].norm() - 1.0) < 1e-6) {
+        sum += nodes[i].dot(
+            increment_at(solution, k).fields.displacements[0].segment<2>(2 * static_cast<Eigen::Index>(i)));
+        ++count;
+      }
+    ASSERT_GT(count, 20);
+    EXPECT_NEAR(G * sum / count / exact[k], 1.0, 0.02) << k;
+  }
+}
+
+// A rigid block on a spring, w = 2 pi, under a force from t = 0: u = F/k (1 - cos w t). The error at the end falls with
+// the square of the step, and where output is asked for does not matter.
+TEST(Waves, TheErrorFallsWithTheSquareOfTheStep) {
+  const auto end = [](double step, int increments) {
+    const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: stress}}
+materials: {{rubber: {{young: 1, poisson: 0, density: 1}}}}
+bodies:
+  block: {{rigid: true, density: 1, shape: {{rectangle: {{corner: [0, 0], size: [1, 1]}}}}}}
+  far: {{material: rubber, shape: {{rectangle: {{corner: [9, 9], size: [1, 1]}}}}, mesh: {{kind: fem, size: 1}}}}
+supports: [{{on: far.bottom, fix: [x, y]}}]
+springs: [{{on: block.bottom, k_n: {0}, k_t: {0}}}]
+loads: {{push: {{on: block, force: [0, 1]}}}}
+steps: [{{dynamic: {{duration: 1.2, step: {1}}}, increments: {2}}}]
+)",
+                                                    4.0 * std::numbers::pi * std::numbers::pi, step, increments));
+    return last(solution).fields.displacements[0][1];
+  };
+  const double w = 2.0 * std::numbers::pi, exact = (1.0 - std::cos(w * 1.2)) / (w * w);
+  std::vector<double> error;
+  for (const double step : {0.04, 0.02, 0.01}) error.push_back(std::abs(end(step, 1) - exact));
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 2.0, 0.1);
+  EXPECT_NEAR(std::log2(error[1] / error[2]), 2.0, 0.1);
+  EXPECT_NEAR(end(0.02, 60), end(0.02, 1), 1e-12);
+}
+
+}  // namespace
+}  // namespace scabo::verification
