@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "cracks", "envelope", "history", "mechanism", "mesh", "solid_contact",
            "solid_stress", "spectrum", "stress", "sweep"]
 
-_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "cracks": "cracks", "envelope": "in_time", "spectrum": "in_time", "envelope", "history": "curves", "mechanism": "mechanisms", "mesh": "meshes",
+_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "cracks": "cracks", "envelope": "in_time", "spectrum": "in_time", "history": "curves", "mechanism": "mechanisms", "mesh": "meshes",
              "stress": "fields", "sweep": "sweeps"}
 _IN_SPACE = {"solid_contact": "contact", "solid_stress": "stress"}
 
