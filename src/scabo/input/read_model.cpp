@@ -16,7 +16,7 @@
 namespace scabo::input {
 
 void read_analysis(Reading& reading, const Value& value) {
-  const MapReader map(reading.report, value, {"space", "type", "plane", "thickness", "modes"},
+  const MapReader map(reading.report, value, {"space", "type", "plane", "thickness", "forces", "modes"},
                       "{plane: strain, thickness: 1.0}");
   Analysis& analysis = reading.model.analysis;
   bool type_known = true;
@@ -43,6 +43,12 @@ void read_analysis(Reading& reading, const Value& value) {
     const auto choice = read_choice(reading.report, *plane, {"stress", "strain", "axisymmetric"});
     if (choice && *choice == "strain") reading.model.analysis.plane = Plane::strain;
     if (choice && *choice == "axisymmetric") reading.model.analysis.plane = Plane::revolution;
+  }
+  if (const auto forces = map.get("forces")) {
+    const auto choice = read_choice(reading.report, *forces, {"whole", "per_radian"});
+    analysis.per_radian = choice && *choice == "per_radian";
+    if (!analysis.revolved())
+      map.refuse("forces", "is for bodies of revolution: write plane: axisymmetric, or leave it out");
   }
   if (analysis.revolved()) {
     map.refuse("thickness", "bodies of revolution go around the axis as a whole: leave 'thickness' out");

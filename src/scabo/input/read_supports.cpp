@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "scabo/input/formula.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 
@@ -50,6 +51,7 @@ struct Prescribed {
   Displacement displacement;
   SupportAxes axes = SupportAxes::xy;
   Vec2 along = Vec2(1.0, 0.0);
+  std::array<PointFormula, 2> shape = {};
 };
 
 constexpr const char* fix_forms = "x, y, [x, y], normal, tangent or {along: [1, 2]}";
@@ -108,14 +110,48 @@ std::optional<Prescribed> read_fix(Reading& reading, const Value& value) {
   return prescribed;
 }
 
+/// A formula of x and y; none if it is broken.
+PointFormula read_point_formula(Report& report, const Value& value) {
+  const auto text = read_text(report, value);
+  if (!text) return {};
+  for (const std::string& name : names_in_formula(*text))
+    if (name != "x" && name != "y") {
+      report.error(value, fmt::format("the formula {} has the name {}: besides parameters in ${{}} there are x and y, "
+                                      "the coordinates",
+                                      quoted_name(*text), quoted_name(name)));
+      return {};
+    }
+  return [text = *text](const Vec2& at) { return value_of_formula(text, {{"x", at.x()}, {"y", at.y()}}); };
+}
+
+/// `formula: [ux, uy]`: numbers, formulas of x and y, or null; false if it is broken.
+bool read_formulas(Reading& reading, const Value& value, Prescribed& prescribed) {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
+    reading.report.error(value, R"(must be two formulas, as in ["0.1 * x", null], with null for a free component)");
+    return false;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (node.items[i]->kind == Node::Kind::null) continue;
+    prescribed.shape[i] = read_point_formula(reading.report, value.item(i));
+    if (!prescribed.shape[i]) return false;
+    prescribed.displacement[i] = 1.0;
+  }
+  return true;
+}
+
 std::optional<Prescribed> read_displacement(Reading& reading, const Value& value) {
   const Node& node = *value.node;
   Prescribed prescribed;
   if (node.kind == Node::Kind::map) {
     const std::size_t before = reading.report.count();
-    const MapReader map(reading.report, value, {"normal", "tangent", "along", "value"},
+    const MapReader map(reading.report, value, {"normal", "tangent", "along", "value", "formula"},
                         "{normal: -1e-3} or {along: [1, 2], value: 1e-3}");
-    if (map.has("along")) {
+    if (map.has("formula")) {
+      for (const char* key : {"normal", "tangent", "along", "value"})
+        if (map.has(key)) map.refuse(key, "does not go together with formula, which is along x and y: leave it out");
+      read_formulas(reading, *map.get("formula"), prescribed);
+    } else if (map.has("along")) {
       for (const char* key : {"normal", "tangent"})
         if (map.has(key)) map.refuse(key, "does not go together with along: use two supports");
       read_along(reading, map.get("along"), prescribed);
@@ -193,6 +229,7 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
   support.displacement = prescribed->displacement;
   support.axes = prescribed->axes;
   support.along = prescribed->along;
+  support.shape = prescribed->shape;
   return support;
 }
 

@@ -93,6 +93,12 @@ void check_supports(Checking& checking) {
           !checking.number(path, key_of_component(support.axes, c), *support.displacement[c]))
         good = false;
     good = check_rotation(checking, path, support) && good;
+    if (support.varies() && good &&
+        (support.on.kind != Place::Kind::edge || checking.body(support.on.body).rigid ||
+         support.axes != SupportAxes::xy)) {
+      checking.error(path, "displacement.formula", "is that of an edge of an elastic body: give numbers, [ux, uy]");
+      good = false;
+    }
     if (!support.displacement[0] && !support.displacement[1] && !support.rotation) {
       checking.error(path, "displacement", "prescribes no displacement: give a number for x or y");
       good = false;
@@ -211,9 +217,9 @@ void check_conflicting_supports(Checking& checking) {
   std::vector<Places> of_body(model.bodies.size());
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];
-    // Along other directions they are compared at the nodes (system/structure.cpp).
+    // Along other directions and by formulas they are compared at the nodes (system/structure.cpp).
     // Where a rotation is prescribed, points move differently: the body compares them (system/body_system.hpp).
-    if (!checking.support[i] || support.axes != SupportAxes::xy || support.rotation) continue;
+    if (!checking.support[i] || support.axes != SupportAxes::xy || support.rotation || support.varies()) continue;
     Places& places = of_body[static_cast<std::size_t>(support.on.body)];
     const auto at = places.find(key_of(support.on));
     // A whole body shares points with all places; once one was compared, another like it adds nothing.

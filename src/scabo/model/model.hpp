@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,10 +34,11 @@ struct Analysis {
   AnalysisType type = AnalysisType::static_;
   int modes = 10;  ///< modal: number of modes, the lowest first, rigid-body modes included
   Plane plane = Plane::stress;
-  double thickness = 1.0;  ///< length, > 0
+  double thickness = 1.0;   ///< length, > 0
+  bool per_radian = false;  ///< bodies of revolution: forces are those of one radian, not of the whole circumference
 
-  bool revolved() const { return plane == Plane::revolution; }  ///< forces are those of the whole circumference
-  Extent extent() const { return {thickness, revolved()}; }
+  bool revolved() const { return plane == Plane::revolution; }
+  Extent extent() const { return {thickness, revolved(), per_radian ? 1.0 : 2.0 * std::numbers::pi}; }
 };
 
 /// Library that factorises sparse stiffness matrices.

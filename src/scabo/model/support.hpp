@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "scabo/model/place.hpp"
 
@@ -12,6 +14,9 @@ namespace scabo::model {
 /// Axes of the displacement that a support prescribes: x and y; the outward normal of its edge and the tangent a
 /// quarter turn counter-clockwise from it, at every point; or a direction and the one a quarter turn from it.
 enum class SupportAxes { xy, edge, direction };
+
+/// A number at a point, or the reason why it has none, as a sentence without a subject.
+using PointFormula = std::function<std::variant<double, std::string>(const Vec2&)>;
 
 /// Prescribed displacement of a place; a component without a value is free.
 struct Support {
@@ -25,6 +30,10 @@ struct Support {
   /// point `at`, or of its centroid, and the moment of the support about this point is among the results.
   std::optional<double> rotation = {};
   std::optional<Vec2> at = {};
+  /// Of an edge, along x and y: the displacement at a point is that above times this.
+  std::array<PointFormula, 2> shape = {};
+
+  bool varies() const { return shape[0] || shape[1]; }
 };
 
 /// Springs between a place and the ground, which does not move. They push and pull from the start of the analysis on.

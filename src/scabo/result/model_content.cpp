@@ -46,6 +46,8 @@ nlohmann::ordered_json model_content(const model::Model& model, const mesh::Mesh
                   : model.analysis.plane == model::Plane::stress ? "stress"
                                                                  : "strain";
   json["thickness"] = model.analysis.thickness;
+  if (model.analysis.revolved())
+    json["forces_of"] = model.analysis.per_radian ? "one radian" : "the whole circumference";
   json["materials"] = ModelJson::array();
   for (const model::Material& material : model.materials) json["materials"].push_back(content_of(material));
   json["bodies"] = ModelJson::array();

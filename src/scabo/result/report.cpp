@@ -124,7 +124,9 @@ std::string report_header(const model::Model& model, const ModelSizes& sizes) {
   if (sizes.super_elements > 0) text += ", " + count(sizes.super_elements, "super-element");
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
   text += ", " + count(sizes.contact_pairs, "contact pair") + '\n';
-  if (model.analysis.revolved()) text += "bodies of revolution: forces are those of the whole circumference\n";
+  if (model.analysis.revolved())
+    text += fmt::format("bodies of revolution: forces are those of {}\n",
+                        model.analysis.per_radian ? "one radian" : "the whole circumference");
   text += report_ground(model);
   for (const model::Contact& contact : model.contacts)
     text +=

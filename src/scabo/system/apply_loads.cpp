@@ -98,7 +98,8 @@ class Applied {
   void operator()(const model::Spin& spin) {
     for_each_cell([](const auto&...) {},
                   [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads&) {
-                    return element::finite_element_spin_force(cell, material.density.value_or(0.0), spin.value);
+                    return element::finite_element_spin_force(cell, material.density.value_or(0.0), spin.value,
+                                                              extent());
                   });
   }
 

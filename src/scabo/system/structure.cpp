@@ -61,10 +61,12 @@ class ConstraintCollector {
       const std::vector<int> nodes = mesh::nodes_of(support.on, mesh_).nodes;
       const bool of_face = support.on.kind == model::Place::Kind::face && support.axes == model::SupportAxes::edge;
       const std::map<int, Vec2> normals = of_face ? normals_at(support.on, nodes) : std::map<int, Vec2>{};
-      for (const int node : nodes)
+      for (const int node : nodes) {
+        const Vec2& point = mesh_.bodies[body].nodes[static_cast<std::size_t>(node)];
+        const double here = *value * shape_at(support, component, point);
         add(support.on.body, node,
-            constraint_along(support, component, mesh_.bodies[body].nodes[static_cast<std::size_t>(node)], index,
-                             *value, of_face ? &normals.at(node) : nullptr));
+            constraint_along(support, component, point, index, here, of_face ? &normals.at(node) : nullptr));
+      }
     }
   }
 
@@ -74,6 +76,18 @@ class ConstraintCollector {
   }
 
  private:
+  double shape_at(const model::Support& support, int component, const Vec2& point) {
+    const model::PointFormula& shape = support.shape[static_cast<std::size_t>(component)];
+    if (!shape) return 1.0;
+    const auto value = shape(point);
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    if (without_number_.insert(&shape).second)
+      diagnostics_.push_back({support.source, fmt::format("the formula for u{} of support '{}' {} at ({:.6g}, {:.6g})",
+                                                          component_name[component], support.name,
+                                                          std::get<std::string>(value), point.x(), point.y())});
+    return 0.0;
+  }
+
   bool holds_rotation(std::size_t part) const {
     for (const Constraint& constraint : constraints_[part])
       if (constraint.rotation) return true;
@@ -194,6 +208,7 @@ class ConstraintCollector {
   std::vector<std::vector<Constraint>> constraints_;
   std::vector<std::map<int, std::vector<std::size_t>>> held_by_;  // per node, by its first degree of freedom
   std::set<std::array<int, 2>> reported_;                         // pairs of supports
+  std::set<const model::PointFormula*> without_number_;           // reported
   std::vector<Diagnostic> diagnostics_;
 };
 

@@ -215,6 +215,7 @@ std::vector<double> tributary_areas(int contact, const model::Model& model, cons
       areas[i] = std::isfinite(radius) ? std::numbers::pi * radius * radius : 1.0;
     }
     ensure(areas[i] > 0.0, "a node of a contact has no tributary area");
+    if (model.analysis.per_radian) areas[i] /= 2.0 * std::numbers::pi;
   }
   return areas;
 }

@@ -61,6 +61,7 @@ std::string fingerprint_of_body(const Prepared& now, std::size_t b) {
          : now.model.analysis.plane == model::Plane::strain ? "strain"
                                                             : "stress");
   of.add(now.model.analysis.thickness);
+  if (now.model.analysis.per_radian) of.add("per radian");
   const std::size_t part = now.structure.dofs.part_of(static_cast<int>(b));
   for (const int other : now.structure.dofs.bodies_of(part))
     of.add(now.model.bodies[static_cast<std::size_t>(other)].name);

@@ -73,7 +73,8 @@ ElementVector finite_element_body_force(const FiniteElement& element, const Line
                                         const Extent& extent);
 
 /// Nodal forces of the rotation of a body of revolution at the angular velocity `spin`, radians / time.
-ElementVector finite_element_spin_force(const FiniteElement& element, double density, double spin);
+ElementVector finite_element_spin_force(const FiniteElement& element, double density, double spin,
+                                        const Extent& extent);
 
 /// Nodal forces of a change of temperature as a function of absolute (x, y).
 ElementVector finite_element_thermal_force(const FiniteElement& element, const SectionLaw& law,
