@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "run.hpp"
+#include "scabo/analysis/state/quantities.hpp"
 
 namespace scabo::verification {
 namespace {
@@ -461,6 +462,30 @@ steps: [{{dynamic: {{duration: 0.5, step: 1e-3, ground: {{x: quake}}}}, incremen
     expect_balanced(other);
     for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(force(other, i), force(exact, i), 2e-3 * largest) << of;
   }
+}
+
+// Bodies that fly and turn: velocity of the centroid, and rotation times the arm of the point.
+TEST(Dynamics, VelocitiesOfPoints) {
+  const StaticSolution solution = run(R"(
+scabo: 1
+analysis: {type: dynamic, plane: stress}
+materials: {rubber: {young: 5e6, poisson: 0.45, density: 1100}}
+bodies:
+  bar: {material: rubber, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.25}}
+  stone: {rigid: true, density: 2000, shape: {rectangle: {corner: [5, 0], size: [1, 1]}}}
+  far: {rigid: true, shape: {rectangle: {corner: [5, 9], size: [1, 1]}}}
+supports: [{on: far, fix: [x, y]}]
+contacts: {never: {between: [stone.top, far.bottom], friction: 0}}
+initial: [{on: bar, velocity: [-1, 0.5], rotation: 2}, {on: stone, velocity: [0, 1], rotation: 3}]
+steps: [{dynamic: {duration: 0.01, step: 1e-3}, increments: 1}]
+output: {history: {a: bar.bottom_left.vx, b: bar.bottom_left.vy, c: stone.bottom_left.vx, d: stone.top_right.vy}}
+)");
+  const double exact[] = {0.0, -1.5, 1.5, 2.5};
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(
+        analysis::value_of(solution, last(solution), std::get<model::Quantity>(solution.model.output.history[i].of))
+            .value(),
+        exact[i], 1e-10);
 }
 
 // What the ground has done by some time: of A sin(w t) in closed form, and of a table with a jump.
