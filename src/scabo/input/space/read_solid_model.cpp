@@ -173,8 +173,8 @@ std::optional<SpaceFace> SpaceReader::face(const Value& value) {
     known = face_names(*of.shape);
     face.of_shape = part;
     if (std::find(known.begin(), known.end(), part) != known.end()) return face;
-    report_.error(value, fmt::format("the shape of body '{}' has no face named {}; it has {}{}", name,
-                                     quoted_name(part), fmt::join(known, ", "), suggestion(part, known)));
+    report_.error(value, fmt::format("the shape of body '{}' has no face named {}{}", name, quoted_name(part),
+                                     suggestion(part, known)));
   }
   if (!of.mesh) return {};
   for (std::size_t i = 0; i < of.mesh->side_sets.size(); ++i) {
