@@ -43,6 +43,7 @@ std::string contacts_table(const model::Model& model, const mesh::Mesh& mesh) {
 }
 
 std::string increments_text(const model::Step& step) {
+  if (step.growth || step.limit) return "as many as it takes";
   if (!step.automatic) return fmt::format("{}", step.increments);
   return fmt::format("auto, {:g} to {:g} of the step", step.automatic->smallest, step.automatic->largest);
 }

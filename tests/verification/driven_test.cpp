@@ -5,6 +5,7 @@
 #include <string>
 
 #include "run.hpp"
+#include "scabo/result/probe.hpp"
 
 namespace scabo::verification {
 namespace {
@@ -33,6 +34,38 @@ loads: {{turn: {{on: beam.right, moment: {}}}}}
       }
       EXPECT_LT(last(solution).reactions[0].norm(), 1e-9 * M / h);
     }
+}
+
+// Displacements of all edges by formulas of a uniform strain give a uniform stress, of every kind of mesh; scaled by
+// the factor of their step.
+TEST(Formulas, OfAUniformStrainOnAllEdgesGiveAUniformStress) {
+  const double E = 2e11, nu = 0.3, xx = 1e-3, xy = 4e-4, yy = -5e-4;
+  for (const char* mesh : {"size: 0.5, order: 2", "kind: fem, size: 0.5", "kind: polygons, size: 0.4, order: 1"}) {
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+parameters: {{e: 1e-3}}
+materials: {{stuff: {{young: {}, poisson: {}}}}}
+bodies: {{plate: {{material: stuff, shape: {{rectangle: {{corner: [1, 2], size: [2, 1]}}}}, mesh: {{{}}}}}}}
+supports:
+  - {{on: plate.bottom, displacement: {{formula: ["${{e}} * x + 4e-4 * y", "4e-4 * x - 5e-4 * y"]}}, name: a}}
+  - {{on: plate.top, displacement: {{formula: ["${{e}} * x + 4e-4 * y", "4e-4 * x - 5e-4 * y"]}}, name: b}}
+  - {{on: plate.left, displacement: {{formula: ["${{e}} * x + 4e-4 * y", "4e-4 * x - 5e-4 * y"]}}, name: c}}
+  - {{on: plate.right, displacement: {{formula: ["${{e}} * x + 4e-4 * y", "4e-4 * x - 5e-4 * y"]}}, name: d}}
+steps: [{{name: half, loads: {{a: 0.5, b: 0.5, c: 0.5, d: 0.5}}}}]
+)",
+                                          E, nu, mesh));
+    const double k = 0.5 * E / (1.0 - nu * nu);
+    const Eigen::Vector3d exact(k * (xx + nu * yy), k * (yy + nu * xx), k * (1.0 - nu) * xy);
+    for (const Vec2& at : {Vec2(1.3, 2.4), Vec2(2.1, 2.7), Vec2(2.9, 2.1)}) {
+      const auto values = result::value_at(solution, last(solution).fields, 0, at);
+      ASSERT_TRUE(values);
+      EXPECT_LT((values->stress - exact).norm(), 1e-10 * exact.norm()) << mesh;
+    }
+    // Reaction of the right edge: stress times length, but for what its corners share with the other edges.
+    Vec2 sum = Vec2::Zero();
+    for (const Vec2& reaction : last(solution).reactions) sum += reaction;
+    EXPECT_LT(sum.norm(), 1e-9 * exact.norm());
+  }
 }
 
 // A rigid plate on an elastic block turns by M over the stiffness that a prescribed rotation finds.

@@ -308,5 +308,35 @@ contacts: {{joint: {{between: [low.top, up.bottom], friction: 0.3}}}}
   }
 }
 
+// Forces of one radian: those of the whole circumference over 2 pi; pressures, displacements and slips are the same.
+TEST(Revolution, ForcesOfOneRadianAreThoseOfTheWholeCircumferenceOverTwoPi) {
+  const auto fit = [](const std::string& forces, double push) {
+    return run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: axisymmetric{}}}
+materials: {{steel: {{young: 210e9, poisson: 0.3, density: 7850}}}}
+bodies:
+  shaft: {{material: steel, shape: {{rectangle: {{corner: [0, 0], size: [0.05, 0.2]}}}}, mesh: {{size: 0.025}}}}
+  hub: {{material: steel, shape: {{rectangle: {{corner: [0.05, 0.06], size: [0.05, 0.08]}}}}, mesh: {{size: 0.025}}}}
+supports: [{{on: shaft.bottom, fix: y}}]
+loads:
+  push: {{on: hub.top_right, force: [0, {}]}}
+  squeeze: {{on: hub.right, pressure: 2e6}}
+  spin: {{on: shaft, spin: 300}}
+contacts: {{fit: {{between: [shaft.right, hub.left], gap: -2e-5, friction: 0.2}}}}
+)",
+                           forces, push));
+  };
+  const auto whole = fit("", 1e3 * 2.0 * pi), radian = fit(", forces: per_radian", 1e3);
+  const analysis::ContactResult &a = contact_of(last(whole)), &b = contact_of(last(radian));
+  EXPECT_NEAR(b.normal_force * 2.0 * pi / a.normal_force, 1.0, 1e-10);
+  EXPECT_NEAR(b.tangential_force * 2.0 * pi / a.tangential_force, 1.0, 1e-9);
+  EXPECT_NEAR(b.tangential_force, -1e3, 1e-6);
+  ASSERT_EQ(a.pairs.size(), b.pairs.size());
+  for (std::size_t i = 0; i < a.pairs.size(); ++i)
+    EXPECT_NEAR(b.pairs[i].pressure, a.pairs[i].pressure, 1e-9 * a.max_pressure);
+  EXPECT_NEAR(last(radian).energy.elastic * 2.0 * pi / last(whole).energy.elastic, 1.0, 1e-10);
+}
+
 }  // namespace
 }  // namespace scabo::verification

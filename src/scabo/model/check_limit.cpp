@@ -44,7 +44,7 @@ void check_beside_limit(Checking& checking, const std::string& path, std::size_t
   };
   const int number = static_cast<int>(index);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (model.bodies[b].added == number || model.bodies[b].removed == number)
+    if (number > 0 && (model.bodies[b].added == number || model.bodies[b].removed == number))
       refuse(model.bodies[b].source, path_of("bodies", model.bodies[b].name, b),
              "comes or goes in the step that looks for a limit: let it do so in a step before");
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {

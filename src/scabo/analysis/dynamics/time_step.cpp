@@ -47,8 +47,8 @@ struct UnfinishedStep {
   std::vector<Vector> mean_velocity = {};
   Vector motion = {};  // 2N, mean velocities of the pairs
   Projection projected = {};
-  double work_of_loads =
-      0.0;  // of the largest force along the largest motion that the pairs would have without contact
+  /// Of the largest force along the largest motion that the pairs would have without contact.
+  double work_of_loads = 0.0;
 
   State& to() { return attempt.state; }
   double size() const { return in.system.size; }
