@@ -92,7 +92,8 @@ void march(Scheme& scheme, StaticSolution& solution, const Options& options, std
   try {
     RunState run = start_of_run(scheme, solution, options);
     do {
-      if (run.progress.reached == 1.0) {
+      const bool looks_for_limit = solution.model.steps[run.step].limit.has_value();  // which may be beyond part 1
+      if (run.progress.reached == 1.0 && !looks_for_limit) {
         ++run.step;
         run.progress = {};
       }
