@@ -14,7 +14,7 @@ namespace scabo::model {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // of coordinates, relative to the size of the outline
+constexpr double rounding_of_outlines = 1e-9;  // of coordinates, relative to the size of the outline
 /// Least length of a piece of an outline, and least size of a hole or region, relative to the size of the body. Meshers
 /// take lines within 1e-9 of it as one; with pieces of 3.5e-9 they failed, with pieces of 1e-8 they do not.
 constexpr double smallest_part = 1e-8;
@@ -115,7 +115,7 @@ bool check_arc(const Shape& shape, std::size_t i) {
   const double ra = (edge.start - arc.centre).norm();
   const double rb = (edge.end - arc.centre).norm();
   const double larger = std::max(ra, rb);
-  if ((edge.end - edge.start).norm() <= rounding * larger && !is_circle(shape.outline)) {
+  if ((edge.end - edge.start).norm() <= rounding_of_outlines * larger && !is_circle(shape.outline)) {
     shape.error_of_edge(
         i, "",
         fmt::format("{} is an arc that ends where it starts: write a full circle as two arcs", edge.names.front()));
@@ -131,7 +131,7 @@ bool check_arc(const Shape& shape, std::size_t i) {
   const auto off = [&](const Vec2& end, double angle) {
     return (arc.centre + arc.radius * Vec2(std::cos(angle), std::sin(angle)) - end).norm();
   };
-  if (!(arc.radius > 0.0) || !(std::abs(arc.sweep) <= 2.0 * std::numbers::pi * (1.0 + rounding)) ||
+  if (!(arc.radius > 0.0) || !(std::abs(arc.sweep) <= 2.0 * std::numbers::pi * (1.0 + rounding_of_outlines)) ||
       !(std::max(off(edge.start, arc.start_angle), off(edge.end, arc.start_angle + arc.sweep)) <= 1e-5 * larger)) {
     shape.error_of_edge(
         i, "arc",
@@ -147,14 +147,14 @@ bool check_closed(const Shape& shape) {
   for (std::size_t i = 0; i < count; ++i) {
     const Edge& edge = shape.outline.edges[i];
     const Vec2& before = shape.outline.edges[(i + count - 1) % count].end;
-    if ((edge.start - before).norm() > rounding * shape.size) {
+    if ((edge.start - before).norm() > rounding_of_outlines * shape.size) {
       shape.error_of_edge(i, "",
                           fmt::format("{} starts at {}, but {} ends at {}{}", edge.names.front(),
                                       point_text(edge.start), i == 0 ? "the last piece" : "the piece before",
                                       point_text(before), i == 0 ? ": the outline is not closed" : ""));
       return false;
     }
-    if ((edge.start - shape.outline.corners[i].position).norm() > rounding * shape.size) {
+    if ((edge.start - shape.outline.corners[i].position).norm() > rounding_of_outlines * shape.size) {
       shape.error_of_edge(
           i, "",
           fmt::format("{} starts at {}, but corner {} is at {}", shape.name(i), point_text(edge.start),
@@ -204,7 +204,7 @@ bool check_lengths(const Shape& shape) {
     const double length = shape.outline.edges[i].length(), least = smallest_part * shape.body_size;
     if (length >= least) continue;
     const std::string why =
-        length <= rounding * shape.size
+        length <= rounding_of_outlines * shape.size
             ? fmt::format("has no length because both its ends are at {}", point_text(shape.outline.edges[i].start))
             : fmt::format(
                   "is only {:.3g} long, too short beside the body, whose pieces must be at least {:.0e} of its "
@@ -253,7 +253,7 @@ bool check_rectangle(const Shape& shape) {
     const Vec2 along = edge.end - edge.start;
     const double sense = i < 2 ? 1.0 : -1.0;
     const int axis = static_cast<int>(i % 2);
-    good = !edge.arc && sense * along[axis] > 0.0 && std::abs(along[1 - axis]) <= rounding * shape.size;
+    good = !edge.arc && sense * along[axis] > 0.0 && std::abs(along[1 - axis]) <= rounding_of_outlines * shape.size;
   }
   if (!good) shape.error("is marked as a rectangle, but its edges are not the bottom, right, top and left of one");
   return good;
@@ -366,7 +366,7 @@ bool check_imported(Checking& checking, const std::string& path, const Body& bod
   if (!check_names(whole) || !check_extent(whole)) return false;
   const auto lies = [&](int node, const Vec2& point) {
     return node >= 0 && static_cast<std::size_t>(node) < body.imported->nodes.size() &&
-           (body.imported->nodes[static_cast<std::size_t>(node)] - point).norm() <= rounding * whole.size;
+           (body.imported->nodes[static_cast<std::size_t>(node)] - point).norm() <= rounding_of_outlines * whole.size;
   };
   bool same = sides.size() == outline.edges.size();
   for (std::size_t i = 0; same && i < sides.size(); ++i)

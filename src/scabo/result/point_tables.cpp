@@ -17,10 +17,10 @@ namespace scabo::result {
 
 namespace {
 
-/// Number of exponentials for a field at many points with RadialTable: some hundred.
+/// Number of exponentials for a field at many_points points with RadialTable: some hundred.
 constexpr std::size_t of_table = 600;
 /// Number of points above which values are interpolated along xi.
-constexpr std::size_t many = 200;
+constexpr std::size_t many_points = 200;
 constexpr double most_condensed_bytes = 2e9;
 /// Relative to the size of a body: a point closer to the scaling centre counts as lying on it.
 constexpr double on_centre = 1e-9;
@@ -137,7 +137,7 @@ std::vector<PointResult> PointEvaluation::at(const analysis::Discretisation& dis
       u = increment.fields.displacements[b](group.dofs);
     else
       probe.emplace(discretisation, increment.fields, group.body);
-    if (probe && super_element && group.rows.size() > many) probe->expect_many();
+    if (probe && super_element && group.rows.size() > many_points) probe->expect_many();
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const Vec2& x = points_[group.rows[i]].at;
       const CellPlace& place = group.places[i];

@@ -22,7 +22,7 @@ constexpr double after_raise = 0.4, after_divide = 4.0;
 constexpr double grading = 0.15;
 /// Elements shorter than this, relative to their edge, are not divided: the stiffness loses about 1e-15 times the ratio
 /// of the lengths of its elements (5e-10 measured for 1e-5), and energies lose as many digits.
-constexpr double shortest = 1e-4;
+constexpr double shortest_edge = 1e-4;
 
 /// Cells whose share differs by less than this from one that is refined are refined as well.
 constexpr double nearly_equal = 0.99;
@@ -121,7 +121,7 @@ BoundaryRefinement::Change BoundaryRefinement::change_for(const mesh::EdgeElemen
   const bool as_predicted =
       share <= predicted_[static_cast<std::size_t>(at.body)][static_cast<std::size_t>(at.edge)][k];
   const bool can_raise = edge.orders[k] < highest_order;
-  const bool can_divide = edge.breaks[k + 1] - edge.breaks[k] > shortest;
+  const bool can_divide = edge.breaks[k + 1] - edge.breaks[k] > shortest_edge;
   if (can_raise && (as_predicted || !can_divide)) return Change::raise;
   return can_divide ? Change::divide : Change::none;
 }
