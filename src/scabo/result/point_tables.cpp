@@ -17,7 +17,7 @@ namespace scabo::result {
 
 namespace {
 
-/// Number of exponentials for a field at many_points points with RadialTable: some hundred.
+/// Number of exponentials for a field at many points with RadialTable: some hundred.
 constexpr std::size_t of_table = 600;
 /// Number of points above which values are interpolated along xi.
 constexpr std::size_t many_points = 200;
