@@ -129,7 +129,7 @@ class Dictionaries(InTemporaryDirectory):
 
     def test_every_good_file_as_a_dictionary(self):
         for file in sorted([*GOOD.glob("*.yaml"), *GOOD.glob("*.json")]):
-            if file.stem == "space":  # the program alone takes it
+            if "space" in file.stem:  # the program alone takes them
                 continue
             with self.subTest(file=file.name):
                 of_file = scabo.read(file)
