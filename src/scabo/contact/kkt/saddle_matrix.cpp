@@ -30,7 +30,7 @@ Vector SaddleRows::times(const Problem& problem, const Vector& x) const {
   Vector p = Vector::Zero(problem.W.size()), u, result(n + m);
   add_forces(x, problem.dimension, p);
   problem.W.apply(p, u);
-  problem.G.add_motion(x.tail(m), u);
+  if (m > 0) problem.G.add_motion(x.tail(m), u);
   motions(u, problem.dimension, result);
   result.head(n) += D.head(n).cwiseProduct(x.head(n));
   if (m > 0) result.tail(m) = problem.G.transpose() * p - E * x.tail(m);
