@@ -57,6 +57,16 @@ class Increments(support.InTemporaryDirectory):
         for step in (2, 3, 4):  # what an increment costs does not count
             self.assertEqual(self.ends(increments, step), self.ends(increments, 1))
 
+    def test_fields_of_the_last_equilibrium_before_a_limit_are_always_written(self):
+        text = model(1).split("  - {name: push")[0] + "  - {name: push, limit: {of: push}}\noutput: {every: 100}\n"
+        increments = self.solve(text)
+        results = self.directory / "model.results"
+        self.assertIn(f"fields_{len(increments):04d}.vtu", (results / "fields.pvd").read_text(encoding="utf-8"))
+        self.assertTrue((results / "mechanism.vtu").is_file())
+        limit = summary_of(results)["limit"]
+        self.assertLessEqual(limit["solved"] * 150e6 * 0.01, 0.5 * 100e6 * 0.04 * (1 + 1e-9))  # T = mu N
+        self.assertGreaterEqual(limit["beyond"] * 150e6 * 0.01, 0.5 * 100e6 * 0.04 * (1 - 1e-9))
+
     def test_where_states_change_there_are_more(self):
         increments = self.solve(model("auto"))
         self.assertEqual(len(self.ends(increments, 1)), 5)  # all stick

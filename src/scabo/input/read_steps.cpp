@@ -224,14 +224,6 @@ void read_dynamic(Reading& reading, const Value& value, Step& step) {
   step.dynamic = dynamic;
 }
 
-/// Those of the contacts themselves.
-void add_coefficients(const std::vector<Contact>& contacts, Step& step) {
-  for (const Contact& contact : contacts) {
-    step.friction.push_back(contact.friction);
-    step.backward_friction.push_back(contact.backward_friction.value_or(contact.friction));
-  }
-}
-
 /// `friction: {joint: 0.3}`: coefficients at the end of the step.
 void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
   const std::vector<Contact>& contacts = reading.model.contacts;
@@ -273,77 +265,6 @@ void divide_at_corners(const Reading& reading, Step& step) {
   step.ends = std::move(ends);
 }
 
-/// Indices of the things with these names, `push` or `[push, lift]`.
-std::vector<char> read_which(Reading& reading, const Value& value, const std::vector<std::string>& known,
-                             const char* what, bool complete) {
-  std::vector<char> which(known.size(), 0);
-  std::vector<Value> items{value};
-  if (value.node->kind == Node::Kind::sequence)
-    items = read_list(reading.report, value, "[push]").value_or(std::vector<Value>{});
-  for (const Value& item : items) {
-    const auto name = read_text(reading.report, item);
-    if (!name) continue;
-    const auto found = std::find(known.begin(), known.end(), *name);
-    if (found != known.end())
-      which[static_cast<std::size_t>(found - known.begin())] = 1;
-    else if (complete)
-      reading.report.error(
-          item, fmt::format("there is no {} named {}{}", what, quoted_name(*name), suggestion(*name, known)));
-  }
-  return which;
-}
-
-/// `limit: {of: push}`: the factor of these loads grows until nothing is in equilibrium; from that of the step before.
-void read_limit(Reading& reading, const Value& value, Step& step) {
-  const MapReader map(reading.report, value, {"of", "relative"}, "{of: push, relative: 1e-3}");
-  std::vector<std::string> known;
-  for (const Load& load : reading.model.loads) known.push_back(load.name);
-  step.limit.emplace();
-  step.limit->contacts.assign(reading.model.contacts.size(), 0);
-  if (const auto of = map.need("of"))
-    step.limit->loads = read_which(reading, *of, known, "load", reading.conditions_known);
-  if (const auto relative = map.get("relative")) step.limit->relative = number_or_unread(reading, relative);
-  step.limit->loads.resize(known.size(), 0);
-  for (std::size_t i = 0; i < known.size(); ++i) step.load_factors[i] += step.limit->loads[i];
-}
-
-/// `reduce: {friction: [base]}`: the coefficients of these contacts fall, to 0 at part 1.
-void read_reduce(Reading& reading, const Value& value, Step& step) {
-  const MapReader map(reading.report, value, {"friction", "relative"}, "{friction: [base], relative: 1e-3}");
-  std::vector<std::string> known;
-  for (const Contact& contact : reading.model.contacts) known.push_back(contact.name);
-  step.limit.emplace();
-  step.limit->loads.assign(reading.model.loads.size(), 0);
-  if (const auto of = map.need("friction"))
-    step.limit->contacts = read_which(reading, *of, known, "contact", reading.conditions_known);
-  if (const auto relative = map.get("relative")) step.limit->relative = number_or_unread(reading, relative);
-  step.limit->contacts.resize(known.size(), 0);
-  if (step.friction.empty()) add_coefficients(reading.model.contacts, step);
-  for (std::size_t c = 0; c < known.size(); ++c) {
-    if (!step.limit->contacts[c]) continue;
-    if (!has_one_coefficient(reading.model.contacts[c]))
-      reading.report.error(
-          value, fmt::format("contact '{}' has no single coefficient of friction that could be reduced", known[c]));
-    step.friction[c] = step.backward_friction[c] = 0.0;
-  }
-}
-
-/// A step that looks for a limit has no other factors of its own.
-bool read_search(Reading& reading, const MapReader& map, Step& step) {
-  const auto limit = map.get("limit"), reduce = map.get("reduce");
-  if (!limit && !reduce) return false;
-  if (limit) read_limit(reading, *limit, step);
-  if (reduce && limit)
-    reading.report.error(*reduce, "does not go with 'limit': the loads grow, or the friction falls");
-  else if (reduce)
-    read_reduce(reading, *reduce, step);
-  for (const char* other : {"loads", "friction", "cycles", "increments"})
-    if (const auto given = map.get(other))
-      reading.report.error(*given,
-                           "is not for a step that looks for a limit, in which all else stays: use a step before it");
-  return true;
-}
-
 void read_loads_of_step(Reading& reading, const Index& supports, const MapReader& map, Step& step, std::size_t number) {
   const auto loads = map.get("loads");
   if (!loads && !step.friction.empty() && map.has("friction") && number > 1) return;  // the loads stay as they are
@@ -383,7 +304,7 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
   else if (reading.all_dynamic)
     reading.report.error(
         value, "needs 'dynamic', as in dynamic: {duration: 10}: every step of a dynamic analysis is one in time");
-  if (read_search(reading, map, step)) return step;
+  if (read_limit(reading, map, step)) return step;
   if (const auto increments = map.get("increments")) read_increments(reading, *increments, step);
   if (const auto friction = map.get("friction")) read_friction_of_step(reading, *friction, step);
   read_loads_of_step(reading, supports, map, step, number);
@@ -461,6 +382,13 @@ long read_cycles(Reading& reading, const Value& value, const Step& step) {
 }
 
 }  // namespace
+
+void add_coefficients(const std::vector<Contact>& contacts, Step& step) {
+  for (const Contact& contact : contacts) {
+    step.friction.push_back(contact.friction);
+    step.backward_friction.push_back(contact.backward_friction.value_or(contact.friction));
+  }
+}
 
 void read_steps(Reading& reading, const std::optional<Value>& value) {
   const std::size_t before = reading.report.count();

@@ -114,6 +114,10 @@ void read_curves(Reading& reading, const Value& value);
 std::optional<CurveTable> read_record_of(Reading& reading, const Value& value, Curve& curve);
 /// `growth` of a step whose factors are known, as are those of the step `before`; `supports`: those named by the user.
 void read_growth(Reading& reading, const Value& value, const Index& supports, const Step& before, Step& step);
+/// `limit` or `reduce` of a step that has the factors of the one before; false if it has neither.
+bool read_limit(Reading& reading, const MapReader& step_map, Step& step);
+/// The coefficients of the contacts themselves become those of a step.
+void add_coefficients(const std::vector<Contact>& contacts, Step& step);
 /// If the section is absent, there is one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);

@@ -240,7 +240,7 @@ void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const
   if (increment.converged) {
     const int number = finished_ + 1;
     points = point_rows(solution, increment);
-    const bool with_fields = number % output_.every == 0 || is_last(increment);
+    const bool with_fields = number % output_.every == 0 || may_be_last(solution.model, increment);
     if (with_fields && fields_collection_ && !in_parts()) fields = fields_of_bodies(solution, increment);
     const Interruptible nobody(nullptr);
     finished_ = number;
@@ -387,8 +387,9 @@ double ResultsDirectory::pseudo_time(const analysis::IncrementResult& increment)
   return time_of(increment, in_time_);
 }
 
-bool ResultsDirectory::is_last(const analysis::IncrementResult& increment) const {
-  return increment.step == steps_ && increment.reached == 1.0;
+/// Any increment of a step that looks for a limit may be its last equilibrium.
+bool ResultsDirectory::may_be_last(const model::Model& model, const analysis::IncrementResult& increment) const {
+  return increment.step == steps_ && (increment.reached == 1.0 || model.steps.back().limit);
 }
 
 void ResultsDirectory::begin_log(const analysis::StaticSolution& solution) {

@@ -108,7 +108,7 @@ class ResultsDirectory {
   bool in_time_ = false;  // whether the model has steps in time
   std::optional<DirectoryLock> lock_;
   double pseudo_time(const analysis::IncrementResult& increment) const;
-  bool is_last(const analysis::IncrementResult& increment) const;
+  bool may_be_last(const model::Model& model, const analysis::IncrementResult& increment) const;
   std::string fields_of_bodies(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment);
   bool in_parts() const { return fields_collection_ && parts_ && parts_->any(); }
   void write_fields(const analysis::StaticSolution& solution, const analysis::IncrementResult& increment,

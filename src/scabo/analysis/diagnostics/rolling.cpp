@@ -91,7 +91,7 @@ void add_reactions(const Prepared& prepared, const State& state, std::size_t p, 
     const int node = constraints[c].dof / 2;
     const bool rigid = prepared.structure.dofs.is_rigid(p);
     const Vec2 x = rigid ? constraints[c].point : prepared.structure.dofs.nodes(p)[static_cast<std::size_t>(node)];
-    Vec2 u = rigid ? moved(prepared, state, p, x, state.u[p]) : Vec2(state.u[p].segment<2>(2 * node));
+    Vec2 u = rigid ? moved(prepared, state, p, x, state.u[p]) : Vec2(state.u[p].segment<2>(place_of(node)));
     if (!rigid && !state.replaced.moved.empty()) u += state.replaced.moved[p];
     turning.add(x, u, 0.0, state.reactions[p][static_cast<Eigen::Index>(c)] * constraints[c].direction());
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scabo/base/components.hpp"
 #include "scabo/mesh/crack_faces.hpp"
 #include "scabo/model/wording.hpp"
 
@@ -18,7 +19,7 @@ std::string overlap(const Prepared& prepared, const FieldState& fields) {
       double widest = 0.0, least = 0.0;
       Vec2 where = Vec2::Zero();
       for (const mesh::FacePair& pair : mesh::face_pairs(prepared.mesh.bodies[b], static_cast<int>(c))) {
-        const Vec2 apart = u.segment<2>(2 * pair.right) - u.segment<2>(2 * pair.left);
+        const Vec2 apart = u.segment<2>(place_of(pair.right)) - u.segment<2>(place_of(pair.left));
         const double opening = apart.dot(pair.normal.normalized());
         widest = std::max(widest, apart.norm());
         if (opening < least) {

@@ -1,0 +1,85 @@
+// `limit` and `reduce` of a step: what its factor multiplies or divides, from the factors of the step before.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/input/reading.hpp"
+#include "scabo/input/suggestions.hpp"
+
+namespace scabo::input {
+
+namespace {
+
+/// One for each of `known`: whether it is named, in `push` or `[push, lift]`.
+std::vector<char> read_which(Reading& reading, const std::optional<Value>& value, const std::vector<std::string>& known,
+                             const char* what) {
+  std::vector<char> which(known.size(), 0);
+  if (!value) return which;
+  std::vector<Value> items{*value};
+  if (value->node->kind == Node::Kind::sequence)
+    items = read_list(reading.report, *value, "[push]").value_or(std::vector<Value>{});
+  for (const Value& item : items) {
+    const auto name = read_text(reading.report, item);
+    if (!name) continue;
+    const auto found = std::find(known.begin(), known.end(), *name);
+    if (found != known.end())
+      which[static_cast<std::size_t>(found - known.begin())] = 1;
+    else if (reading.conditions_known)
+      reading.report.error(
+          item, fmt::format("there is no {} named {}{}", what, quoted_name(*name), suggestion(*name, known)));
+  }
+  return which;
+}
+
+template <typename Things>
+std::vector<std::string> names_of(const Things& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+/// The factor of these loads grows, by 1 to part 1.
+void grow_loads(Step& step) {
+  for (std::size_t i = 0; i < step.load_factors.size(); ++i) step.load_factors[i] += step.limit->loads[i];
+}
+
+/// The coefficients of these contacts fall, to 0 at part 1.
+void reduce_friction(Reading& reading, const Value& value, Step& step) {
+  const std::vector<Contact>& contacts = reading.model.contacts;
+  if (step.friction.empty()) add_coefficients(contacts, step);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (!step.limit->contacts[c]) continue;
+    if (!has_one_coefficient(contacts[c]))
+      reading.report.error(
+          value,
+          fmt::format("contact '{}' has no single coefficient of friction that could be reduced", contacts[c].name));
+    step.friction[c] = step.backward_friction[c] = 0.0;
+  }
+}
+
+}  // namespace
+
+bool read_limit(Reading& reading, const MapReader& step_map, Step& step) {
+  const auto limit = step_map.get("limit"), reduce = step_map.get("reduce");
+  if (!limit && !reduce) return false;
+  if (limit && reduce) reading.report.error(*reduce, "does not go with 'limit': the loads grow, or the friction falls");
+  const char* const of = limit ? "of" : "friction";
+  const MapReader map(reading.report, limit ? *limit : *reduce, {of, "relative"},
+                      limit ? "{of: push, relative: 1e-3}" : "{friction: [base], relative: 1e-3}");
+  const auto named = map.need(of);
+  LimitStep& found = step.limit.emplace();
+  found.loads = read_which(reading, limit ? named : std::nullopt, names_of(reading.model.loads), "load");
+  found.contacts = read_which(reading, limit ? std::nullopt : named, names_of(reading.model.contacts), "contact");
+  if (const auto relative = map.get("relative")) found.relative = number_or_unread(reading, relative);
+  if (limit)
+    grow_loads(step);
+  else
+    reduce_friction(reading, *reduce, step);
+  for (const char* other : {"loads", "friction", "cycles", "increments"})
+    if (const auto given = step_map.get(other))
+      reading.report.error(*given,
+                           "is not for a step that looks for a limit, in which all else stays: use a step before it");
+  return true;
+}
+
+}  // namespace scabo::input
