@@ -127,6 +127,18 @@ class Dictionaries(InTemporaryDirectory):
         self.assertAlmostEqual(result.contact["base"].normal_force, 2e7, delta=1e-3)       # equilibrium: 10 MPa over 2 m
         self.assertAlmostEqual(result.contact["base"].tangential_force, -2e6, delta=1e-4)  # the push, on B
 
+    def test_the_bracket_of_a_limit(self):
+        model = block()
+        model["loads"] = {"down": {"on": "block.top", "pressure": 10e6}, "push": {"on": "block.left", "traction": [10e6, 0]}}
+        model["steps"] = [{"name": "down", "loads": {"down": 1}}, {"name": "push", "limit": {"of": "push", "relative": 1e-4}}]
+        result = scabo.Model(model).run()
+        solved, beyond = result.limit
+        self.assertLessEqual(solved, 0.6 + 1e-9)  # T = mu N: 10 MPa over 1 m, 0.3 times 10 MPa over 2 m
+        self.assertGreaterEqual(beyond, 0.6 - 1e-9)
+        self.assertLess(beyond - solved, 1e-4)
+        self.assertEqual(result.mechanism.moving, ["block"])
+        self.assertIsNone(scabo.Model(block()).run().limit)
+
     def test_every_good_file_as_a_dictionary(self):
         for file in sorted([*GOOD.glob("*.yaml"), *GOOD.glob("*.json")]):
             if "space" in file.stem:  # the program alone takes them

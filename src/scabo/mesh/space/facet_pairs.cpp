@@ -13,6 +13,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/geometry/box_tree.hpp"
+#include "scabo/geometry/frame.hpp"
 #include "scabo/geometry/simplex_basis.hpp"
 
 namespace scabo::mesh {
@@ -34,13 +35,11 @@ Vector3d normal_of(const Face& face) {
   return sum.normalized();
 }
 
+/// The normal, and two tangents.
 Eigen::Matrix3d directions_of(const Vector3d& normal) {
-  Eigen::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
+  const Eigen::Matrix3d frame = geometry::frame_along(normal);
   Eigen::Matrix3d directions;
-  directions.col(0) = normal;
-  directions.col(1) = normal.cross(Vector3d::Unit(least)).normalized();
-  directions.col(2) = normal.cross(directions.col(1));
+  directions << frame.col(2), frame.col(0), frame.col(1);
   return directions;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scabo/geometry/frame.hpp"
 #include "scabo/geometry/simplex_basis.hpp"
 
 namespace scabo::mesh {
@@ -78,16 +79,6 @@ struct Bricks {
   std::array<std::array<bool, 2>, 3> curved{};
 };
 
-Eigen::Matrix3d frame_along(const Vector3d& axis) {
-  Eigen::Matrix3d frame;
-  Eigen::Index least = 0;
-  axis.cwiseAbs().minCoeff(&least);
-  frame.col(2) = axis.normalized();
-  frame.col(0) = (Vector3d::Unit(least) - frame.col(2)[least] * frame.col(2)).normalized();
-  frame.col(1) = frame.col(2).cross(frame.col(0));
-  return frame;
-}
-
 std::vector<SizeAt> along(const model::SolidSizes& sizes, const std::function<double(const Vector3d&)>& parameter) {
   std::vector<SizeAt> near;
   for (const model::SolidSizes::Near& of : sizes.near) near.push_back({parameter(of.point), of.size, of.growth});
@@ -118,7 +109,7 @@ Point into_square(const Point& x) {
 }
 
 Bricks bricks_of(const model::SolidCylinder& cylinder, const model::SolidSizes& sizes) {
-  const Eigen::Matrix3d frame = frame_along(cylinder.to - cylinder.from);
+  const Eigen::Matrix3d frame = geometry::frame_along(cylinder.to - cylinder.from);
   const double r = cylinder.radius;
   const Vector3d from = cylinder.from;
   const auto local = [=](const Vector3d& x) { return Vector3d(frame.transpose() * (x - from)); };
@@ -144,7 +135,7 @@ Bricks bricks_of(const model::SolidCylinder& cylinder, const model::SolidSizes& 
 
 Bricks bricks_of(const model::SolidTube& tube, const model::SolidSizes& sizes) {
   constexpr int least_around = 12;
-  const Eigen::Matrix3d frame = frame_along(tube.to - tube.from);
+  const Eigen::Matrix3d frame = geometry::frame_along(tube.to - tube.from);
   const Vector3d from = tube.from;
   const double outer = tube.outer;
   const auto local = [=](const Vector3d& x) { return Vector3d(frame.transpose() * (x - from)); };
