@@ -7,7 +7,7 @@ radius, force, poisson = 0.05, 1e6, 0.3                                  # m, N/
 steel, aluminium = 210e9, 70e9                                           # Pa
 
 
-def roller_on_block(tolerance):
+def roller_on_block(tolerance: float) -> scabo.Model:
     mesh = {"kind": "quadtree", "tolerance": tolerance}
     return scabo.Model({
         "scabo": 1,
@@ -36,5 +36,5 @@ for tolerance in (0.03, 0.01, 0.003):
     result = roller_on_block(tolerance).run()
     largest = result.contact["touch"].history()["max_pressure"][-1]
     print(f"{tolerance:9.3f}{result.summary['model']['dofs']:21}"
-          f"{100 * result.increments[-1].error['relative_energy_norm']:16.2f} %"
+          f"{100 * result.increments[-1]['error']['relative_energy_norm']:16.2f} %"
           f"{largest / 1e6:15.2f} MPa{100 * (largest / pressure - 1):14.2f} %")

@@ -9,7 +9,9 @@
 #include "arrays.hpp"
 #include "scabo/analysis/diagnostics/mechanism.hpp"
 #include "scabo/mesh/output_points.hpp"
+#include "scabo/result/history.hpp"
 #include "scabo/result/point_tables.hpp"
+#include "scabo/result/recovery.hpp"
 #include "scabo/result/stress.hpp"
 #include "scabo/result/summary.hpp"
 #include "solved.hpp"
@@ -209,6 +211,58 @@ py::object mechanism(const py::object& self) {
   return table;
 }
 
+/// A copy of rows of `columns` numbers, of one in a flat array.
+template <typename Number>
+py::array copied(const std::vector<Number>& numbers, py::ssize_t columns = 1) {
+  const auto count = static_cast<py::ssize_t>(numbers.size()) / columns;
+  return columns == 1 ? py::array_t<Number>(count, numbers.data())
+                      : py::array_t<Number>(std::vector<py::ssize_t>{count, columns}, numbers.data());
+}
+
+/// Points, cells and fields of fields.vtu after an increment, without the bodies that are absent, as new arrays: points
+/// (n, 3), undeformed, length; connectivity (indices of points, all cells in sequence), offsets (cells + 1: where each
+/// begins, and the end), types (cells, numbers of VTK), cell_body and body (cells and n, from 1, in the order of the
+/// model); displacement (n, 3), length; stress (n, 6): xx, yy, zz, xy, yz, xz, principal_1 to principal_3, von_mises
+/// (n), force / length^2, positive in tension; principal_angle (n, from x, radians).
+py::dict fields(const StaticResult& solved, std::size_t increment) {
+  result::GridFields of;
+  until_ctrl_c([&] {
+    const analysis::IncrementResult& at = increment_of(solved, increment);
+    const result::Recovery recovery(solved.solution);
+    of = result::without_bodies(recovery.grid(), recovery.fields(solved.solution, at.fields), at.absent);
+  });
+  std::vector<std::int32_t> offsets{0};
+  offsets.insert(offsets.end(), of.grid.offsets.begin(), of.grid.offsets.end());
+  py::dict table;
+  table["points"] = copied(of.grid.points, 3);
+  table["connectivity"] = copied(of.grid.connectivity);
+  table["offsets"] = copied(offsets);
+  table["types"] = copied(of.grid.types);
+  table["cell_body"] = copied(of.grid.cell_body);
+  table["body"] = copied(of.grid.point_body);
+  table["displacement"] = copied(of.fields.displacement, 3);
+  table["stress"] = copied(of.fields.stress, 6);
+  table["principal_1"] = copied(of.fields.principal_1);
+  table["principal_2"] = copied(of.fields.principal_2);
+  table["principal_3"] = copied(of.fields.principal_3);
+  table["principal_angle"] = copied(of.fields.principal_angle);
+  table["von_mises"] = copied(of.fields.von_mises);
+  return table;
+}
+
+/// The text of history.csv, made from the fields of the increments that converged; empty where the model asks for none.
+std::string history(const StaticResult& solved) {
+  std::string table;
+  until_ctrl_c([&] {
+    result::History of(solved.solution.model);
+    if (!of.wanted()) return;
+    table = of.header();
+    for (const analysis::IncrementResult& increment : solved.solution.increments)
+      if (increment.converged) table += of.row(solved.solution, increment);
+  });
+  return table;
+}
+
 /// Names of the contacts, in the order of the model.
 std::vector<std::string> contact_names(const StaticResult& solved) {
   std::vector<std::string> names;
@@ -246,6 +300,8 @@ void bind_static_results(py::module_& module) {
       .def("keeps_fields", &keeps_fields, py::arg("increment"), doc::static_results::keeps_fields)
       .def("nodes", &nodes, py::arg("body"), doc::static_results::nodes)
       .def("displacement", &displacement, py::arg("increment"), py::arg("body"), doc::static_results::displacement)
+      .def("fields", &fields, py::arg("increment"), doc::static_results::fields)
+      .def("history", &history, doc::static_results::history)
       .def("mechanism", &mechanism, doc::static_results::mechanism)
       .def("values", &values, py::arg("increment"), py::arg("points"), py::arg("only"), py::arg("allow_outside"),
            doc::static_results::values);

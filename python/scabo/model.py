@@ -53,11 +53,16 @@ class Model(dict[str, Any]):
     for unchanged parts of a model that was read from a file also with line and column.
     """
 
-    def __init__(self, data: Mapping[str, Any] | None = None, *, file: str | os.PathLike[str] = "model") -> None:
-        """``file`` stands in messages, and mesh files and images that the model names are relative to its folder."""
+    def __init__(self, data: Mapping[str, Any] | str | os.PathLike[str] | None = None, *,
+                 file: str | os.PathLike[str] = "model") -> None:
+        """``data``: the content, or a model file, which is read as ``read`` does. ``file`` stands in messages, and mesh files
+        and images that the model names are relative to its folder."""
+        self._document: _core.Document | None = None
+        if isinstance(data, (str, os.PathLike)):
+            self._document = _core.read(os.fsdecode(data), [])
+            data, file = self._document.data(), self._document.file
         super().__init__(copy.deepcopy(dict(data or {})))
         self._file = os.fsdecode(file)
-        self._document: _core.Document | None = None
 
     @property
     def file(self) -> str:
@@ -78,6 +83,13 @@ class Model(dict[str, Any]):
     def __reduce__(self) -> tuple[Any, ...]:
         return _remade, (dict(self), self._file)
 
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes a model file that ``read`` and ``scabo run`` take: JSON, which is YAML too. Paths of mesh files and images
+        are written as they are."""
+        text = json.dumps(self, indent=2, default=_plain, ensure_ascii=False) + "\n"
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(text)
+
     def _checked(self) -> _core.CheckedModel:
         return _core.checked_model(self, self._file, self._document)
 
@@ -89,8 +101,8 @@ class Model(dict[str, Any]):
         return Sizes(**sizes)
 
     def run(self, output: str | os.PathLike[str] | None = None, *, progress: Callback | bool | None = None,
-            threads: int | None = None, keep_fields: bool = True, ignore_memory: bool = False) -> Result | ModalResult:
-        """Solves the model.
+            threads: int | None = None, keep_fields: bool = True, ignore_memory: bool = False) -> Result:
+        """Solves the model; natural modes are found by ``modes``.
 
         output
             Directory for the files that ``scabo run`` writes (docs/results.md); None: nothing is written.
@@ -108,27 +120,14 @@ class Model(dict[str, Any]):
         ignore_memory
             True: starts even if the estimated memory is not available.
 
-        Returns a ``Result``, or a ``ModalResult`` of a modal analysis. Other Python threads go on while it solves.
-        Raises ``ModelError``; ``NotConverged`` or ``Mechanism``, with the finished increments in ``result``;
+        Other Python threads go on while it solves. Raises ``ModelError``; ``NotConverged`` or ``Mechanism``, with the finished increments in ``result``;
         ``WriteError``; ``MemoryError``. Warnings are issued as ``ModelWarning``.
         """
-        with watching(progress) as callback:
-            return self._run(output, callback, threads, keep_fields, ignore_memory)
-
-    def _run(self, output: str | os.PathLike[str] | None, progress: Callback | None, threads: int | None,
-             keep_fields: bool, ignore_memory: bool) -> Result | ModalResult:
         checked = self._checked()
-        target = None if output is None else os.fsdecode(output)
-        if target == "":
-            raise ValueError("output: the name of the directory is empty: name one, or leave it out")
-        count = threads_of(threads)
         if checked.is_modal:
-            modes = _core.solve_modal(checked, target, count, progress)
-            if modes.record.error is not None:
-                raise modes.record.error
-            _warn(modes.record.warnings)
-            return ModalResult(modes)
-        solved = _core.solve_static(checked, target, count, keep_fields, ignore_memory, progress)
+            raise ValueError("analysis.type: a modal analysis has modes and no increments: use modes()")
+        with watching(progress) as callback:
+            solved = _core.solve_static(checked, _target(output), threads_of(threads), keep_fields, ignore_memory, callback)
         result = Result(solved)
         _warn(solved.record.warnings)
         if solved.record.error is not None:
@@ -138,6 +137,27 @@ class Model(dict[str, Any]):
             return result
         kinds = {"interrupted": Interrupted, "mechanism": Mechanism, "collapse": Collapse}
         raise kinds.get(solved.status, NotConverged)(solved.record.why_not_solved, result)
+
+    def modes(self, output: str | os.PathLike[str] | None = None, *, progress: Callback | bool | None = None,
+              threads: int | None = None) -> ModalResult:
+        """Natural frequencies and modes of a model with ``analysis: {type: modal}``. Arguments and exceptions are those of
+        ``run``."""
+        checked = self._checked()
+        if not checked.is_modal:
+            raise ValueError("analysis.type: modes are found where it is modal: use run()")
+        with watching(progress) as callback:
+            modes = _core.solve_modal(checked, _target(output), threads_of(threads), callback)
+        if modes.record.error is not None:
+            raise modes.record.error
+        _warn(modes.record.warnings)
+        return ModalResult(modes)
+
+
+def _target(output: str | os.PathLike[str] | None) -> str | None:
+    target = None if output is None else os.fsdecode(output)
+    if target == "":
+        raise ValueError("output: the name of the directory is empty: name one, or leave it out")
+    return target
 
 
 def _remade(data: dict[str, Any], file: str) -> Model:
@@ -157,16 +177,20 @@ def _warn(texts: list[str]) -> None:
         warnings.warn(text, ModelWarning, stacklevel=_outside())
 
 
+def _plain(value: Any) -> Any:
+    """For JSON."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"must be a number, text, true or false, a list or a dictionary, not {type(value).__name__}")
+
+
 def _setting(path: str, value: Any) -> str:
     if isinstance(value, str):
         return f"{path}={value}"
-
-    def plain(other: Any) -> Any:
-        if hasattr(other, "tolist"):
-            return other.tolist()
-        raise TypeError(f"set: {path}: must be a number, text, true or false, a list or a dictionary, "
-                        f"not {type(other).__name__}")
-    return f"{path}={json.dumps(value, default=plain)}"
+    try:
+        return f"{path}={json.dumps(value, default=_plain)}"
+    except TypeError as error:
+        raise TypeError(f"set: {path}: {error}") from None
 
 
 def read(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None) -> Model:

@@ -2,11 +2,14 @@
 from __future__ import annotations
 
 import csv
+import html
+import io
 import json
 import math
 import operator
 import os
 import pathlib
+import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,10 +18,13 @@ import numpy as np
 
 from . import _core
 from .arguments import real_array
+from .fields import Fields
 from .motion import Motion
 
 if TYPE_CHECKING:
+    import meshio
     import pandas
+    import pyvista
     from numpy.typing import ArrayLike
 
 __all__ = ["Contact", "Increment", "Result"]
@@ -28,9 +34,8 @@ _PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "history")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
 
 
-def _columns_of(path: pathlib.Path) -> dict[str, np.ndarray]:
-    with open(path, newline="", encoding="utf-8") as file:
-        header, *rows = csv.reader(file)
+def _columns_of(table: str) -> dict[str, np.ndarray]:
+    header, *rows = csv.reader(io.StringIO(table))
     columns = zip(*rows) if rows else [()] * len(header)
     return {name: np.array([value or "nan" for value in column], dtype=float) for name, column in zip(header, columns)}
 
@@ -187,12 +192,12 @@ class Result:
         """Columns of history.csv over the increments: step, increment, time, and what ``output.history`` of the model asks
         for, not a number where it has no value. Empty without it. Without a directory it needs the fields of all
         increments (``keep_fields``)."""
-        if "history" not in self._summary:
-            return {}
         if self._directory is not None:
-            return _columns_of(pathlib.Path(self._directory, "history.csv"))
-        with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
-            return _columns_of(pathlib.Path(self._write(os.path.join(folder, "results")), "history.csv"))
+            path = pathlib.Path(self._directory, "history.csv")
+            return _columns_of(path.read_text(encoding="utf-8")) if "history" in self._summary else {}
+        self._with_all_fields()
+        table = self._core.history()
+        return _columns_of(table) if table else {}
 
     @property
     def warnings(self) -> list[str]:
@@ -279,6 +284,18 @@ class Result:
         """Stress at points, (n, 4): xx, yy, xy, zz; see ``values``."""
         return self.values(points, body=body, increment=increment, outside=outside)["stress"]
 
+    def fields(self, increment: int = -1) -> Fields:
+        """Points, cells and values of all bodies, as in fields.vtu."""
+        return Fields.of(self._core.fields(self._with_fields(increment)))
+
+    def to_meshio(self, increment: int = -1) -> meshio.Mesh:
+        """The same as a ``meshio.Mesh``, which meshio writes in some thirty formats."""
+        return self.fields(increment).to_meshio()
+
+    def to_pyvista(self, increment: int = -1) -> pyvista.UnstructuredGrid:
+        """The same as a ``pyvista.UnstructuredGrid``."""
+        return self.fields(increment).to_pyvista()
+
     def save(self, directory: str | os.PathLike[str]) -> None:
         """Writes the files that ``scabo run`` writes. Needs the fields of all increments (``keep_fields``)."""
         self._directory = self._write(os.fsdecode(directory))
@@ -287,8 +304,7 @@ class Result:
         if self._core.writes_problems:
             raise ValueError("the model asks for the discrete problems (output.discrete_problems), which are written "
                              "only during a run: use run(output=...)")
-        for increment in range(len(self._increments)):
-            self._with_fields(increment)
+        self._with_all_fields()
         _core.write_results(self._core, directory)
         return directory
 
@@ -311,7 +327,11 @@ class Result:
         of_both_halves = {"mirrored": True} if options.pop("mirrored", False) else {}
 
         def draw(directory: str) -> Any:
-            return picture(plot.Results(directory, **of_both_halves), **options)
+            figure = picture(plot.Results(directory, **of_both_halves), **options)
+            pyplot = sys.modules.get("matplotlib.pyplot")
+            if pyplot is not None and "inline" in pyplot.get_backend():  # a notebook shows what a cell returns, and open figures
+                pyplot.close(figure)
+            return figure
 
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
             return draw(self.directory)
@@ -359,8 +379,27 @@ class Result:
                               "pairs were found anew are kept)")
         return number
 
+    def _with_all_fields(self) -> None:
+        for increment in range(len(self._increments)):
+            self._with_fields(increment)
+
     def _last(self) -> Increment:
         return self._increments[self._number(-1)]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("results hold the memory of the solver and cannot be pickled: save() them, or pickle what you need of "
+                        "them, as summary, history or contact[...].table()")
+
     def __repr__(self) -> str:
         return f"<scabo.Result: {self.status}, {len(self._increments)} increments>"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: status, and the totals of the contacts after the last increment."""
+        text = f"<b>{html.escape(self.status)}</b>, {len(self._increments)} increments"
+        if not self._increments or not self.contact:
+            return text
+        head = "".join(f"<th>{name.replace('_', ' ')}</th>" for name in ("contact", *_VALUES))
+        rows = "".join(f"<tr><td>{html.escape(name)}</td>"
+                       + "".join(f"<td>{total[value]:.6g}</td>" for value in _VALUES) + "</tr>"
+                       for name, total in self._last().contacts.items())
+        return f"{text}<table><tr>{head}</tr>{rows}</table>"

@@ -246,15 +246,19 @@ class Modes(InTemporaryDirectory):
         file = ROOT / "examples" / "02_natural_frequencies" / "model.yaml"
         program("run", file, "-o", self.directory / "program", "--quiet")
         expected = json.loads((self.directory / "program" / "summary.json").read_text())
-        result = scabo.read(file).run(output=self.directory / "python")
+        result = scabo.read(file).modes(output=self.directory / "python")
         self.assertEqual({**result.summary, "timing": None, "peak_memory_bytes": None},
                          {**expected, "timing": None, "peak_memory_bytes": None})
-        self.assertEqual(scabo.read(file).run().summary["modes"], expected["modes"])
+        self.assertEqual(scabo.read(file).modes().summary["modes"], expected["modes"])
         self.assertEqual(result.frequencies.tolist(), [mode["frequency"] for mode in expected["modes"]])
         [(body, shape)] = result.modes[0].shape.items()
         self.assertEqual(shape.shape, result.nodes(body).shape)
         self.assertAlmostEqual(np.linalg.norm(shape, axis=1).max(), 1.0, delta=1e-12)
         self.assertFalse(shape.flags.owndata)
+        with self.assertRaisesRegex(ValueError, r"use modes\(\)"):
+            scabo.read(file).run()
+        with self.assertRaisesRegex(ValueError, r"use run\(\)"):
+            scabo.Model(ROOT / "examples" / "01_double_cantilever" / "model.yaml").modes()
 
 
 class Plot(InTemporaryDirectory):

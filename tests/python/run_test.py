@@ -318,9 +318,9 @@ class tqdm:
     def test_a_modal_analysis(self):
         model = scabo.read(BEAM.parent.parent / "02_natural_frequencies" / "model.yaml")
         with self.assertRaises(scabo.Interrupted):
-            model.run(progress=lambda now: not now.stage.startswith("mass"))
+            model.modes(progress=lambda now: not now.stage.startswith("mass"))
         with self.assertRaises(ZeroDivisionError):
-            model.run(progress=lambda now: 1 / 0)
+            model.modes(progress=lambda now: 1 / 0)
 
 
 class Threads(InTemporaryDirectory):
