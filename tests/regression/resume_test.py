@@ -195,14 +195,14 @@ class Resume(unittest.TestCase):
         self.assert_same(content(self.directory / "whole"))
 
     def test_killed_while_cracks_grow(self):
-        for law in ("toughness: {K_Ic: 1e6}", "law: paris, C: 1e-29, m: 3, between: [{pull: 0.1}, {pull: 1}]"):
+        for law in ("law: paris, C: 1e-29, m: 3, between: [{pull: 0.1}, {pull: 1}]", "toughness: {K_Ic: 1e6}")[:1 if SANITIZED else 2]:
             with self.subTest(law=law):
                 self.model.write_text(GROWTH.replace("LAW", law), encoding="utf-8")
                 run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
                 self.assertEqual(run.returncode, 0, run.stderr)
                 whole = content(self.directory / "whole")
                 self.assertEqual(whole["cracks.csv"].count(b"\n"), 14)
-                for checkpoints in (1, 4, 8):
+                for checkpoints in (4, 1, 8)[:1 if SANITIZED else 3]:
                     shutil.rmtree(self.results, ignore_errors=True)
                     self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
                     run = scabo("resume", self.results, "--quiet")
@@ -317,7 +317,7 @@ class Resume(unittest.TestCase):
         good, kept = checkpoint.read_bytes(), self.directory / "kept"
         shutil.copytree(self.results, kept)
         random.seed(SEED)
-        for _ in range(12):
+        for _ in range(3 if SANITIZED else 12):
             shutil.rmtree(self.results)
             shutil.copytree(kept, self.results)
             at = random.randrange(len(good))
