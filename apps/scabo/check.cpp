@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "plot.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/input/settings.hpp"
 #include "scabo/input/space/read_solid_model.hpp"
@@ -60,7 +61,11 @@ std::string steps_table(const model::Model& model) {
 
 ExitStatus check(const CheckOptions& options) {
   const input::AnyModel read = input::read_any_model(options.model, input::parse_settings(options.settings));
-  if (const auto* solids = std::get_if<model::SpaceModel>(&read)) return check_solids(*solids);
+  if (const auto* solids = std::get_if<model::SpaceModel>(&read)) {
+    if (options.plot)
+      throw InputError(options.model, {{{}, "--plot: there are pictures of models in the plane alone"}});
+    return check_solids(*solids);
+  }
   const auto& model = std::get<model::Model>(read);
   const mesh::Mesh mesh = analysis::check(model);
   if (model.analysis.type == model::AnalysisType::static_) result::check_sections(model, mesh);
@@ -72,7 +77,7 @@ ExitStatus check(const CheckOptions& options) {
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);
   text += "\n" + steps_table(model) + "\nNo mistakes found.\n";
   print_output(text);
-  return ExitStatus::solved;
+  return options.plot ? draw_model(model, mesh, {options.model}) : ExitStatus::solved;
 }
 
 ExitStatus print_schema() {

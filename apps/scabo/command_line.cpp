@@ -2,6 +2,7 @@
 #include "command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -147,7 +148,7 @@ class CommandLine {
  public:
   explicit CommandLine(Cluster* cluster) : cluster_(cluster) {
     if (cluster_) run_options_.threads = cluster_->threads_of_a_rank();
-    app_.set_version_flag("--version", fmt::format("scabo {}", result::version()), "Prints the version");
+    app_.set_version_flag("-V,--version", fmt::format("scabo {}", result::version()), "Prints the version");
     app_.set_help_flag("-h,--help", "Prints help; `scabo run --help` prints the help of `run`");
     app_.require_subcommand(1);
     app_.footer(exit_statuses);
@@ -208,6 +209,7 @@ class CommandLine {
 
     check_->add_option("MODEL", check_options_.model, model_help)->required()->option_text(" ");
     add_settings(*check_, check_options_.settings);
+    check_->add_flag("--plot", check_options_.plot, "Draws the model, as `scabo plot MODEL` does");
     check_->footer(check_example);
 
     exponents_->add_option("MODEL", exponents_options_.model, model_help)->required()->option_text(" ");
@@ -250,7 +252,7 @@ class CommandLine {
 
     std::vector<std::string> kinds;
     for (const StarterModel& model : starter_models()) kinds.emplace_back(model.name);
-    new_->add_option("KIND", new_options_.kind, "Subject of the model")
+    new_->add_option("KIND", new_options_.kind, fmt::format("Subject of the model: {}", fmt::join(kinds, ", ")))
         ->required()
         ->option_text(" ")
         ->check(one_of(kinds));
@@ -276,6 +278,10 @@ class CommandLine {
   }
 
   void parse(std::vector<std::string> words) {
+    if (!words.empty() && words.front() == "help") {  // `scabo help run` is `scabo run --help`
+      words.erase(words.begin());
+      words.emplace_back("--help");
+    }
     words_ = words;
     std::reverse(words.begin(), words.end());  // the order that CLI11 expects
     app_.parse(std::move(words));
@@ -297,7 +303,7 @@ class CommandLine {
     if (*check_) return check(check_options_);
     if (*exponents_) return print_exponents(exponents_options_);
     if (*contact_) return solve_contact(contact_options_);
-    if (*plot_) return plot({words_.begin() + 1, words_.end()});
+    if (*plot_) return plot(plot_options_.directory, {words_.begin() + 1, words_.end()});
     if (*report_) return report({words_.begin() + 1, words_.end()});
     if (*new_) return write_new_model(new_options_);
     if (*convert_) return convert_deck(convert_options_);
@@ -364,15 +370,24 @@ class CommandLine {
 
   /// The options themselves are passed on to the program for pictures; here they are only checked.
   void add_plot() {
-    plot_->add_option("DIR", plot_options_.directory, "Results directory of a run")->required()->option_text(" ");
-    plot_->add_option("--what", plot_options_.what, "What is drawn; default: all that the results have")
+    plot_->add_option("DIR", plot_options_.directory, "Results directory of a run; or a model file, drawn unsolved")
+        ->required()
+        ->option_text(" ");
+    const std::vector<std::string> kinds = {"stress", "contact",   "convergence", "mesh",     "history",
+                                            "cracks", "mechanism", "envelope",    "spectrum", "all"};
+    plot_
+        ->add_option("--what", plot_options_.what,
+                     fmt::format("What is drawn: {}; default: all that the results have, but envelope and spectrum",
+                                 fmt::join(kinds, ", ")))
         ->option_text("KIND")
-        ->check(one_of({"stress", "contact", "convergence", "mesh", "history", "cracks", "mechanism", "all"}));
+        ->check(one_of(kinds));
     plot_
         ->add_option("--increment", plot_options_.increment,
                      "Number from 1 over all steps, or of the mode; default: -1, the last one")
         ->option_text("N");
-    plot_->add_option("--component", plot_options_.text, "Part of stress, contact or history; a wrong name lists them")
+    plot_
+        ->add_option("--component", plot_options_.text,
+                     "Part of stress, contact, history or spectrum; a wrong name lists them")
         ->option_text("NAME");
     plot_->add_option("--contact", plot_options_.contacts, "Only this contact; may be repeated")
         ->option_text("NAME")

@@ -19,6 +19,7 @@ class Cluster;  // cluster.hpp
 struct CheckOptions {
   std::string model;                  ///< the model file
   std::vector<std::string> settings;  ///< `path=value`, each replacing one value of the model file
+  bool plot = false;                  ///< draws it, too
 };
 
 /// Under mpirun: smallest number of degrees of freedom of a body that is divided. From 5e4 on the larger of two ranks
@@ -102,8 +103,9 @@ ExitStatus check(const CheckOptions& options);
 ExitStatus print_exponents(const ExponentsOptions& options);
 ExitStatus solve_contact(const ContactOptions& options);
 ExitStatus print_schema();
-/// Pictures by the program for them, with the words after `scabo plot`; returns only by an exception.
-ExitStatus plot(const std::vector<std::string>& arguments);
+/// Pictures by the program for them, with the words after `scabo plot`: of results in a directory, where it returns
+/// only by an exception, or of a model file.
+ExitStatus plot(const std::string& directory, const std::vector<std::string>& arguments);
 /// A page for the browser in the same way, with the words after `scabo report`.
 ExitStatus report(const std::vector<std::string>& arguments);
 /// `scabo convert`: model and mesh, and what could not be taken.

@@ -9,6 +9,7 @@
 
 #include "commands.hpp"
 #include "scabo/base/error.hpp"
+#include "scabo/input/read_model.hpp"
 #include "scabo/result/files.hpp"
 #include "terminal.hpp"
 
@@ -24,6 +25,10 @@ ExitStatus write_new_model(const NewOptions& options) {
     throw InputError(file.string(), {{{}, "exists: remove it, or name another file with -o"}});
   result::write_file(file, model->text);
   print_output(fmt::format("{}: {}. Solve it with `scabo run {}`\n", file.string(), model->subject, file.string()));
+  const std::filesystem::path schema = file.parent_path() / "model.schema.json";
+  if (std::filesystem::exists(std::filesystem::symlink_status(schema, ignored))) return ExitStatus::solved;
+  result::write_file(schema, fmt::format("{}\n", input::model_schema()));
+  print_output(fmt::format("{}: editors complete and check the model by it\n", schema.string()));
   return ExitStatus::solved;
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "progress.hpp"
+#include "scabo/analysis/state/checkpoint.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
@@ -138,7 +139,10 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
     print_warning(warning);
   }
   if (status != ExitStatus::solved) {
-    const std::string why = run::why_not_solved(solution, status != ExitStatus::not_converged);
+    const bool interrupted = status != ExitStatus::not_converged;
+    std::string why = run::why_not_solved(solution, interrupted);
+    if (interrupted && analysis::has_checkpoint(run.directory->path()))
+      why += fmt::format(": go on with `scabo resume {}`", run.directory->path().string());
     events.not_solved(solution);
     events.error(why);
     print_error(why);

@@ -109,6 +109,20 @@ class NewModels(support.InTemporaryDirectory):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("other.yaml", run.stdout)
 
+    def test_the_schema_for_editors_is_beside_it(self):
+        for folder in ("", "folder"):
+            with self.subTest(folder=folder):
+                (self.directory / folder).mkdir(exist_ok=True)
+                run = support.scabo("new", "dam", "-o", pathlib.Path(folder, "dam.yaml"), cwd=self.directory)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                model, schema = (self.directory / folder / name for name in ("dam.yaml", "model.schema.json"))
+                first = model.read_text(encoding="utf-8").splitlines()[0]
+                self.assertEqual(first, "# yaml-language-server: $schema=" + schema.name)
+                self.assertEqual(schema.read_text(encoding="utf-8"), support.scabo("schema").stdout)
+        schema.write_text("mine")
+        run = support.scabo("new", "beam", "-o", "folder/beam.yaml", cwd=self.directory)
+        self.assertEqual((run.returncode, schema.read_text()), (0, "mine"))
+
     def test_mistakes(self):
         run = support.scabo("new", "bridge", cwd=self.directory)
         self.assertEqual(run.returncode, 1)

@@ -1,6 +1,7 @@
 """The command line of the pictures, `scabo plot`. Exit status 0: pictures were written; 1: the command line or the directory is
 wrong; 3: a picture cannot be written."""
 import argparse
+import json
 import logging
 import math
 import pathlib
@@ -25,7 +26,8 @@ class Parser(argparse.ArgumentParser):
 
 def parser():
     options = Parser(prog="scabo plot", description="Draws pictures of a results directory")
-    options.add_argument("directory", type=pathlib.Path, metavar="DIR", help="results of `scabo run`")
+    options.add_argument("directory", type=pathlib.Path, metavar="DIR", help="results of `scabo run`, or a model file, which is drawn as it is")
+    options.add_argument("--drawing", type=pathlib.Path, help=argparse.SUPPRESS)  # what the program says of a model that is DIR
     options.add_argument("--what", choices=(*KINDS, *ON_REQUEST, "all"), default="all",
                          help="what is drawn; default: all that the results have but envelope and spectrum")
     options.add_argument("--increment", type=int, metavar="N",
@@ -164,6 +166,8 @@ def write(options):
     from .sweeps import Sweep
     if options.output is not None and options.turned is None and options.output.suffix.lower() not in FORMATS:
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
+    if options.drawing is not None:
+        return write_model(options)
     refuse_impossible(options.directory)
     if options.what == "all" and options.component is not None and not Sweep.is_in(options.directory):
         raise ResultsError(f"--component {options.component}: say of what, as in --what stress")
@@ -197,6 +201,25 @@ def write(options):
     for figure in drawn.values():
         figure.draw_without_rendering()  # the layout follows from the labels, and these from the layout
     save(drawn, options)
+    return 0
+
+
+def write_model(options):
+    """The picture of a model before it is solved."""
+    from .models import model
+    from .results import ResultsError
+    from .units import Units
+    for option in ("increment", "component", "contact", "scale", "view", "mirror", "turned"):
+        if getattr(options, option) not in (None, [], False):
+            raise ResultsError(f"--{option}: has no meaning for a model that is not solved")
+    if options.what != "all":
+        raise ResultsError(f"--what {options.what}: of a model that is not solved there is one picture; solve it with `scabo run`")
+    drawing = json.loads(options.drawing.read_text(encoding="utf-8"))
+    figure = model(drawing, Units.parse(options.units) if options.units else Units(), window_of(options.window))
+    figure.draw_without_rendering()
+    path = options.output or options.directory.with_suffix(".model.png")
+    figure.savefig(path)
+    show(path)
     return 0
 
 

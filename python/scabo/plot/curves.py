@@ -9,6 +9,7 @@ from .results import NothingToDraw, ResultsError, without_rounding
 from .units import Units
 
 LEAST = 1e-17      # drawn for a residual of zero
+MOST_COLUMNS = 6   # of history.csv
 MOST_CURVES = 6    # in one panel
 MOST_NAMED = 4     # increments with a mark and a name
 PAIRS = ("pairs", "number")
@@ -41,7 +42,8 @@ def history(results, component=None, units=None):
     units = units or Units()
     if component is not None and component not in PANELS:
         raise ResultsError(f"--component {component}: over increments there are {', '.join(PANELS)}")
-    panels = [panel for panel in (PANELS[name](results) for name in ([component] if component else PANELS)) if panel and panel.curves]
+    made = [PANELS[name](results) for name in ([component] if component else PANELS)]
+    panels = [panel for some in made for panel in (some if isinstance(some, list) else [some]) if panel and panel.curves]
     if not panels:
         raise NothingToDraw(f"{results.directory}: has nothing to draw over increments" + (f" as {component}" if component else ""))
     columns = min(2, len(panels))
@@ -256,8 +258,19 @@ def energies(results):
     return Panel("energy", (results.time_axis, "number"), ("energy", "energy"), curves)
 
 
+def asked_for(results):
+    """What `output.history` asks for, a panel for each column of history.csv; of many the first."""
+    table = results.table("history.csv")
+    if table is None:
+        return []
+    names = [name for name in table if name not in ("step", "increment", "time")]
+    count = f" ({MOST_COLUMNS} of {len(names)} columns)" if len(names) > MOST_COLUMNS else ""
+    return [Panel(short_name(name) + count, (results.time_axis, "number"), ("in units of the model", "number"),
+                  [Curve("", table["time"][:results.count], table[name][:results.count])]) for name in names[:MOST_COLUMNS]]
+
+
 PANELS = {"forces": forces, "states": states, "load": load_displacement, "hysteresis": hysteresis, "reactions": reactions,
-          "energy": energies}
+          "energy": energies, "history": asked_for}
 
 
 @dataclasses.dataclass(frozen=True)

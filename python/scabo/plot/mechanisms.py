@@ -111,7 +111,7 @@ def described(results, motion, units):
     """`step 2, increment 1 · mechanism: 3 of 17 bodies move, most of all 'b_3_1' · largest displacement drawn as 500 mm`"""
     summary = results.summary
     last = summary["increments"][-1] if summary.get("increments") else {}
-    parts = [f"step {last['step']}, increment {last['increment']}"] if last else []
+    parts = [results.place_of(last)] if last else []
     limit = summary.get("limit")
     status = f"beyond the limit, {limit['solved']:.5g} to {limit['beyond']:.5g}" if limit else summary["status"]
     parts.append(f"{status}: {summary.get('mechanism', {}).get('text', '')}")

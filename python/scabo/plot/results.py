@@ -89,15 +89,22 @@ class Results:
         return number
 
     def name_of(self, number):
-        """`step 2, increment 1` of a number from 1."""
+        """`step 2 (push), increment 1` of a number from 1."""
         if self.modal:
             mode = self.summary["modes"][number - 1]
             return f"mode {number} of {mode['body']}, frequency {mode['frequency']:.5g} (1 / time)"
         entry = self.increments[number - 1]
-        name = f"step {entry['step']}, increment {entry['increment']}"
+        name = self.place_of(entry)
         if number == self.count and self.summary["status"] not in ("solved", "running"):
             name += f" (the last one; the run ended as {self.summary['status'].replace('_', ' ')})"
         return name
+
+    def place_of(self, entry):
+        """`step 2 (push), increment 1` of an entry of summary.json; without the name that a step has by its number alone."""
+        step = entry["step"]
+        names = self.summary.get("model", {}).get("steps", [])
+        named = step <= len(names) and names[step - 1] != f"step_{step}"
+        return f"step {step}" + (f" ({names[step - 1]})" if named else "") + f", increment {entry['increment']}"
 
     @property
     def in_time(self):
@@ -138,7 +145,8 @@ class Results:
                 raise ResultsError(f"{path}:{line}: has {len(row)} fields instead of {len(header)}; run the model again")
         columns = list(zip(*rows)) or [()] * len(header)
         try:
-            return {key: np.array(column, dtype=str) if key in TEXT else _numbers(column) for key, column in zip(header, columns)}
+            text = () if name == "history.csv" else TEXT  # whose columns the user names
+            return {key: np.array(column, dtype=str) if key in text else _numbers(column) for key, column in zip(header, columns)}
         except ValueError as error:
             raise ResultsError(f"{path}: is damaged ({error}); run the model again") from None
 
