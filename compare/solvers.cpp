@@ -151,6 +151,54 @@ void describe(Solution& solution, const Problem& problem, const Vector& motion, 
   }
 }
 
+/// When a method may end: well below the tolerance of the judge, but not below the rounding of the gaps themselves.
+Control control_of(const Problem& problem, const SolverOptions& options, const Measure& measure) {
+  const double stiffness = measure.stiffness();
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * stiffness * largest(problem.q);
+  const double asked = options.judge == Judge::certificate ? 0.01 * options.tolerance * measure.reference()
+                                                           : 0.1 * options.tolerance * stiffness * problem.q.norm();
+  return {std::max(asked, rounding), options.iterations, options.deadline};
+}
+
+/// Runs the method from `solution`, which gets its end. Motions are converted to forces, so that all unknowns are
+/// forces; scales as in solve().
+End run_in_forces(const Solver& solver, const Problem& problem, const SolverOptions& options, const Measure& measure,
+                  Solution& solution) {
+  const double stiffness = measure.stiffness();
+  Problem in_forces = problem;
+  in_forces.W = problem.W.scaled(stiffness);
+  in_forces.q = stiffness * problem.q;
+  End end =
+      run_by(solver, in_forces, solution.p, stiffness * solution.a, options, control_of(problem, options, measure));
+  solution.p = end.p;
+  solution.a = problem.G.cols() > 0 ? Vector(end.a / stiffness) : Vector(0);
+  solution.iterations = end.iterations;
+  solution.trace = std::move(end.trace);
+  return end;
+}
+
+/// Status of a method that has ended, and the reason if it did not solve the problem. `ended`: its own words, if any.
+void conclude(const Solver& solver, const Problem& problem, const SolverOptions& options, Judgement judgement,
+              const std::string& ended, Solution& solution) {
+  // A small deviation of friction from the direction of slip enters the certificate only quadratically (as work); the
+  // residual must therefore be small too.
+  if (options.judge == Judge::certificate) judgement.figure = std::max(judgement.figure, solution.residual);
+  if (judgement.solved(options.tolerance)) {
+    solution.status = Status::solved;
+    solution.undetermined = undetermined_motions(problem, solution.states);
+  } else if (options.deadline.passed()) {
+    char limit[80];
+    std::snprintf(limit, sizeof limit, "%s: the time limit of %g s ended the search", solver.name,
+                  options.deadline.seconds());
+    solution.reason = reason_of(judgement, options.judge, options.tolerance, limit);
+  } else {
+    solution.reason = std::string(solver.name) + ": " +
+                      (ended.empty() ? reason_of(judgement, options.judge, options.tolerance, "it ended") : ended);
+  }
+  if (solution.status == Status::not_converged && options.judge == Judge::natural_map)
+    if (const auto found = find_infeasibility(problem, options.deadline)) mark_infeasible(solution, *found);
+}
+
 }  // namespace
 
 std::optional<Method> method_named(std::string_view name) {
@@ -184,55 +232,19 @@ Solution solve_with(Method method, const Problem& problem, const Start& start, c
     solution.motion = *motion;
     solution.reason = "a rigid motion is held neither by supports nor by contact and friction";
   }
-
-  // Motions are converted to forces, so that all unknowns are forces; scales as in solve().
+  const bool runs = !refused && !motion;
   const Measure measure(problem, solution.p, options.force_scale);
-  const double stiffness = measure.stiffness();
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * stiffness * largest(problem.q);
-  // Well below the tolerance of the judge, but not below the rounding of the gaps themselves.
-  const double asked = options.judge == Judge::certificate ? 0.01 * options.tolerance * measure.reference()
-                                                           : 0.1 * options.tolerance * stiffness * problem.q.norm();
-  const Control control{std::max(asked, rounding), options.iterations, options.deadline};
-
-  End end;
-  if (!refused && !motion) {
-    Problem in_forces = problem;
-    in_forces.W = problem.W.scaled(stiffness);
-    in_forces.q = stiffness * problem.q;
-    end = run_by(solver, in_forces, solution.p, stiffness * solution.a, options, control);
-    solution.p = end.p;
-    solution.a = m > 0 ? Vector(end.a / stiffness) : Vector(0);
-    solution.iterations = end.iterations;
-    solution.trace = std::move(end.trace);
-  }
+  const End end = runs ? run_in_forces(solver, problem, options, measure, solution) : End();
   const Scales scales = measure.scales(solution.p);
   for (Iteration& iteration : solution.trace) iteration.residual /= scales.force;
   solution.residual = end.residual / scales.force;
   const Vector u = motion_of(problem, solution.p, solution.a);
-  Judgement judgement = judge(problem, solution.p, solution.a, u, measure, options.judge);
+  const Judgement judgement = judge(problem, solution.p, solution.a, u, measure, options.judge);
   solution.certificate = judgement.certificate;
   solution.natural_map_residual = judgement.natural_map_residual;
   solution.rounding = judgement.rounding;
   describe(solution, problem, u, scales);
-  if (refused || motion) return solution;
-  // A small deviation of friction from the direction of slip enters the certificate only quadratically (as work); the
-  // residual must therefore be small too.
-  if (options.judge == Judge::certificate) judgement.figure = std::max(judgement.figure, solution.residual);
-  if (judgement.solved(options.tolerance)) {
-    solution.status = Status::solved;
-    solution.undetermined = undetermined_motions(problem, solution.states);
-  } else if (options.deadline.passed()) {
-    char limit[80];
-    std::snprintf(limit, sizeof limit, "%s: the time limit of %g s ended the search", solver.name,
-                  options.deadline.seconds());
-    solution.reason = reason_of(judgement, options.judge, options.tolerance, limit);
-  } else {
-    solution.reason =
-        std::string(solver.name) + ": " +
-        (end.reason.empty() ? reason_of(judgement, options.judge, options.tolerance, "it ended") : end.reason);
-  }
-  if (solution.status == Status::not_converged && options.judge == Judge::natural_map)
-    if (const auto found = find_infeasibility(problem, options.deadline)) mark_infeasible(solution, *found);
+  if (runs) conclude(solver, problem, options, judgement, end.reason, solution);
   return solution;
 }
 

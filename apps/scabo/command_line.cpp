@@ -15,6 +15,7 @@
 
 #include "cluster.hpp"
 #include "command_description.hpp"
+#include "command_texts.hpp"
 #include "commands.hpp"
 #include "compare/solvers.hpp"
 #include "new_model.hpp"
@@ -27,86 +28,6 @@
 namespace scabo::app {
 
 namespace {
-
-constexpr const char* exit_statuses = R"(Exit status:
-  0    solved and certified
-  1    the command line, the model file or a file it names is wrong
-  2    the solve did not converge, the loads exceed what supports and contact can carry (status `mechanism`), bodies
-       fall before the loads are reached (`collapse`), or a problem file has no solution (`infeasible`); the results of
-       the converged increments are kept
-  3    any other failure: results cannot be written, another run writes into the same directory, memory is
-       insufficient, or the program has a bug
-  130  interrupted by Ctrl-C after an increment (143: by SIGTERM, 129: by SIGHUP); the finished increments are kept
-If standard output cannot be written (it is closed, or a pipe without a reader), the status of `run` does not change;
-the other commands, whose result is the text they print, end with status 3.)";
-
-constexpr const char* run_example = R"(Example:
-  scabo run model.yaml -o friction_0.5 --set contacts.joint.friction=0.5
-
-Results: summary.json, contact.csv, fields.pvd (ParaView) and log.txt in DIR.
-Ctrl-C ends the run after the current increment, or at once if none has begun; a second Ctrl-C ends it immediately.)";
-
-constexpr const char* resume_example = R"(Example:
-  scabo resume model.results
-
-Continues after the last increment in the checkpoint of DIR. With the same number of threads, on the same kind of
-processor, the results are those of a run without interruption, bit by bit. The model and its files must not have
-changed.)";
-
-constexpr const char* sweep_example = R"(Example:
-  scabo sweep model.yaml --vary contacts.joint.friction=0.1:0.9:9 --vary width=1,2,4 -j 4
-
-A path is one of the model file, as for --set, or the name of one of its parameters. Values are a list (0.1,0.2,0.5), equally spaced (0.1:0.9:9) or of equal ratio (log:1e-3:1:4). All combinations are run,
-each in a directory point_001, ... of DIR; DIR/sweep.csv is the table of all points. Ctrl-C ends the runs after their
-current increments, and the same command goes on with what is missing. Exit status: 0 if every point is solved; 2 if
-some did not converge or are mechanisms, 1 if a value is wrong for the model, 3 if some failed.)";
-
-constexpr const char* check_example = R"(Example:
-  scabo check model.yaml --set bodies.upper.mesh.size=0.1)";
-
-constexpr const char* exponents_example = R"(Example:
-  scabo exponents notch.yaml --set bodies.plate.mesh.order=8
-
-Displacements grow as xi^exponent from the scaling centre; exponents below 1 mean infinite stress there.)";
-
-constexpr const char* contact_example = R"(Example:
-  scabo contact model.results/problems/press_3.hdf5 --json > solution.json
-
-FILE is HDF5 in FCLIB's layout, in local or global form, or text in the layout of Siconos. Exit status 0: solved, that
-is, the natural-map residual or the certificate is below the tolerance; 2: not converged, a mechanism, a collapse, or
-infeasible.)";
-
-constexpr const char* plot_example = R"(Example:
-  scabo plot model.results --what contact --units m,N -o contact.pdf
-
-`stress`: any component of stress or displacement on the deformed bodies; `contact`: pressure, shear, gap and slip along
-the contacts with the state of every pair; `history`: curves over the increments; `convergence` of the contact solver;
-`mesh`. Of the directory of a sweep: quantities over the varied values, --component names columns of its table.
-It needs Python with NumPy and Matplotlib (apt install python3-matplotlib).)";
-
-constexpr const char* report_example = R"(Example:
-  scabo report model.results --units m,N
-
-One HTML file for any browser, without a network: the fields to zoom, pick and deform, curves along the contacts linked
-with them, increments, convergence, certificate and warnings. It needs Python with NumPy (apt install python3-numpy).)";
-
-constexpr const char* new_example = R"(Example:
-  scabo new beam && scabo run beam.yaml && scabo plot beam.results)";
-
-constexpr const char* convert_example = R"(Example:
-  scabo convert part.inp && scabo run part.yaml
-
-DECK is an input file of Abaqus or CalculiX with plane elements. The mesh goes into a file beside the model. What is
-not taken is named with its line. Exit status 0: the model is that of the deck; 1: it would not be, and is not written.)";
-
-constexpr const char* completion_example = R"(Example:
-  source <(scabo completion bash)
-
-`make install` and the package install the scripts of all shells.)";
-
-constexpr const char* schema_example = R"(Example:
-  scabo schema > model.schema.json
-With `# yaml-language-server: $schema=model.schema.json` as its first line, editors complete and check a model.)";
 
 constexpr const char* model_help = "Model file (YAML or JSON)";
 constexpr const char* set_help =
@@ -153,127 +74,18 @@ class CommandLine {
     app_.require_subcommand(1);
     app_.footer(exit_statuses);
     app_.get_formatter()->column_width(24);
-
-    run_->add_option("MODEL", run_options_.model, model_help)->required()->option_text(" ");
-    run_->add_option("-o,--output", run_options_.output, "Results directory; default: model.results, beside model.yaml")
-        ->type_name("DIR")
-        ->option_text("DIR");
-    add_settings(*run_, run_options_.settings);
-    run_->add_option("--threads", run_options_.threads,
-                     "Largest number of threads, 1 or more; default: one for each processor. Small models use one")
-        ->option_text("N")
-        ->check(whole_number(1, 1024));
-    run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
-    run_->add_flag("--json-lines", run_options_.json_lines,
-                   "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
-    run_->add_flag("--ignore-memory", run_options_.ignore_memory,
-                   "Starts even if less memory is available than the analysis is expected to need");
-    add_division(*run_, run_options_.divide_from);
-    run_->add_flag("--report", run_options_.report, "Writes a page for the browser at the end, as `scabo report` does");
-    run_->footer(run_example);
-
-    resume_->add_option("DIR", resume_options_.directory, "Results directory of the run")->required()->option_text(" ");
-    resume_->add_option("--model", resume_options_.model, "The model file, if it was moved")->option_text("MODEL");
-    resume_
-        ->add_option("--threads", resume_options_.threads,
-                     "Largest number of threads; default: as before. Another number may change the last digits")
-        ->option_text("N")
-        ->check(whole_number(1, 1024));
-    resume_->add_flag("-q,--quiet", resume_options_.quiet, "Prints only errors and warnings");
-    add_division(*resume_, resume_options_.divide_from);
-    resume_->add_flag(
-        "--json-lines", resume_options_.json_lines,
-        "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
-    resume_->footer(resume_example);
-
-    sweep_->add_option("MODEL", sweep_options_.model, model_help)->required()->option_text(" ");
-    sweep_->add_option("--vary", sweep_options_.vary, "Values to run; may be repeated")
-        ->required()
-        ->type_name("PATH=VALUES")
-        ->option_text("PATH=VALUES ...")
-        ->allow_extra_args(false);
-    add_settings(*sweep_, sweep_options_.settings);
-    sweep_->add_option("-o,--output", sweep_options_.output, "Directory; default: model.sweep, beside model.yaml")
-        ->option_text("DIR");
-    sweep_->add_option("-j,--jobs", sweep_options_.jobs, "Runs at a time; default: one for each processor")
-        ->option_text("N")
-        ->check(whole_number(1, 1024));
-    sweep_
-        ->add_option("--threads", sweep_options_.threads,
-                     "Threads of each run; default: processors over runs at a time")
-        ->option_text("N")
-        ->check(whole_number(1, 1024));
-    sweep_->add_flag("--anew", sweep_options_.anew, "Replaces what DIR holds of another sweep, and runs all points");
-    sweep_->add_flag("-q,--quiet", sweep_options_.quiet, "Prints only errors");
-    sweep_->footer(sweep_example);
-
-    check_->add_option("MODEL", check_options_.model, model_help)->required()->option_text(" ");
-    add_settings(*check_, check_options_.settings);
-    check_->add_flag("--plot", check_options_.plot, "Draws the model, as `scabo plot MODEL` does");
-    check_->footer(check_example);
-
-    exponents_->add_option("MODEL", exponents_options_.model, model_help)->required()->option_text(" ");
-    add_settings(*exponents_, exponents_options_.settings);
-    exponents_->add_flag("--json", exponents_options_.json, "Prints JSON instead of tables");
-    exponents_->footer(exponents_example);
-
-    contact_->add_option("FILE", contact_options_.file, "Discrete contact problem")->option_text(" ");
-    contact_->add_option("--solver", contact_options_.solver, solver_help())->option_text("NAME");
-    contact_
-        ->add_option("--tolerance", contact_options_.tolerance,
-                     "Limit of the natural-map residual or the certificate; default 1e-10")
-        ->option_text("X")
-        ->check(number_from(1e-15, 0.1));
-    contact_->add_option("--iterations", contact_options_.iterations, "Largest number of iterations of one attempt")
-        ->option_text("N")
-        ->check(whole_number(1, 100'000'000));
-    contact_
-        ->add_option("--time-limit", contact_options_.time_limit,
-                     "Ends the solve after this time and reports the best iterate")
-        ->option_text("SECONDS")
-        ->check(positive_number());
-    contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
-    contact_->add_flag("--uniqueness", contact_options_.uniqueness, "Looks for other solutions and reports them");
-    trace_ = contact_
-                 ->add_option("--trace", contact_options_.trace,
-                              "Writes every iteration as CSV, and a plot (.svg) beside it; default: "
-                              "FILE.trace.csv")
-                 ->option_text("[=CSV]")
-                 ->expected(0, 1);
-    contact_
-        ->add_option("--save", contact_options_.save,
-                     "Writes the problem and its solution as HDF5; if the name ends in .dat, the problem as text")
-        ->option_text("NEW");
-    contact_->footer(contact_example);
-
+    add_run();
+    add_resume();
+    add_sweep();
+    add_check();
+    add_exponents();
+    add_contact();
     schema_->footer(schema_example);
     add_plot();
     add_report();
-
-    std::vector<std::string> kinds;
-    for (const StarterModel& model : starter_models()) kinds.emplace_back(model.name);
-    new_->add_option("KIND", new_options_.kind, fmt::format("Subject of the model: {}", fmt::join(kinds, ", ")))
-        ->required()
-        ->option_text(" ")
-        ->check(one_of(kinds));
-    new_->add_option("-o,--output", new_options_.output, "Name of the file; default: KIND.yaml")->option_text("FILE");
-    new_->footer(new_example);
-
-    convert_->add_option("DECK", convert_options_.deck, "Input file (.inp)")->required()->option_text(" ");
-    convert_
-        ->add_option("-o,--output", convert_options_.output,
-                     "Name of the model file; default: part.yaml, beside part.inp")
-        ->option_text("FILE");
-    convert_->add_flag("--incomplete", convert_options_.incomplete,
-                       "Writes a model even if something essential is missing in it");
-    convert_->add_flag("--force", convert_options_.force, "Replaces the files that there are");
-    convert_->footer(convert_example);
-
-    completion_->add_option("SHELL", shell_, "Shell")
-        ->required()
-        ->option_text(" ")
-        ->check(one_of({"bash", "zsh", "fish"}));
-    completion_->footer(completion_example);
+    add_new();
+    add_convert();
+    add_completion();
     manual_->footer("Example:\n  scabo manual | man -l -");
   }
 
@@ -366,6 +178,141 @@ class CommandLine {
               return known ? std::string() : fmt::format("'{}' is none of {}", word, fmt::join(words, ", "));
             },
             "{" + all + "}"};
+  }
+
+  void add_run() {
+    run_->add_option("MODEL", run_options_.model, model_help)->required()->option_text(" ");
+    run_->add_option("-o,--output", run_options_.output, "Results directory; default: model.results, beside model.yaml")
+        ->type_name("DIR")
+        ->option_text("DIR");
+    add_settings(*run_, run_options_.settings);
+    run_->add_option("--threads", run_options_.threads,
+                     "Largest number of threads, 1 or more; default: one for each processor. Small models use one")
+        ->option_text("N")
+        ->check(whole_number(1, 1024));
+    run_->add_flag("-q,--quiet", run_options_.quiet, "Prints only errors and warnings");
+    run_->add_flag("--json-lines", run_options_.json_lines,
+                   "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
+    run_->add_flag("--ignore-memory", run_options_.ignore_memory,
+                   "Starts even if less memory is available than the analysis is expected to need");
+    add_division(*run_, run_options_.divide_from);
+    run_->add_flag("--report", run_options_.report, "Writes a page for the browser at the end, as `scabo report` does");
+    run_->footer(run_example);
+  }
+
+  void add_resume() {
+    resume_->add_option("DIR", resume_options_.directory, "Results directory of the run")->required()->option_text(" ");
+    resume_->add_option("--model", resume_options_.model, "The model file, if it was moved")->option_text("MODEL");
+    resume_
+        ->add_option("--threads", resume_options_.threads,
+                     "Largest number of threads; default: as before. Another number may change the last digits")
+        ->option_text("N")
+        ->check(whole_number(1, 1024));
+    resume_->add_flag("-q,--quiet", resume_options_.quiet, "Prints only errors and warnings");
+    add_division(*resume_, resume_options_.divide_from);
+    resume_->add_flag(
+        "--json-lines", resume_options_.json_lines,
+        "Prints what happens as JSON, one object a line, for other programs; text goes to standard error");
+    resume_->footer(resume_example);
+  }
+
+  void add_sweep() {
+    sweep_->add_option("MODEL", sweep_options_.model, model_help)->required()->option_text(" ");
+    sweep_->add_option("--vary", sweep_options_.vary, "Values to run; may be repeated")
+        ->required()
+        ->type_name("PATH=VALUES")
+        ->option_text("PATH=VALUES ...")
+        ->allow_extra_args(false);
+    add_settings(*sweep_, sweep_options_.settings);
+    sweep_->add_option("-o,--output", sweep_options_.output, "Directory; default: model.sweep, beside model.yaml")
+        ->option_text("DIR");
+    sweep_->add_option("-j,--jobs", sweep_options_.jobs, "Runs at a time; default: one for each processor")
+        ->option_text("N")
+        ->check(whole_number(1, 1024));
+    sweep_
+        ->add_option("--threads", sweep_options_.threads,
+                     "Threads of each run; default: processors over runs at a time")
+        ->option_text("N")
+        ->check(whole_number(1, 1024));
+    sweep_->add_flag("--anew", sweep_options_.anew, "Replaces what DIR holds of another sweep, and runs all points");
+    sweep_->add_flag("-q,--quiet", sweep_options_.quiet, "Prints only errors");
+    sweep_->footer(sweep_example);
+  }
+
+  void add_check() {
+    check_->add_option("MODEL", check_options_.model, model_help)->required()->option_text(" ");
+    add_settings(*check_, check_options_.settings);
+    check_->add_flag("--plot", check_options_.plot, "Draws the model, as `scabo plot MODEL` does");
+    check_->footer(check_example);
+  }
+
+  void add_exponents() {
+    exponents_->add_option("MODEL", exponents_options_.model, model_help)->required()->option_text(" ");
+    add_settings(*exponents_, exponents_options_.settings);
+    exponents_->add_flag("--json", exponents_options_.json, "Prints JSON instead of tables");
+    exponents_->footer(exponents_example);
+  }
+
+  void add_contact() {
+    contact_->add_option("FILE", contact_options_.file, "Discrete contact problem")->option_text(" ");
+    contact_->add_option("--solver", contact_options_.solver, solver_help())->option_text("NAME");
+    contact_
+        ->add_option("--tolerance", contact_options_.tolerance,
+                     "Limit of the natural-map residual or the certificate; default 1e-10")
+        ->option_text("X")
+        ->check(number_from(1e-15, 0.1));
+    contact_->add_option("--iterations", contact_options_.iterations, "Largest number of iterations of one attempt")
+        ->option_text("N")
+        ->check(whole_number(1, 100'000'000));
+    contact_
+        ->add_option("--time-limit", contact_options_.time_limit,
+                     "Ends the solve after this time and reports the best iterate")
+        ->option_text("SECONDS")
+        ->check(positive_number());
+    contact_->add_flag("--json", contact_options_.json, "Prints the solution as JSON");
+    contact_->add_flag("--uniqueness", contact_options_.uniqueness, "Looks for other solutions and reports them");
+    trace_ = contact_
+                 ->add_option("--trace", contact_options_.trace,
+                              "Writes every iteration as CSV, and a plot (.svg) beside it; default: "
+                              "FILE.trace.csv")
+                 ->option_text("[=CSV]")
+                 ->expected(0, 1);
+    contact_
+        ->add_option("--save", contact_options_.save,
+                     "Writes the problem and its solution as HDF5; if the name ends in .dat, the problem as text")
+        ->option_text("NEW");
+    contact_->footer(contact_example);
+  }
+
+  void add_new() {
+    std::vector<std::string> kinds;
+    for (const StarterModel& model : starter_models()) kinds.emplace_back(model.name);
+    new_->add_option("KIND", new_options_.kind, fmt::format("Subject of the model: {}", fmt::join(kinds, ", ")))
+        ->required()
+        ->option_text(" ")
+        ->check(one_of(kinds));
+    new_->add_option("-o,--output", new_options_.output, "Name of the file; default: KIND.yaml")->option_text("FILE");
+    new_->footer(new_example);
+  }
+
+  void add_convert() {
+    convert_->add_option("DECK", convert_options_.deck, "Input file (.inp)")->required()->option_text(" ");
+    convert_
+        ->add_option("-o,--output", convert_options_.output,
+                     "Name of the model file; default: part.yaml, beside part.inp")
+        ->option_text("FILE");
+    convert_->add_flag("--incomplete", convert_options_.incomplete,
+                       "Writes a model even if something essential is missing in it");
+    convert_->add_flag("--force", convert_options_.force, "Replaces the files that there are");
+    convert_->footer(convert_example);
+  }
+
+  void add_completion() {
+    completion_->add_option("SHELL", shell_, "Shell")
+        ->required()
+        ->option_text(" ")
+        ->check(one_of({"bash", "zsh", "fish"}));
+    completion_->footer(completion_example);
   }
 
   /// The options themselves are passed on to the program for pictures; here they are only checked.

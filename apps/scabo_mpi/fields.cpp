@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "own_fields.hpp"
@@ -76,6 +78,100 @@ element::InteriorLoads interior_loads(Unpacker& unpacker) {
   return loads;
 }
 
+/// The bodies of which this rank has a share, ascending.
+using OwnShares = std::vector<std::pair<int, const Share*>>;
+
+OwnShares own_shares(const std::map<int, std::unique_ptr<Share>>& shares) {
+  OwnShares own;
+  for (const auto& [id, share] : shares)
+    for (const int body : share->bodies) own.emplace_back(body, share.get());
+  std::sort(own.begin(), own.end());
+  return own;
+}
+
+/// `of_root`: on rank 0, which has what is not divided.
+std::unique_ptr<OwnFields> own_fields_of(const OwnShares& own, const model::Model& model,
+                                         const analysis::Discretisation* of_root) {
+  auto fields = std::make_unique<OwnFields>();
+  analysis::Discretisation& of = fields->discretisation;
+  of.model = model;
+  const std::size_t bodies = of.model.bodies.size();
+  fields->divided.assign(bodies, 0);
+  fields->numbers.resize(bodies);
+  fields->node_numbers.resize(bodies);
+  of.mesh.bodies.resize(bodies);
+  of.cells.resize(bodies);
+  for (const auto& [body, share] : own) {
+    const auto b = static_cast<std::size_t>(body);
+    fields->divided[b] = 1;
+    of.mesh.bodies[b] = share->mesh.bodies[b];
+    of.cells[b] = share->cells[b];
+    fields->numbers[b] = share->numbers[b];
+    fields->node_numbers[b] = share->node_numbers[b];
+  }
+  for (std::size_t b = 0; b < bodies; ++b) {
+    if (fields->divided[b]) continue;
+    of.model.bodies[b].rigid = of_root && of.model.bodies[b].rigid;
+    if (!of_root) continue;
+    of.mesh.bodies[b] = of_root->mesh.bodies[b];
+    of.cells[b] = of_root->cells[b];
+  }
+  return fields;
+}
+
+/// On rank 0 what each rank needs of a state; elsewhere nothing.
+std::vector<Wanted> wanted_by_ranks(const Process& process, const OwnShares& own) {
+  Packer has;
+  std::vector<int> bodies;
+  for (const auto& [body, share] : own) bodies.push_back(body);
+  has.add_list(bodies);
+  for (const auto& [body, share] : own) {
+    has.add_list(share->cell_numbers[static_cast<std::size_t>(body)]);
+    has.add_list(share->node_numbers[static_cast<std::size_t>(body)]);
+  }
+  std::vector<Wanted> of_ranks;
+  for (const Bytes& bytes : process.collected(std::move(has).take())) {
+    Unpacker unpacker(bytes);
+    Wanted& wanted = of_ranks.emplace_back();
+    wanted.bodies = unpacker.get_list<int>();
+    for (std::size_t k = 0; k < wanted.bodies.size(); ++k) {
+      wanted.cells.push_back(unpacker.get_list<int>());
+      wanted.nodes.push_back(unpacker.get_list<int>());
+    }
+  }
+  return of_ranks;
+}
+
+/// Which of a rank's own nodes other ranks have as well: OwnFields::is_shared. A rank has nodes that belong to another
+/// one; the list of all such nodes is small.
+std::vector<std::vector<char>> shared_nodes(const Process& process, const OwnShares& own, const OwnFields& fields) {
+  Packer foreign;
+  for (const auto& [body, share] : own) {
+    std::vector<int> list;
+    for (const int number : share->numbers[static_cast<std::size_t>(body)])
+      if (number < share->first[static_cast<std::size_t>(process.rank())] ||
+          number >= share->first[static_cast<std::size_t>(process.rank()) + 1])
+        list.push_back(number);
+    foreign.add_list(list);
+  }
+  std::vector<std::vector<int>> all(own.size());
+  for (const Bytes& bytes : process.gathered(std::move(foreign).take())) {
+    Unpacker unpacker(bytes);
+    for (std::vector<int>& of_body : all) {
+      const std::vector<int> list = unpacker.get_list<int>();
+      of_body.insert(of_body.end(), list.begin(), list.end());
+    }
+  }
+  std::vector<std::vector<char>> is_shared(fields.divided.size());
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    std::sort(all[k].begin(), all[k].end());
+    const auto b = static_cast<std::size_t>(own[k].first);
+    for (const int number : fields.numbers[b])
+      is_shared[b].push_back(std::binary_search(all[k].begin(), all[k].end(), number));
+  }
+  return is_shared;
+}
+
 Bytes pack_state(const analysis::Discretisation& discretisation, const analysis::IncrementResult& increment,
                  const std::filesystem::path& directory, const std::string& stem, const Wanted& wanted) {
   const analysis::FieldState& state = increment.fields;
@@ -106,140 +202,63 @@ Bytes pack_state(const analysis::Discretisation& discretisation, const analysis:
   return std::move(packer).take();
 }
 
-/// Sums at points of nodes that several ranks have.
-struct SharedSum {
-  int number = 0, material = 0, cells = 0;
-  double values[5] = {};  // stress, temperature, strain zz
+/// What rank 0 tells about a state: where its fields are written, and their values in own cells and nodes.
+struct OwnState {
+  std::filesystem::path directory;
+  std::string stem;
+  int threads = 1;
+  std::vector<int> absent;
+  analysis::FieldState fields;
 };
 
-}  // namespace
-
-std::vector<std::string> Process::write_fields(const analysis::Discretisation* discretisation,
-                                               const analysis::IncrementResult* increment,
-                                               const std::filesystem::path* directory, const std::string* stem) {
-  std::vector<std::pair<int, const Share*>> own;  // body, share
-  for (const auto& [id, share] : shares_)
-    for (const int body : share->bodies) own.emplace_back(body, share.get());
-  std::sort(own.begin(), own.end());
-
-  const bool made = agreed([&] {
-    if (own_fields_) return;
-    auto fields = std::make_unique<OwnFields>();
-    analysis::Discretisation& of = fields->discretisation;
-    of.model = model();
-    const std::size_t bodies = of.model.bodies.size();
-    fields->divided.assign(bodies, 0);
-    fields->numbers.resize(bodies);
-    fields->node_numbers.resize(bodies);
-    of.mesh.bodies.resize(bodies);
-    of.cells.resize(bodies);
-    for (const auto& [body, share] : own) {
-      const auto b = static_cast<std::size_t>(body);
-      fields->divided[b] = 1;
-      of.mesh.bodies[b] = share->mesh.bodies[b];
-      of.cells[b] = share->cells[b];
-      fields->numbers[b] = share->numbers[b];
-      fields->node_numbers[b] = share->node_numbers[b];
-    }
-    for (std::size_t b = 0; b < bodies; ++b) {
-      if (fields->divided[b]) continue;
-      of.model.bodies[b].rigid = discretisation && of.model.bodies[b].rigid;  // rank 0 has what is not divided
-      if (!discretisation) continue;
-      of.mesh.bodies[b] = discretisation->mesh.bodies[b];
-      of.cells[b] = discretisation->cells[b];
-    }
-    own_fields_ = std::move(fields);
-  });
-  if (!made) return {};
-  if (own_fields_->is_shared.empty()) {
-    Packer has;
-    std::vector<int> bodies;
-    for (const auto& [body, share] : own) bodies.push_back(body);
-    has.add_list(bodies);
-    for (const auto& [body, share] : own) {
-      has.add_list(share->cell_numbers[static_cast<std::size_t>(body)]);
-      has.add_list(share->node_numbers[static_cast<std::size_t>(body)]);
-    }
-    for (const Bytes& bytes : collected(std::move(has).take())) {
-      Unpacker unpacker(bytes);
-      Wanted& wanted = own_fields_->of_ranks.emplace_back();
-      wanted.bodies = unpacker.get_list<int>();
-      for (std::size_t k = 0; k < wanted.bodies.size(); ++k) {
-        wanted.cells.push_back(unpacker.get_list<int>());
-        wanted.nodes.push_back(unpacker.get_list<int>());
-      }
-    }
-    // A rank has nodes that belong to another one; the list of all such nodes is small.
-    Packer foreign;
-    for (const auto& [body, share] : own) {
-      std::vector<int> list;
-      for (const int number : share->numbers[static_cast<std::size_t>(body)])
-        if (number < share->first[static_cast<std::size_t>(rank_)] ||
-            number >= share->first[static_cast<std::size_t>(rank_) + 1])
-          list.push_back(number);
-      foreign.add_list(list);
-    }
-    const std::vector<Bytes> lists = gathered(std::move(foreign).take());
-    std::vector<std::vector<int>> all(own.size());
-    for (const Bytes& bytes : lists) {
-      Unpacker unpacker(bytes);
-      for (std::vector<int>& of_body : all) {
-        const std::vector<int> list = unpacker.get_list<int>();
-        of_body.insert(of_body.end(), list.begin(), list.end());
-      }
-    }
-    own_fields_->is_shared.resize(own_fields_->divided.size());
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      std::sort(all[k].begin(), all[k].end());
-      const auto b = static_cast<std::size_t>(own[k].first);
-      for (const int number : own_fields_->numbers[b])
-        own_fields_->is_shared[b].push_back(std::binary_search(all[k].begin(), all[k].end(), number));
-    }
-  }
-
-  const Bytes message = distributed([&](int rank) {
-    return pack_state(*discretisation, *increment, *directory, *stem,
-                      own_fields_->of_ranks[static_cast<std::size_t>(rank)]);
-  });
+/// `of_root`: on rank 0, which has what is not divided.
+OwnState unpack_state(const Bytes& message, const OwnShares& own, std::size_t bodies,
+                      const analysis::IncrementResult* of_root) {
   Unpacker unpacker(message);
-  const std::filesystem::path to = unpacker.get_text();
-  const std::string name = unpacker.get_text();
-  analysis::Discretisation& of = own_fields_->discretisation;
-  of.threads = unpacker.get<int>();
-  const std::vector<int> absent = unpacker.get_list<int>();
-  analysis::FieldState state;
-  state.reference_displacements.resize(unpacker.get<std::size_t>());
-  for (Vec2& moved : state.reference_displacements)
+  OwnState state;
+  state.directory = unpacker.get_text();
+  state.stem = unpacker.get_text();
+  state.threads = unpacker.get<int>();
+  state.absent = unpacker.get_list<int>();
+  analysis::FieldState& fields = state.fields;
+  fields.reference_displacements.resize(unpacker.get<std::size_t>());
+  for (Vec2& moved : fields.reference_displacements)
     for (double& value : moved) value = unpacker.get<double>();
   const auto initial = unpacker.get<std::size_t>();
-  for (std::size_t i = 0; i < initial; ++i) state.initial.push_back(initial_stress(unpacker));
-  state.displacements.resize(of.model.bodies.size());
-  state.interior.resize(of.model.bodies.size());
-  if (increment) {
-    state.displacements = increment->fields.displacements;
-    state.interior = increment->fields.interior;
+  for (std::size_t i = 0; i < initial; ++i) fields.initial.push_back(initial_stress(unpacker));
+  fields.displacements.resize(bodies);
+  fields.interior.resize(bodies);
+  if (of_root) {
+    fields.displacements = of_root->fields.displacements;
+    fields.interior = of_root->fields.interior;
   }
   for (const auto& [body, share] : own) {
     const auto b = static_cast<std::size_t>(body);
-    state.displacements[b] = unpacker.get_vector();
-    state.interior[b].clear();
+    fields.displacements[b] = unpacker.get_vector();
+    fields.interior[b].clear();
     if (!unpacker.get<bool>()) continue;
     for (std::size_t cell = 0; cell < share->cell_numbers[b].size(); ++cell)
-      state.interior[b].push_back(interior_loads(unpacker));
+      fields.interior[b].push_back(interior_loads(unpacker));
   }
+  return state;
+}
 
-  std::vector<std::vector<int>> of_points(
-      of.model.bodies.size());  // [body]: own node of each point on the sides of cells
-  const auto complete = [&](std::size_t body, const std::vector<int>& nodes, const std::vector<int>& materials,
-                            result::SharedValues& sums, std::vector<int>& cells) {
-    if (!own_fields_->divided[body]) return;
-    of_points[body] = nodes;
-    const std::vector<int>& numbers = own_fields_->numbers[body];
-    std::vector<SharedSum> mine;
+/// Adds to the sums at shared nodes what other ranks have there (result::CompleteSums).
+class SumsOfRanks {
+ public:
+  SumsOfRanks(const Process& process, const OwnFields& fields)
+      : process_(process), fields_(fields), nodes_(fields.divided.size()) {}
+
+  void operator()(std::size_t body, const std::vector<int>& nodes, const std::vector<int>& materials,
+                  result::SharedValues& sums, std::vector<int>& cells) {
+    if (!fields_.divided[body]) return;
+    nodes_[body] = nodes;
+    const std::vector<int>& numbers = fields_.numbers[body];
+    std::vector<Sum> mine;
     std::map<std::pair<int, int>, std::size_t> point_of;  // number, material
     for (std::size_t point = 0; point < nodes.size(); ++point) {
       const auto node = static_cast<std::size_t>(nodes[point]);
-      if (!own_fields_->is_shared[body][node]) continue;
+      if (!fields_.is_shared[body][node]) continue;
       const auto column = static_cast<Eigen::Index>(point);
       mine.push_back({numbers[node],
                       materials[point],
@@ -251,49 +270,99 @@ std::vector<std::string> Process::write_fields(const analysis::Discretisation* d
     }
     Packer packer;
     packer.add_list(mine);
-    for (const Bytes& bytes : gathered(std::move(packer).take())) {  // in the order of ranks, on every rank
+    for (const Bytes& bytes : process_.gathered(std::move(packer).take())) {  // in the order of ranks, on every rank
       Unpacker of_rank(bytes);
-      for (const SharedSum& sum : of_rank.get_list<SharedSum>()) {
+      for (const Sum& sum : of_rank.get_list<Sum>()) {
         const auto found = point_of.find({sum.number, sum.material});
         if (found == point_of.end()) continue;
         sums.col(static_cast<Eigen::Index>(found->second)) += Eigen::Map<const Eigen::Vector<double, 5>>(sum.values);
         cells[found->second] += sum.cells;
       }
     }
+  }
+
+  /// [body]: own node of each point on the sides of cells, of divided ones.
+  const std::vector<std::vector<int>>& nodes() const { return nodes_; }
+
+ private:
+  struct Sum {
+    int number = 0, material = 0, cells = 0;
+    double values[5] = {};  // stress, temperature, strain zz
   };
+
+  const Process& process_;
+  const OwnFields& fields_;
+  std::vector<std::vector<int>> nodes_;
+};
+
+/// The node of its body of each point of a grid, -1 where it has none. The first points of an elastic body are its
+/// nodes; of one that is divided, those follow where materials meet.
+std::vector<std::int32_t> nodes_of_points(const result::Grid& grid, const OwnFields& own,
+                                          const std::vector<std::vector<int>>& nodes_on_sides) {
+  std::vector<std::int32_t> nodes(grid.point_count(), -1);
+  for (std::size_t b = 0; b < own.divided.size(); ++b) {
+    const auto [begin, end] =
+        std::equal_range(grid.point_body.begin(), grid.point_body.end(), static_cast<std::int32_t>(b + 1));
+    const auto first = static_cast<std::size_t>(begin - grid.point_body.begin());
+    const bool divided = own.divided[b] != 0;
+    const std::size_t count =
+        std::min(divided ? nodes_on_sides[b].size() : own.discretisation.mesh.bodies[b].nodes.size(),
+                 static_cast<std::size_t>(end - begin));
+    for (std::size_t i = 0; i < count; ++i)
+      nodes[first + i] =
+          divided ? own.node_numbers[b][static_cast<std::size_t>(nodes_on_sides[b][i])] : static_cast<std::int32_t>(i);
+  }
+  return nodes;
+}
+
+/// Without the bodies that are absent.
+void write_file(const std::filesystem::path& file, const OwnState& state, const OwnFields& own,
+                const result::Fields& fields, const std::vector<std::vector<int>>& nodes_on_sides) {
+  const analysis::Discretisation& of = own.discretisation;
+  const auto write = [&](const result::Grid& grid, const result::Fields& values) {
+    result::replace_file(file, result::vtu_content(grid, values, of.model.output.fields, of.threads,
+                                                   nodes_of_points(grid, own, nodes_on_sides)));
+  };
+  const result::Grid& grid = own.recovery->grid();
+  if (state.absent.empty()) {
+    write(grid, fields);
+  } else {
+    const result::GridFields there = result::without_bodies(grid, fields, state.absent);
+    write(there.grid, there.fields);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> Process::write_fields(const analysis::Discretisation* discretisation,
+                                               const analysis::IncrementResult* increment,
+                                               const std::filesystem::path* directory, const std::string* stem) {
+  const OwnShares own = own_shares(shares_);
+  const bool made = agreed([&] {
+    if (!own_fields_) own_fields_ = own_fields_of(own, model(), discretisation);
+  });
+  if (!made) return {};
+  OwnFields& mine = *own_fields_;
+  if (mine.is_shared.empty()) {
+    mine.of_ranks = wanted_by_ranks(*this, own);
+    mine.is_shared = shared_nodes(*this, own, mine);
+  }
+  const Bytes message = distributed([&](int rank) {
+    return pack_state(*discretisation, *increment, *directory, *stem, mine.of_ranks[static_cast<std::size_t>(rank)]);
+  });
+  const OwnState state = unpack_state(message, own, mine.divided.size(), increment);
+  mine.discretisation.threads = state.threads;
+
+  SumsOfRanks sums(*this, mine);
   result::Fields fields;
   together([&] {
-    if (!own_fields_->recovery) own_fields_->recovery = std::make_unique<result::Recovery>(of, own_fields_->divided);
-    fields = own_fields_->recovery->fields(of, state, complete);
+    if (!mine.recovery) mine.recovery = std::make_unique<result::Recovery>(mine.discretisation, mine.divided);
+    fields = mine.recovery->fields(mine.discretisation, state.fields, std::ref(sums));
   });
   std::vector<std::string> names;
-  for (int rank = 0; rank < count_; ++rank) names.push_back(fmt::format("{}_{}.vtu", name, rank));
-  const auto write = [&](const result::Grid& grid, const result::Fields& values) {
-    // The first points of an elastic body are its nodes; of one that is divided, those follow where materials meet.
-    std::vector<std::int32_t> nodes(grid.point_count(), -1);
-    for (std::size_t b = 0; b < of.model.bodies.size(); ++b) {
-      const auto [begin, end] =
-          std::equal_range(grid.point_body.begin(), grid.point_body.end(), static_cast<std::int32_t>(b + 1));
-      const auto first = static_cast<std::size_t>(begin - grid.point_body.begin());
-      const bool divided = own_fields_->divided[b] != 0;
-      const std::size_t count = std::min(divided ? of_points[b].size() : of.mesh.bodies[b].nodes.size(),
-                                         static_cast<std::size_t>(end - begin));
-      for (std::size_t i = 0; i < count; ++i)
-        nodes[first + i] = divided ? own_fields_->node_numbers[b][static_cast<std::size_t>(of_points[b][i])]
-                                   : static_cast<std::int32_t>(i);
-    }
-    result::replace_file(to / names[static_cast<std::size_t>(rank_)],
-                         result::vtu_content(grid, values, of.model.output.fields, of.threads, nodes));
-  };
-  agreed([&] {
-    const result::Grid& grid = own_fields_->recovery->grid();
-    if (absent.empty()) {
-      write(grid, fields);
-    } else {
-      const result::GridFields there = result::without_bodies(grid, fields, absent);
-      write(there.grid, there.fields);
-    }
-  });
+  for (int rank = 0; rank < count_; ++rank) names.push_back(fmt::format("{}_{}.vtu", state.stem, rank));
+  agreed(
+      [&] { write_file(state.directory / names[static_cast<std::size_t>(rank_)], state, mine, fields, sums.nodes()); });
   return names;
 }
 

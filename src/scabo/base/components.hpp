@@ -1,4 +1,5 @@
-// Places in vectors that hold all components of every node: x of node i, then y (and z in space), for i = 0, 1, 2 ...
+// Places in vectors that hold all components of every node: x of node i, then y (and z in space), for i = 0, 1, 2 ...;
+// and in those of every contact pair: along its normal n, then along t.
 //
 // Elements, bodies and fields have such vectors, each with its own nodes. Which node of a part a body's node is, is the
 // matter of system/dofs.hpp.
@@ -12,7 +13,7 @@ namespace scabo {
 struct Components {
   int dimension = 2;
 
-  /// Place of component `c` (0: x, 1: y, 2: z) of a node.
+  /// Place of component `c` (0: x or n, 1: y or t, 2: z) of a node or pair.
   template <typename Node>
   constexpr Eigen::Index of(Node node, int c = 0) const {
     return dimension * static_cast<Eigen::Index>(node) + c;

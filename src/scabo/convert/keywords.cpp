@@ -1,7 +1,6 @@
 #include "scabo/convert/keywords.hpp"
 
-#include <set>
-#include <vector>
+#include <string>
 
 namespace scabo::convert {
 
@@ -9,83 +8,67 @@ namespace {
 
 struct Group {
   KeywordLoss loss;
-  std::string text;
-  std::set<std::string> names;
+  const char* text;
+  const char* names;  // with a space between them
 };
 
-const std::vector<Group>& groups() {
-  static const std::vector<Group> all = {
-      {KeywordLoss::none,
-       "",
-       {"PART", "ENDPART", "ASSEMBLY", "ENDASSEMBLY", "ENDINSTANCE", "ENDSTEP", "PREPRINT", "HEADING", "NODE",
-        "ELEMENT", "NSET", "ELSET", "SURFACE", "INSTANCE"}},
-      {KeywordLoss::note,
-       "requests output and is left out; Scabo's results have files of their own",
-       {"NODEFILE",      "ELFILE",       "NODEPRINT",    "ELPRINT",       "OUTPUT",     "NODEOUTPUT",
-        "ELEMENTOUTPUT", "CONTACTFILE",  "CONTACTPRINT", "CONTACTOUTPUT", "RESTART",    "MONITOR",
-        "PRINT",         "SECTIONPRINT", "FACEPRINT",    "SECTIONFILE",   "FILEFORMAT", "ENERGYOUTPUT",
-        "ENERGYPRINT",   "ENERGYFILE",   "TIMEPOINTS",   "FILTER",        "FILEOUTPUT", "DIAGNOSTICS"}},
-      {KeywordLoss::note,
-       "controls a solver and is left out; Scabo's needs no parameters",
-       {"CONTROLS", "CONTACTCONTROLS", "SECTIONCONTROLS", "SOLVERCONTROLS"}},
-      {KeywordLoss::note,
-       "has no effect in a static analysis and is left out",
-       {"DAMPING", "CONDUCTIVITY", "SPECIFICHEAT", "GAPCONDUCTANCE", "GAPHEATGENERATION", "PHYSICALCONSTANTS"}},
-      {KeywordLoss::essential,
-       "adds forces against the motion of the surfaces, which Scabo does not have; take it out",
-       {"CONTACTDAMPING"}},
-      {KeywordLoss::essential,
-       "gives an initial state, which is not taken; a `field` load of a model may replace it",
-       {"INITIALCONDITIONS"}},
-      {KeywordLoss::essential,
-       "is plasticity, which Scabo does not have: the body would stay elastic",
-       {"PLASTIC", "CYCLICHARDENING", "DEFORMATIONPLASTICITY", "MOHRCOULOMB", "MOHRCOULOMBHARDENING", "DRUCKERPRAGER",
-        "DRUCKERPRAGERHARDENING", "CAPPLASTICITY", "CONCRETE", "CONCRETEDAMAGEDPLASTICITY", "RATEDEPENDENT"}},
-      {KeywordLoss::essential,
-       "is a law that Scabo does not have; its materials are linear elastic",
-       {"HYPERELASTIC", "HYPERFOAM", "CREEP", "VISCOELASTIC", "USERMATERIAL", "NOCOMPRESSION", "DEPVAR",
-        "COMPRESSIONONLY", "NOTENSION", "FAILSTRESS", "DAMAGEINITIATION", "DAMAGEEVOLUTION", "SUPERELASTIC",
-        "VALUESATINFINITY"}},
-      {KeywordLoss::essential,
-       "joins degrees of freedom, which Scabo's models cannot; use *TIE, or a rigid body in the model",
-       {"EQUATION", "MPC", "RIGIDBODY", "COUPLING", "KINEMATIC", "DISTRIBUTING", "DISTRIBUTINGCOUPLING", "NETWORKMPC",
-        "EMBEDDEDELEMENT", "CYCLICSYMMETRYMODEL", "PRE-TENSIONSECTION", "PRETENSIONSECTION"}},
-      {KeywordLoss::essential,
-       "makes elements without area, which are not taken; `springs` of a model may replace them",
-       {"SPRING", "DASHPOT", "GAP", "MASS", "CONNECTORSECTION", "ROTARYINERTIA"}},
-      {KeywordLoss::essential,
-       "gives local axes of nodes, which are not taken; write supports and forces along x and y",
-       {"TRANSFORM"}},
-      {KeywordLoss::essential, "is not taken; a `temperature` load of a model may replace it", {"TEMPERATURE"}},
-      {KeywordLoss::essential,
-       "is no static analysis; Scabo converts *STATIC steps",
-       {"DYNAMIC", "FREQUENCY", "BUCKLE", "HEATTRANSFER", "VISCO", "COUPLEDTEMPERATURE-DISPLACEMENT",
-        "UNCOUPLEDTEMPERATURE-DISPLACEMENT", "STEADYSTATEDYNAMICS", "MODALDYNAMIC", "COMPLEXFREQUENCY", "GREEN",
-        "GEOSTATIC", "SOILS", "RESPONSESPECTRUM", "SENSITIVITY", "ELECTROMAGNETICS"}},
-      {KeywordLoss::essential,
-       "changes the contact or the elements within the analysis, which Scabo's models cannot",
-       {"MODELCHANGE", "CHANGEFRICTION", "CHANGESURFACEBEHAVIOR", "CHANGECONTACTTYPE"}},
-      {KeywordLoss::essential,
-       "is general contact, which is not taken; name the surfaces with *CONTACT PAIR",
-       {"CONTACT", "CONTACTINCLUSIONS", "CONTACTEXCLUSIONS", "CONTACTPROPERTYASSIGNMENT"}},
-      {KeywordLoss::essential,
-       "sets gaps by a value, which is not taken; `gap` of a contact may replace it",
-       {"CLEARANCE", "CONTACTINTERFERENCE"}},
-  };
-  return all;
+constexpr Group groups[] = {
+    {KeywordLoss::none, "",
+     "PART ENDPART ASSEMBLY ENDASSEMBLY ENDINSTANCE ENDSTEP PREPRINT HEADING NODE ELEMENT NSET ELSET SURFACE "
+     "INSTANCE"},
+    {KeywordLoss::note, "requests output and is left out; Scabo's results have files of their own",
+     "NODEFILE ELFILE NODEPRINT ELPRINT OUTPUT NODEOUTPUT ELEMENTOUTPUT CONTACTFILE CONTACTPRINT CONTACTOUTPUT "
+     "RESTART MONITOR PRINT SECTIONPRINT FACEPRINT SECTIONFILE FILEFORMAT ENERGYOUTPUT ENERGYPRINT ENERGYFILE "
+     "TIMEPOINTS FILTER FILEOUTPUT DIAGNOSTICS"},
+    {KeywordLoss::note, "controls a solver and is left out; Scabo's needs no parameters",
+     "CONTROLS CONTACTCONTROLS SECTIONCONTROLS SOLVERCONTROLS"},
+    {KeywordLoss::note, "has no effect in a static analysis and is left out",
+     "DAMPING CONDUCTIVITY SPECIFICHEAT GAPCONDUCTANCE GAPHEATGENERATION PHYSICALCONSTANTS"},
+    {KeywordLoss::essential, "adds forces against the motion of the surfaces, which Scabo does not have; take it out",
+     "CONTACTDAMPING"},
+    {KeywordLoss::essential, "gives an initial state, which is not taken; a `field` load of a model may replace it",
+     "INITIALCONDITIONS"},
+    {KeywordLoss::essential, "is plasticity, which Scabo does not have: the body would stay elastic",
+     "PLASTIC CYCLICHARDENING DEFORMATIONPLASTICITY MOHRCOULOMB MOHRCOULOMBHARDENING DRUCKERPRAGER "
+     "DRUCKERPRAGERHARDENING CAPPLASTICITY CONCRETE CONCRETEDAMAGEDPLASTICITY RATEDEPENDENT"},
+    {KeywordLoss::essential, "is a law that Scabo does not have; its materials are linear elastic",
+     "HYPERELASTIC HYPERFOAM CREEP VISCOELASTIC USERMATERIAL NOCOMPRESSION DEPVAR COMPRESSIONONLY NOTENSION "
+     "FAILSTRESS DAMAGEINITIATION DAMAGEEVOLUTION SUPERELASTIC VALUESATINFINITY"},
+    {KeywordLoss::essential,
+     "joins degrees of freedom, which Scabo's models cannot; use *TIE, or a rigid body in the model",
+     "EQUATION MPC RIGIDBODY COUPLING KINEMATIC DISTRIBUTING DISTRIBUTINGCOUPLING NETWORKMPC EMBEDDEDELEMENT "
+     "CYCLICSYMMETRYMODEL PRE-TENSIONSECTION PRETENSIONSECTION"},
+    {KeywordLoss::essential, "makes elements without area, which are not taken; `springs` of a model may replace them",
+     "SPRING DASHPOT GAP MASS CONNECTORSECTION ROTARYINERTIA"},
+    {KeywordLoss::essential, "gives local axes of nodes, which are not taken; write supports and forces along x and y",
+     "TRANSFORM"},
+    {KeywordLoss::essential, "is not taken; a `temperature` load of a model may replace it", "TEMPERATURE"},
+    {KeywordLoss::essential, "is no static analysis; Scabo converts *STATIC steps",
+     "DYNAMIC FREQUENCY BUCKLE HEATTRANSFER VISCO COUPLEDTEMPERATURE-DISPLACEMENT UNCOUPLEDTEMPERATURE-DISPLACEMENT "
+     "STEADYSTATEDYNAMICS MODALDYNAMIC COMPLEXFREQUENCY GREEN GEOSTATIC SOILS RESPONSESPECTRUM SENSITIVITY "
+     "ELECTROMAGNETICS"},
+    {KeywordLoss::essential, "changes the contact or the elements within the analysis, which Scabo's models cannot",
+     "MODELCHANGE CHANGEFRICTION CHANGESURFACEBEHAVIOR CHANGECONTACTTYPE"},
+    {KeywordLoss::essential, "is general contact, which is not taken; name the surfaces with *CONTACT PAIR",
+     "CONTACT CONTACTINCLUSIONS CONTACTEXCLUSIONS CONTACTPROPERTYASSIGNMENT"},
+    {KeywordLoss::essential, "sets gaps by a value, which is not taken; `gap` of a contact may replace it",
+     "CLEARANCE CONTACTINTERFERENCE"},
+};
+
+bool contains(const std::string& names, const std::string& name) {
+  return (' ' + names + ' ').find(' ' + name + ' ') != std::string::npos;
 }
 
 }  // namespace
 
 KeywordText text_of_keyword(const std::string& name) {
-  for (const Group& group : groups())
-    if (group.names.contains(name)) return {group.loss, group.text};
+  for (const Group& group : groups)
+    if (contains(group.names, name)) return {group.loss, group.text};
   return {KeywordLoss::essential, "is not known to the converter, and what it says is missing in the model"};
 }
 
 bool is_of_material(const std::string& name) {
-  static const std::set<std::string> more = {"DAMPING", "CONDUCTIVITY", "SPECIFICHEAT"};
-  if (more.contains(name)) return true;
+  if (contains("DAMPING CONDUCTIVITY SPECIFICHEAT", name)) return true;
   const KeywordText text = text_of_keyword(name);
   return text.text.find("law that") != std::string::npos || text.text.find("plasticity") != std::string::npos;
 }

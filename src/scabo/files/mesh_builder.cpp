@@ -300,22 +300,68 @@ void MeshBuilder::check_shapes(ImportedMesh& mesh, const std::vector<int>& origi
   }
 }
 
+void MeshBuilder::check_sides(const ImportedMesh& mesh, const SideTable& table,
+                              const std::vector<int>& original) const {
+  const auto conflict = table.conflict();
+  if (!conflict) return;
+  const RawCell &first = cells_[index(conflict->first.cell)], &second = cells_[index(conflict->second.cell)];
+  const Facet side = side_of(mesh.cells[index(conflict->first.cell)], conflict->first.side);
+  const auto number = [&](int node) { return shown(numbers_[index(original[index(node)])]); };
+  const std::string where =
+      fmt::format("and {} share the side from node {} to node {}", label(first), number(side.start), number(side.end));
+  if (conflict->kind == SideTable::Conflict::Kind::overlap) {
+    fail(second, where + " and lie on the same side of it: cells overlap; remove one");
+  }
+  fail(second, where + ", but only one of them has a middle node there: use cells of one order");
+}
+
+FacetSet MeshBuilder::facet_set_of(const RawFacets& raw, const ImportedMesh& mesh, const SideTable& table,
+                                   const NumberIndex& by_number, const std::vector<int>& joined) const {
+  FacetSet set{raw.name, {}};
+  std::unordered_set<std::uint64_t> taken;  // cell and side
+  const auto add = [&](const Facet& facet) {
+    const std::vector<CellSide> sides = table.sides_at(facet);
+    if (sides.empty()) return;
+    const Facet as_in_cell = side_of(mesh.cells[index(sides.front().cell)], sides.front().side);
+    const bool free = !table.neighbour(sides.front());
+    const std::uint64_t key =
+        static_cast<std::uint64_t>(sides.front().cell) * most_corners + static_cast<std::uint64_t>(sides.front().side);
+    if (!taken.insert(key).second) return;
+    if (free || facet.start == as_in_cell.start) {
+      set.facets.push_back(as_in_cell);
+    } else {
+      set.facets.push_back({as_in_cell.end, as_in_cell.start, as_in_cell.middle});
+    }
+  };
+  for (std::size_t i = 0; i + 2 < raw.nodes.size(); i += 3) {
+    const Facet facet{by_number.find(raw.nodes[i]), by_number.find(raw.nodes[i + 1]),
+                      raw.nodes[i + 2] < 0 ? -1 : by_number.find(raw.nodes[i + 2])};
+    const bool known = facet.start >= 0 && facet.end >= 0 && (raw.nodes[i + 2] < 0 || facet.middle >= 0);
+    if (known && facet.start != facet.end) add(facet);
+  }
+  for (const int repeated : raw.free_sides_of) {
+    const int cell = joined[index(repeated)];
+    for (int i = 0; i < mesh.cells[index(cell)].corners(); ++i) {
+      if (!table.neighbour({cell, i})) add(side_of(mesh.cells[index(cell)], i));
+    }
+  }
+  return set;
+}
+
+NodeSet MeshBuilder::node_set_of(const RawNodes& raw, const NumberIndex& by_number) {
+  NodeSet set{raw.name, {}};
+  std::unordered_set<int> taken;
+  for (const std::int64_t number : raw.nodes) {
+    const int node = by_number.find(number);
+    if (node >= 0 && taken.insert(node).second) set.nodes.push_back(node);
+  }
+  return set;
+}
+
 void MeshBuilder::make_sets(ImportedMesh& mesh, const std::vector<int>& original,
                             const std::vector<int>& joined) const {
   const SideTable table(mesh.cells, static_cast<int>(mesh.nodes.size()));
-  if (const auto conflict = table.conflict()) {
-    const RawCell& first = cells_[index(conflict->first.cell)];
-    const Facet side = side_of(mesh.cells[index(conflict->first.cell)], conflict->first.side);
-    const auto number = [&](int node) { return shown(numbers_[index(original[index(node)])]); };
-    const std::string where = fmt::format("and {} share the side from node {} to node {}", label(first),
-                                          number(side.start), number(side.end));
-    const RawCell& second = cells_[index(conflict->second.cell)];
-    if (conflict->kind == SideTable::Conflict::Kind::overlap) {
-      fail(second, where + " and lie on the same side of it: cells overlap; remove one");
-    }
-    fail(second, where + ", but only one of them has a middle node there: use cells of one order");
-  }
-
+  check_sides(mesh, table, original);
   const NumberIndex by_number([&] {
     std::vector<std::int64_t> used;
     used.reserve(original.size());
@@ -323,43 +369,11 @@ void MeshBuilder::make_sets(ImportedMesh& mesh, const std::vector<int>& original
     return used;
   }());
   for (const RawFacets& raw : facet_sets_) {
-    FacetSet set{raw.name, {}};
-    std::unordered_set<std::uint64_t> taken;  // cell and side
-    const auto add = [&](const Facet& facet) {
-      const std::vector<CellSide> sides = table.sides_at(facet);
-      if (sides.empty()) return;
-      const Facet as_in_cell = side_of(mesh.cells[index(sides.front().cell)], sides.front().side);
-      const bool free = !table.neighbour(sides.front());
-      const std::uint64_t key = static_cast<std::uint64_t>(sides.front().cell) * most_corners +
-                                static_cast<std::uint64_t>(sides.front().side);
-      if (!taken.insert(key).second) return;
-      if (free || facet.start == as_in_cell.start) {
-        set.facets.push_back(as_in_cell);
-      } else {
-        set.facets.push_back({as_in_cell.end, as_in_cell.start, as_in_cell.middle});
-      }
-    };
-    for (std::size_t i = 0; i + 2 < raw.nodes.size(); i += 3) {
-      const Facet facet{by_number.find(raw.nodes[i]), by_number.find(raw.nodes[i + 1]),
-                        raw.nodes[i + 2] < 0 ? -1 : by_number.find(raw.nodes[i + 2])};
-      const bool known = facet.start >= 0 && facet.end >= 0 && (raw.nodes[i + 2] < 0 || facet.middle >= 0);
-      if (known && facet.start != facet.end) add(facet);
-    }
-    for (const int repeated : raw.free_sides_of) {
-      const int cell = joined[index(repeated)];
-      for (int i = 0; i < mesh.cells[index(cell)].corners(); ++i) {
-        if (!table.neighbour({cell, i})) add(side_of(mesh.cells[index(cell)], i));
-      }
-    }
+    FacetSet set = facet_set_of(raw, mesh, table, by_number, joined);
     if (!set.facets.empty()) mesh.facet_sets.push_back(std::move(set));
   }
   for (const RawNodes& raw : node_sets_) {
-    NodeSet set{raw.name, {}};
-    std::unordered_set<int> taken;
-    for (const std::int64_t number : raw.nodes) {
-      const int node = by_number.find(number);
-      if (node >= 0 && taken.insert(node).second) set.nodes.push_back(node);
-    }
+    NodeSet set = node_set_of(raw, by_number);
     if (!set.nodes.empty()) mesh.node_sets.push_back(std::move(set));
   }
   for (const CellSet& raw : cell_sets_) {

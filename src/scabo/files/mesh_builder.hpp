@@ -22,6 +22,8 @@ struct FilePlace {
   int line = 0;  ///< from 1; 0 in binary data
 };
 
+class SideTable;
+
 class MeshBuilder {
  public:
   /// `from_zero`: cells are numbered from 0 by their position.
@@ -130,6 +132,11 @@ class MeshBuilder {
   void check_plane(const std::vector<int>& original) const;
   void check_shapes(ImportedMesh& mesh, const std::vector<int>& original) const;
   void make_sets(ImportedMesh& mesh, const std::vector<int>& original, const std::vector<int>& joined) const;
+  /// Fails if two cells cannot have the same side.
+  void check_sides(const ImportedMesh& mesh, const SideTable& table, const std::vector<int>& original) const;
+  FacetSet facet_set_of(const RawFacets& raw, const ImportedMesh& mesh, const SideTable& table,
+                        const NumberIndex& by_number, const std::vector<int>& joined) const;
+  static NodeSet node_set_of(const RawNodes& raw, const NumberIndex& by_number);
 
   std::vector<std::string> files_;
   bool from_zero_;

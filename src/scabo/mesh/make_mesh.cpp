@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "scabo/base/components.hpp"
 #include "scabo/mesh/approximate_nodes.hpp"
 #include "scabo/mesh/close_mouths.hpp"
 #include "scabo/mesh/crack_faces.hpp"
@@ -78,7 +79,7 @@ std::vector<Diagnostic> too_large_parts(const model::Body& body, const BodyMesh&
       mesh.cells.size() > 1 ? fmt::format("one of the {} super-elements", mesh.cells.size()) : "the super-element";
   return {{body.mesh.source, fmt::format("{} of body '{}' would have {} degrees of freedom, more than the {:.6g} "
                                          "allowed: write kind: polygons, or use larger sizes",
-                                         which, body.name, 2 * nodes, model::limits::superelement_dofs)}};
+                                         which, body.name, places_of(nodes), model::limits::superelement_dofs)}};
 }
 
 /// Places `near` the mouth of a crack, where two nodes are equally close.

@@ -296,6 +296,113 @@ std::size_t pieces_of(const BodyMesh& mesh) {
   return pieces.sets();
 }
 
+/// Why a body would have too many nodes, by an estimate; nothing if it would not.
+std::optional<Diagnostic> too_many_nodes(const model::Body& body, double most_nodes) {
+  // Few parts have nodes on their sides alone, of which those on the outline are counted.
+  const double nodes = body.mesh.kind == model::MeshKind::parts ? count_boundary_nodes(body) : approximate_nodes(body);
+  if (nodes <= most_nodes) return std::nullopt;
+  const geometry::Box box = geometry::box_of(body.outline);
+  const double thickness = (box.high - box.low).minCoeff();
+  if (body.mesh.kind == model::MeshKind::quadtree && thickness < body.mesh.size)
+    return Diagnostic{
+        body.mesh.source,
+        fmt::format("the squares of a quadtree are not larger than the body is thick, {:.3g}, which "
+                    "makes about {} nodes, more than the {:.7g} allowed: make the body thicker or shorter",
+                    thickness, text_of_count(nodes, most_nodes, 2), most_nodes)};
+  return Diagnostic{body.mesh.source,
+                    fmt::format("size {:.6g} would give about {} nodes, more than the {:.7g} allowed: use a larger "
+                                "'size'",
+                                body.mesh.size, text_of_count(nodes, most_nodes, 2), most_nodes)};
+}
+
+/// One way to divide a body. `turn`, `curved_sides`: of a quadtree.
+struct Attempt {
+  double turn = 0.5, sizes_per_width = 2.0, finer_arcs = 1.0;
+  bool narrow = false, curved_sides = false;
+};
+
+/// Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places. Few parts that do
+/// not see an arc well, from far along a slab with a hole, get shorter sides on it. A quadtree unites cells that do
+/// not see a hollow arc, as between the arc and a line of the tree that is nearly its tangent, with others: smaller
+/// cells are there again.
+std::vector<Attempt> attempts_for(const model::MeshOptions& options) {
+  std::vector<Attempt> attempts{{},
+                                {.turn = 0.25, .sizes_per_width = 1.4, .narrow = true},
+                                {.turn = 0.125, .sizes_per_width = 1.0, .narrow = true}};
+  if (options.kind == model::MeshKind::quadtree && options.order > 1)
+    for (const double turn : {0.5, 0.25}) attempts.push_back({.turn = turn, .curved_sides = true});
+  if (options.kind == model::MeshKind::parts)
+    for (const double finer : {0.5, 0.25})
+      attempts.push_back({.turn = 0.125, .sizes_per_width = 1.0, .finer_arcs = finer, .narrow = true});
+  return attempts;
+}
+
+BodyDomain domain_for(const Attempt& attempt, const UnitFree& own, double most_nodes) {
+  return domain_of(own.body(), own.sizes(),
+                   {.sizes_per_width = attempt.sizes_per_width,
+                    .gaps = attempt.narrow,
+                    .arcs = attempt.narrow && own.body().mesh.kind == model::MeshKind::quadtree,
+                    .most = most_nodes,
+                    .finer_arcs = attempt.finer_arcs});
+}
+
+/// The cells of a domain in the units of the model; of finite elements with open cracks. Throws Refusal.
+std::variant<BodyMesh, Diagnostic> cells_in(const BodyDomain& of, const Attempt& attempt, const UnitFree& own,
+                                            const model::Body& body) {
+  const PolygonMesh polygons = polygons_of(of.domain, own.body(), attempt.turn, attempt.curved_sides);
+  std::vector<BorderNodes> borders;
+  for (std::size_t l = 0; l < of.sources.size(); ++l)
+    if (of.sources[l].region >= 0)
+      borders.push_back({of.sources[l].region, of.sources[l].region_edge, polygons.left[l]});
+  BodyMesh mesh = own.real(body_mesh_of(polygons, of, own.body()), borders);
+  if (body.mesh.kind == model::MeshKind::fem && !body.cracks.empty()) {
+    auto slitted = slit(std::move(mesh), body);
+    if (const Diagnostic* wrong = std::get_if<Diagnostic>(&slitted)) return *wrong;
+    mesh = std::get<BodyMesh>(std::move(slitted));
+  }
+  const std::size_t pieces = body.cracks.empty() ? 1 : pieces_of(mesh);
+  if (pieces > 1)
+    return Diagnostic{body.cracks.front().source,
+                      fmt::format("the cracks divide body '{}' into {} pieces: let them end inside, or make the "
+                                  "pieces bodies of their own, with a contact between them",
+                                  body.name, pieces)};
+  return mesh;
+}
+
+/// What is said of the narrowest place of a domain.
+struct Narrowest {
+  Narrowest(const BodyDomain& of, const UnitFree& own)
+      : width(own.scale() * of.narrow.width), at(own.real(of.narrow.narrowest)) {}
+  std::string place() const { return fmt::format("({:.6g}, {:.6g})", at.x(), at.y()); }
+  double width;
+  Vec2 at;
+};
+
+Diagnostic too_narrow(const model::Body& body, const Narrowest& narrowest, double most_nodes) {
+  return {body.mesh.source,
+          fmt::format("body '{}' is only {:.3g} wide near {}: cells that fit there make more than the {:.7g} nodes "
+                      "allowed; make it wider there, or leave the narrow part out",
+                      body.name, narrowest.width, narrowest.place(), most_nodes)};
+}
+
+Diagnostic not_divided(const model::Body& body, const Refusal& refusal, const UnitFree& own,
+                       const Narrowest& narrowest) {
+  std::optional<Vec2> place;
+  if (refusal.near()) place = own.real(*refusal.near());
+  const std::string narrow =
+      narrowest.width > 0.0 ? fmt::format("; its lines are {:.3g} apart near {}", narrowest.width, narrowest.place())
+                            : "";
+  if (body.mesh.kind == model::MeshKind::parts)
+    return {body.mesh.source,
+            fmt::format("this shape could not be divided into a few super-elements ({}{}): write kind: polygons, with "
+                        "a 'size' below its width",
+                        refusal_text(refusal.reason(), place), narrow)};
+  return {body.mesh.source,
+          fmt::format("this shape could not be divided ({}{}): use a smaller 'size' there, with 'refine', or another "
+                      "kind",
+                      refusal_text(refusal.reason(), place), narrow)};
+}
+
 }  // namespace
 
 std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes,
@@ -307,91 +414,17 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
       return Diagnostic{body.source, error.diagnostics().front().message};
     }
   }
-  // Few parts have nodes on their sides alone, of which those on the outline are counted.
-  const double nodes = body.mesh.kind == model::MeshKind::parts ? count_boundary_nodes(body) : approximate_nodes(body);
-  const geometry::Box box = geometry::box_of(body.outline);
-  const double thickness = (box.high - box.low).minCoeff();
-  const bool thin = body.mesh.kind == model::MeshKind::quadtree && thickness < body.mesh.size;
-  if (!(nodes <= most_nodes))
-    return Diagnostic{body.mesh.source,
-                      thin ? fmt::format("the squares of a quadtree are not larger than the body is thick, "
-                                         "{:.3g}, which makes about {} nodes, more than the {:.7g} "
-                                         "allowed: make the body thicker or shorter",
-                                         thickness, text_of_count(nodes, most_nodes, 2), most_nodes)
-                           : fmt::format("size {:.6g} would give about {} nodes, more than the {:.7g} "
-                                         "allowed: use a larger 'size'",
-                                         body.mesh.size, text_of_count(nodes, most_nodes, 2), most_nodes)};
+  if (std::optional<Diagnostic> wrong = too_many_nodes(body, most_nodes)) return *std::move(wrong);
   const UnitFree own(body, sizes);
-  // Where a mesher finds no room for its cells, they become smaller beside arcs and in narrow places. Few parts that do
-  // not see an arc well, from far along a slab with a hole, get shorter sides on it. A quadtree unites cells that do
-  // not see a hollow arc, as between the arc and a line of the tree that is nearly its tangent, with others: smaller
-  // cells are there again.
-  struct Attempt {
-    double turn = 0.5, sizes_per_width = 2.0, finer_arcs = 1.0;
-    bool narrow = false, curved_sides = false;
-  };
-  std::vector<Attempt> attempts{{},
-                                {.turn = 0.25, .sizes_per_width = 1.4, .narrow = true},
-                                {.turn = 0.125, .sizes_per_width = 1.0, .narrow = true}};
-  if (body.mesh.kind == model::MeshKind::quadtree && body.mesh.order > 1)
-    for (const double turn : {0.5, 0.25}) attempts.push_back({.turn = turn, .curved_sides = true});
-  if (body.mesh.kind == model::MeshKind::parts)
-    for (const double finer : {0.5, 0.25})
-      attempts.push_back({.turn = 0.125, .sizes_per_width = 1.0, .finer_arcs = finer, .narrow = true});
+  const std::vector<Attempt> attempts = attempts_for(body.mesh);
   for (std::size_t a = 0;; ++a) {
-    const Attempt& attempt = attempts[a];
-    const BodyDomain of = domain_of(own.body(), own.sizes(),
-                                    {.sizes_per_width = attempt.sizes_per_width,
-                                     .gaps = attempt.narrow,
-                                     .arcs = attempt.narrow && body.mesh.kind == model::MeshKind::quadtree,
-                                     .most = most_nodes,
-                                     .finer_arcs = attempt.finer_arcs});
-    const auto in_words = [&](const Vec2& x) {
-      const Vec2 real = own.real(x);
-      return fmt::format("({:.6g}, {:.6g})", real.x(), real.y());
-    };
-    const double width = own.scale() * of.narrow.width;
-    if (of.narrow.cells > most_nodes)
-      return Diagnostic{
-          body.mesh.source,
-          fmt::format("body '{}' is only {:.3g} wide near {}: cells that fit there make more than the {:.7g} "
-                      "nodes allowed; make it wider there, or leave the narrow part out",
-                      body.name, width, in_words(of.narrow.narrowest), most_nodes)};
+    const BodyDomain of = domain_for(attempts[a], own, most_nodes);
+    const Narrowest narrowest(of, own);
+    if (of.narrow.cells > most_nodes) return too_narrow(body, narrowest, most_nodes);
     try {
-      const PolygonMesh polygons = polygons_of(of.domain, own.body(), attempt.turn, attempt.curved_sides);
-      std::vector<BorderNodes> borders;
-      for (std::size_t l = 0; l < of.sources.size(); ++l)
-        if (of.sources[l].region >= 0)
-          borders.push_back({of.sources[l].region, of.sources[l].region_edge, polygons.left[l]});
-      BodyMesh mesh = own.real(body_mesh_of(polygons, of, own.body()), borders);
-      if (body.mesh.kind == model::MeshKind::fem && !body.cracks.empty()) {
-        auto slitted = slit(std::move(mesh), body);
-        if (const Diagnostic* wrong = std::get_if<Diagnostic>(&slitted)) return *wrong;
-        mesh = std::get<BodyMesh>(std::move(slitted));
-      }
-      const std::size_t pieces = body.cracks.empty() ? 1 : pieces_of(mesh);
-      if (pieces > 1)
-        return Diagnostic{body.cracks.front().source,
-                          fmt::format("the cracks divide body '{}' into {} pieces: let them end inside, or make the "
-                                      "pieces bodies of their own, with a contact between them",
-                                      body.name, pieces)};
-      return mesh;
+      return cells_in(of, attempts[a], own, body);
     } catch (const Refusal& refusal) {
-      if (a + 1 < attempts.size()) continue;
-      std::optional<Vec2> place;
-      if (refusal.near()) place = own.real(*refusal.near());
-      const std::string narrow = of.narrow.width > 0.0 ? fmt::format("; its lines are {:.3g} apart near {}", width,
-                                                                     in_words(of.narrow.narrowest))
-                                                       : "";
-      if (body.mesh.kind == model::MeshKind::parts)
-        return Diagnostic{body.mesh.source,
-                          fmt::format("this shape could not be divided into a few super-elements ({}{}): write "
-                                      "kind: polygons, with a 'size' below its width",
-                                      refusal_text(refusal.reason(), place), narrow)};
-      return Diagnostic{body.mesh.source,
-                        fmt::format("this shape could not be divided ({}{}): use a smaller 'size' there, "
-                                    "with 'refine', or another kind",
-                                    refusal_text(refusal.reason(), place), narrow)};
+      if (a + 1 == attempts.size()) return not_divided(body, refusal, own, narrowest);
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "scabo/mesh/tip_rings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -106,93 +107,140 @@ std::vector<Sector> sectors_of(const Cell& tip, const std::vector<Vec2>& nodes, 
   return sectors;
 }
 
-/// `smallest`: the innermost copy is no smaller than this.
-DividedTip divided_tip(const Cell& tip, std::vector<Vec2>& nodes, const TipRings& rings, double smallest,
-                       const std::vector<int>& line = {}) {
-  DividedTip made;
-  made.innermost = tip;
-  const std::vector<Sector> sectors = sectors_of(tip, nodes, rings, line);
-  std::vector<std::vector<LineElement>> outer;  // of every sector, the elements of the last copy
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Sector& sector : sectors) {
-    const auto from = tip.boundary.begin() + static_cast<std::ptrdiff_t>(sector.first);
-    outer.emplace_back(from, from + static_cast<std::ptrdiff_t>(sector.count));
-    for (const Vec2& arm : sector.arms) shortest = std::min(shortest, arm.norm());
-  }
-  const auto material_of = [&](const Sector& sector) {
-    return tip.materials.size() > 1 ? tip.materials[sector.first] : tip.materials.front();
-  };
-  const auto add = [&](const Vec2& arm, double xi) {
-    nodes.push_back(tip.centre + xi * arm);
-    return static_cast<int>(nodes.size()) - 1;
-  };
-  double xi = 1.0;
-  for (int graded = 0; graded < rings.count;) {
-    const bool by_step = xi - rings.step > xi * rings.ratio;
-    if (!by_step) ++graded;
-    const double next = by_step ? xi - rings.step : xi * rings.ratio;
-    if (next * shortest < smallest) break;
-    ++made.rings;
-    made.innermost.scale = next;
-    std::vector<LineElement> inner;
-    for (const Sector& sector : sectors) {
-      LineElement copy;
-      for (std::size_t k = 0; k < sector.arms.size(); ++k)
-        copy.nodes.push_back(k == 0 && !inner.empty() ? inner.back().nodes.back() : add(sector.arms[k], next));
-      inner.push_back(std::move(copy));
-    }
-    // Sides from the outer copy to the inner one.
-    const auto side = [&](int from, int to, const Vec2& arm, std::size_t order) {
-      LineElement element{{from}};
-      const std::vector<double> points = geometry::lobatto_points(static_cast<int>(order));
-      for (std::size_t k = 1; k < order; ++k)
-        element.nodes.push_back(add(arm, std::lerp(xi, next, 0.5 * (1.0 + points[k]))));
-      element.nodes.push_back(to);
-      return element;
-    };
-    LineElement before;
-    made.innermost.boundary.clear();
-    made.innermost.materials.clear();
-    for (std::size_t s = 0; s < sectors.size(); ++s) {
-      const std::vector<Vec2>& arms = sectors[s].arms;
-      const std::size_t order = arms.size() - 1;
-      if (s == 0)
-        made.first.push_back(before =
-                                 side(outer[0].front().nodes.front(), inner[0].nodes.front(), arms.front(), order));
-      const LineElement after = side(outer[s].back().nodes.back(), inner[s].nodes.back(), arms.back(), order);
-      Cell& cell = made.cells.emplace_back();
-      cell.boundary = outer[s];
-      cell.boundary.push_back(after);
-      cell.boundary.push_back(inverted(inner[s]));
-      cell.boundary.push_back(inverted(before));
-      // Curved sides must be seen; coordinates from the tip have more digits.
-      const bool is_curved = std::any_of(arms.begin(), arms.end(), [&](const Vec2& arm) {
-        const Vec2 along = arms.back() - arms.front();
-        return std::abs(cross(along, arm - arms.front())) > 1e-9 * along.squaredNorm();
-      });
-      if (rings.joined > 0.0 && is_curved) {
-        std::vector<Vec2> points;
-        for (const LineElement& element : cell.boundary)
-          for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
-            points.push_back((nodes[static_cast<std::size_t>(element.nodes[i])] - tip.centre) / xi);
-        cell.centre = tip.centre + xi * kernel_centre(points).centre;
-      } else {
-        for (const int corner :
-             {outer[s].front().nodes.front(), after.nodes.front(), after.nodes.back(), before.nodes.back()})
-          cell.centre += 0.25 * nodes[static_cast<std::size_t>(corner)];
-      }
-      cell.materials = {material_of(sectors[s])};
-      made.innermost.boundary.push_back(inner[s]);
-      if (tip.materials.size() > 1) made.innermost.materials.push_back(material_of(sectors[s]));
-      before = after;
-    }
-    if (tip.materials.size() == 1) made.innermost.materials = tip.materials;
-    made.last.push_back(before);
-    for (std::size_t s = 0; s < sectors.size(); ++s) outer[s] = {inner[s]};
-    xi = next;
-  }
-  return made;
+/// The mean of the four corners of a cell between two copies.
+Vec2 mean_of_corners(const std::array<int, 4>& corners, const std::vector<Vec2>& nodes) {
+  Vec2 mean = Vec2::Zero();
+  for (const int corner : corners) mean += 0.25 * nodes[static_cast<std::size_t>(corner)];
+  return mean;
 }
+
+bool is_curved(const Sector& sector) {
+  const Vec2& first = sector.arms.front();
+  const Vec2 along = sector.arms.back() - first;
+  return std::any_of(sector.arms.begin(), sector.arms.end(),
+                     [&](const Vec2& arm) { return std::abs(cross(along, arm - first)) > 1e-9 * along.squaredNorm(); });
+}
+
+/// Divides a tip's cell, ring after ring from the boundary inwards.
+class TipDivision {
+ public:
+  TipDivision(const Cell& tip, std::vector<Vec2>& nodes, const TipRings& rings, const std::vector<int>& line)
+      : tip_(tip), nodes_(nodes), rings_(rings), sectors_(sectors_of(tip, nodes, rings, line)) {
+    made_.innermost = tip;
+    for (const Sector& sector : sectors_) {
+      const auto from = tip.boundary.begin() + static_cast<std::ptrdiff_t>(sector.first);
+      outer_.emplace_back(from, from + static_cast<std::ptrdiff_t>(sector.count));
+    }
+  }
+
+  /// `smallest`: the innermost copy is no smaller than this.
+  DividedTip divided(double smallest) && {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Sector& sector : sectors_)
+      for (const Vec2& arm : sector.arms) shortest = std::min(shortest, arm.norm());
+    for (int graded = 0; graded < rings_.count;) {
+      const bool by_step = xi_ - rings_.step > xi_ * rings_.ratio;
+      if (!by_step) ++graded;
+      const double next = by_step ? xi_ - rings_.step : xi_ * rings_.ratio;
+      if (next * shortest < smallest) break;
+      add_ring(next);
+    }
+    return std::move(made_);
+  }
+
+ private:
+  /// The cells from the last copy to the next one.
+  void add_ring(double next) {
+    const std::vector<LineElement> inner = copy_at(next);
+    LineElement before =
+        side(outer_.front().front().nodes.front(), inner.front().nodes.front(), 0, sectors_.front().arms.front(), next);
+    made_.first.push_back(before);
+    for (std::size_t s = 0; s < sectors_.size(); ++s) {
+      LineElement after = side(outer_[s].back().nodes.back(), inner[s].nodes.back(), s, sectors_[s].arms.back(), next);
+      made_.cells.push_back(cell_between(s, inner[s], before, after));
+      before = std::move(after);
+    }
+    made_.last.push_back(before);
+    ++made_.rings;
+    set_innermost(inner, next);
+    for (std::size_t s = 0; s < sectors_.size(); ++s) outer_[s] = {inner[s]};
+    xi_ = next;
+  }
+
+  /// One element for each sector, of the size `xi`.
+  std::vector<LineElement> copy_at(double xi) {
+    std::vector<LineElement> copy;
+    for (const Sector& sector : sectors_) {
+      LineElement element;
+      for (std::size_t k = 0; k < sector.arms.size(); ++k)
+        element.nodes.push_back(k == 0 && !copy.empty() ? copy.back().nodes.back() : add_node(sector.arms[k], xi));
+      copy.push_back(std::move(element));
+    }
+    return copy;
+  }
+
+  /// From the last copy to the next one, along an arm of a sector.
+  LineElement side(int from, int to, std::size_t s, const Vec2& arm, double next) {
+    LineElement element{{from}};
+    const std::size_t order = sectors_[s].arms.size() - 1;
+    const std::vector<double> points = geometry::lobatto_points(static_cast<int>(order));
+    for (std::size_t k = 1; k < order; ++k)
+      element.nodes.push_back(add_node(arm, std::lerp(xi_, next, 0.5 * (1.0 + points[k]))));
+    element.nodes.push_back(to);
+    return element;
+  }
+
+  /// The cell of a sector, inside its elements on the last copy.
+  Cell cell_between(std::size_t s, const LineElement& inner, const LineElement& before,
+                    const LineElement& after) const {
+    Cell cell;
+    cell.boundary = outer_[s];
+    cell.boundary.push_back(after);
+    cell.boundary.push_back(inverted(inner));
+    cell.boundary.push_back(inverted(before));
+    cell.materials = {material_of(s)};
+    const bool must_see = rings_.joined > 0.0 && is_curved(sectors_[s]);
+    cell.centre = must_see ? seeing_centre(cell)
+                           : mean_of_corners({outer_[s].front().nodes.front(), after.nodes.front(), after.nodes.back(),
+                                              before.nodes.back()},
+                                             nodes_);
+    return cell;
+  }
+
+  /// A point that sees the curved sides of a cell; coordinates from the tip have more digits.
+  Vec2 seeing_centre(const Cell& cell) const {
+    std::vector<Vec2> points;
+    for (const LineElement& element : cell.boundary)
+      for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
+        points.push_back((nodes_[static_cast<std::size_t>(element.nodes[i])] - tip_.centre) / xi_);
+    return tip_.centre + xi_ * kernel_centre(points).centre;
+  }
+
+  void set_innermost(const std::vector<LineElement>& copy, double xi) {
+    made_.innermost.scale = xi;
+    made_.innermost.boundary = copy;
+    if (tip_.materials.size() == 1) return;  // it has that of the tip
+    made_.innermost.materials.clear();
+    for (std::size_t s = 0; s < sectors_.size(); ++s) made_.innermost.materials.push_back(material_of(s));
+  }
+
+  int add_node(const Vec2& arm, double xi) {
+    nodes_.push_back(tip_.centre + xi * arm);
+    return static_cast<int>(nodes_.size()) - 1;
+  }
+
+  int material_of(std::size_t s) const {
+    return tip_.materials.size() > 1 ? tip_.materials[sectors_[s].first] : tip_.materials.front();
+  }
+
+  const Cell& tip_;
+  std::vector<Vec2>& nodes_;
+  const TipRings& rings_;
+  std::vector<Sector> sectors_;
+  std::vector<std::vector<LineElement>> outer_;  // of every sector, the elements of the last copy
+  double xi_ = 1.0;                              // size of the last copy
+  DividedTip made_;
+};
 
 /// The smallest copy that coordinates have the digits for.
 double smallest_copy(const BodyMesh& mesh) {
@@ -226,7 +274,7 @@ void add_tip_rings(BodyMesh& mesh, const model::Body& body, const std::vector<in
   });
   const double smallest = smallest_copy(mesh);
   for (const TipFace& tip : tips) {
-    DividedTip divided = divided_tip(mesh.cells[tip.cell], mesh.nodes, rings, smallest);
+    DividedTip divided = TipDivision(mesh.cells[tip.cell], mesh.nodes, rings, {}).divided(smallest);
     divided.innermost.scale = 1.0;  // factors refer to the size of this cell
     mesh.cells[tip.cell] = divided.innermost;
     mesh.cells.insert(mesh.cells.end(), divided.cells.begin(), divided.cells.end());
@@ -243,7 +291,8 @@ void add_tip_rings(BodyMesh& mesh, const model::Body& body, const std::vector<in
 int divide_side_faces(BodyMesh& mesh, const model::Body& body, const TipRings& rings) {
   ensure(mesh.cells.size() == 1 && mesh.cells.front().is_open(),
          "a body that is one open super-element has side faces");
-  DividedTip divided = divided_tip(mesh.cells.front(), mesh.nodes, rings, smallest_copy(mesh), edges_of(mesh, body));
+  DividedTip divided =
+      TipDivision(mesh.cells.front(), mesh.nodes, rings, edges_of(mesh, body)).divided(smallest_copy(mesh));
   mesh.cells = {divided.innermost};
   mesh.cells.insert(mesh.cells.end(), divided.cells.begin(), divided.cells.end());
   mesh.faces.assign(2, {});

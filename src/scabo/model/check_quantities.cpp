@@ -106,12 +106,27 @@ void check_energy(Checking& checking, const std::string& path) {
                              load->name, body->name));
 }
 
+void check_point_of(Checking& checking, const std::string& path, const Quantity& quantity) {
+  if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, checking.model.bodies.size());
+  checking.vector(path, "at", quantity.at);
+}
+
+void check_time(Checking& checking, const std::string& path) {
+  if (!is_dynamic(checking.model)) checking.error(path, "", "belongs to steps in time, and the model has none");
+}
+
 void check_quantity(Checking& checking, const std::string& path, const Quantity& quantity, bool with_bar) {
   const Model& model = checking.model;
   switch (quantity.kind) {
     case Quantity::Kind::normal_force:
     case Quantity::Kind::tangential_force:
     case Quantity::Kind::max_gap:
+    case Quantity::Kind::contact_force:
+    case Quantity::Kind::contact_moment:
+    case Quantity::Kind::centre_of_pressure:
+    case Quantity::Kind::max_pressure:
+    case Quantity::Kind::pairs_in_state:
+    case Quantity::Kind::end_pair:
       check_number_of(checking, path, "contact", quantity.index, model.contacts.size());
       break;
     case Quantity::Kind::reaction:
@@ -121,13 +136,11 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       check_number_of(checking, path, "spring", quantity.index, model.springs.size());
       break;
     case Quantity::Kind::displacement:
-      if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, model.bodies.size());
-      checking.vector(path, "at", quantity.at);
+      check_point_of(checking, path, quantity);
       break;
     case Quantity::Kind::velocity:
-      if (!is_dynamic(model)) checking.error(path, "", "belongs to steps in time, and the model has none");
-      if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, model.bodies.size());
-      checking.vector(path, "at", quantity.at);
+      check_time(checking, path);
+      check_point_of(checking, path, quantity);
       break;
     case Quantity::Kind::stress_intensity:
     case Quantity::Kind::t_stress:
@@ -137,14 +150,6 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       break;
     case Quantity::Kind::elastic_energy:
       if (with_bar) check_energy(checking, path);
-      break;
-    case Quantity::Kind::contact_force:
-    case Quantity::Kind::contact_moment:
-    case Quantity::Kind::centre_of_pressure:
-    case Quantity::Kind::max_pressure:
-    case Quantity::Kind::pairs_in_state:
-    case Quantity::Kind::end_pair:
-      check_number_of(checking, path, "contact", quantity.index, model.contacts.size());
       break;
     case Quantity::Kind::broken_pairs:
       check_broken_of(checking, path, quantity);
@@ -161,7 +166,7 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       break;
     case Quantity::Kind::ground_velocity:
     case Quantity::Kind::energy_in_time:
-      if (!is_dynamic(model)) checking.error(path, "", "belongs to steps in time, and the model has none");
+      check_time(checking, path);
       break;
   }
   if (with_bar && !quantity.has_bar())

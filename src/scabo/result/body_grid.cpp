@@ -36,6 +36,78 @@ CellType type_of(element::FiniteElementKind kind) {
   throw BrokenInvariant("a finite element of unknown kind");
 }
 
+/// The points on the sides of cells: first the nodes; where materials meet, one more for each further material.
+class SharedPoints {
+ public:
+  SharedPoints(Grid& grid, const std::vector<Vec2>& nodes, std::int32_t body, CellsBody& made)
+      : grid_(grid), nodes_(nodes), body_(body), made_(made) {
+    for (std::size_t node = 0; node < nodes.size(); ++node) add(static_cast<int>(node), -1);
+  }
+
+  /// The point of a node for cells of a material, a new one if there is none yet.
+  std::int32_t of(int node, int material) {
+    int& of_node = made_.materials[static_cast<std::size_t>(node)];
+    if (of_node < 0) of_node = material;
+    if (of_node == material) return static_cast<std::int32_t>(node);
+    const auto [entry, is_new] =
+        further_.try_emplace(std::pair(node, material), static_cast<std::int32_t>(made_.nodes.size()));
+    if (is_new) add(node, material);
+    return entry->second;
+  }
+
+ private:
+  void add(int node, int material) {
+    made_.nodes.push_back(node);
+    made_.materials.push_back(material);
+    grid_.add_point(nodes_[static_cast<std::size_t>(node)], body_);
+  }
+
+  Grid& grid_;
+  const std::vector<Vec2>& nodes_;
+  std::int32_t body_;
+  CellsBody& made_;
+  std::map<std::pair<int, int>, std::int32_t> further_;  // node and material
+};
+
+/// A finite element; `first` is the first point of its body.
+void add_finite_element(Grid& grid, const element::FiniteElement& element, const CellsBody::OfCell& points,
+                        std::int32_t first, std::int32_t body) {
+  std::vector<std::int32_t> numbers = points.outer;
+  for (std::int32_t& point : numbers) point += first;
+  grid.add_cell(type_of(element.kind), numbers, body);
+}
+
+/// What is inside of a super-element: its points, and cells between the rings and at the centre.
+void add_inside(Grid& grid, const mesh::Cell& cell, const std::vector<Vec2>& coordinates, CellsBody::OfCell& points,
+                std::int32_t first, std::int32_t body) {
+  const RingSampling& sampling = *points.sampling;
+  const std::vector<int> nodes = cell.nodes();
+  points.inner = static_cast<std::int32_t>(grid.point_count()) - first;
+  const auto n = static_cast<std::int32_t>(sampling.nodes.size());
+  const auto rings = static_cast<std::int32_t>(sampling.levels.size());
+  for (std::int32_t ring = 1; ring < rings; ++ring)
+    for (const int node : sampling.nodes)
+      grid.add_point(on_ring(cell, coordinates[static_cast<std::size_t>(nodes[static_cast<std::size_t>(node)])],
+                             sampling.levels[static_cast<std::size_t>(ring)]),
+                     body);
+  const std::int32_t centre = first + points.inner + (rings - 1) * n;
+  for (int k = 0; k <= sampling.centre.back(); ++k) grid.add_point(cell.centre, body);
+  const auto point = [&](std::int32_t ring, std::int32_t k) {
+    return first + (ring == 0 ? points.outer[static_cast<std::size_t>(k)] : points.inner + (ring - 1) * n + k);
+  };
+  for (std::int32_t ring = 0; ring < rings; ++ring)
+    for (std::size_t e = 0; e < sampling.points.size(); ++e)
+      for (std::size_t i = 0; i + 1 < sampling.points[e].size(); ++i) {
+        const std::int32_t a = sampling.points[e][i], b = sampling.points[e][i + 1];
+        if (ring + 1 < rings)
+          grid.add_cell(CellType::quad,
+                        std::array{point(ring + 1, a), point(ring, a), point(ring, b), point(ring + 1, b)}, body);
+        else
+          grid.add_cell(CellType::triangle, std::array{centre + sampling.centre[e], point(ring, a), point(ring, b)},
+                        body);
+      }
+}
+
 }  // namespace
 
 void add_super_element(Grid& grid, const mesh::BodyMesh& body, const RingSampling& sampling, std::int32_t number) {
@@ -70,77 +142,29 @@ CellsBody add_cells(Grid& grid, const mesh::BodyMesh& body, const element::Solve
   const auto first = static_cast<std::int32_t>(grid.point_count());
   CellsBody made;
   made.cells.resize(cells.size());
-  // The first points are the nodes; where materials meet, there is one more for each further material.
-  for (std::size_t node = 0; node < body.nodes.size(); ++node) {
-    made.nodes.push_back(static_cast<int>(node));
-    made.materials.push_back(-1);
-    grid.add_point(body.nodes[node], number);
-  }
-  std::map<std::pair<int, int>, std::int32_t> further;  // node and material
-  const auto shared_point = [&](int node, int material) {
-    int& of_node = made.materials[static_cast<std::size_t>(node)];
-    if (of_node < 0) of_node = material;
-    if (of_node == material) return static_cast<std::int32_t>(node);
-    const auto key = std::pair(node, material);
-    if (const auto found = further.find(key); found != further.end()) return found->second;
-    const auto point = static_cast<std::int32_t>(made.nodes.size());
-    further.emplace(key, point);
-    made.nodes.push_back(node);
-    made.materials.push_back(material);
-    grid.add_point(body.nodes[static_cast<std::size_t>(node)], number);
-    return point;
-  };
+  SharedPoints points(grid, body.nodes, number, made);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     interruption_point();
     const mesh::Cell& cell = body.cells[c];
-    if (!cells[c]) {
-      const element::FiniteElement element = element::finite_element_of(cell, body.nodes);
-      for (const int node : element.nodes()) made.cells[c].outer.push_back(shared_point(node, cell.materials.front()));
-      continue;
-    }
-    made.cells[c].sampling = library.of_cell(*cells[c], uses.at(cells[c].get()), cells.size() <= few_cells);
-    const RingSampling& sampling = *made.cells[c].sampling;
-    const std::vector<int> nodes = cell.nodes();
-    for (std::size_t k = 0; k < sampling.nodes.size(); ++k)
-      made.cells[c].outer.push_back(shared_point(nodes[static_cast<std::size_t>(sampling.nodes[k])],
-                                                 cells[c]->sectors.material_of(sampling.sectors[k])));
-  }
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    interruption_point();
     CellsBody::OfCell& of_cell = made.cells[c];
     if (!cells[c]) {
-      std::vector<std::int32_t> points = of_cell.outer;
-      for (std::int32_t& point : points) point += first;
-      grid.add_cell(type_of(element::finite_element_of(body.cells[c], body.nodes).kind), points, number);
+      const element::FiniteElement element = element::finite_element_of(cell, body.nodes);
+      for (const int node : element.nodes()) of_cell.outer.push_back(points.of(node, cell.materials.front()));
       continue;
     }
+    of_cell.sampling = library.of_cell(*cells[c], uses.at(cells[c].get()), cells.size() <= few_cells);
     const RingSampling& sampling = *of_cell.sampling;
-    const mesh::Cell& cell = body.cells[c];
     const std::vector<int> nodes = cell.nodes();
-    of_cell.inner = static_cast<std::int32_t>(grid.point_count()) - first;
-    const auto n = static_cast<std::int32_t>(sampling.nodes.size());
-    const auto rings = static_cast<std::int32_t>(sampling.levels.size());
-    for (std::int32_t ring = 1; ring < rings; ++ring)
-      for (const int node : sampling.nodes)
-        grid.add_point(on_ring(cell, body.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(node)])],
-                               sampling.levels[static_cast<std::size_t>(ring)]),
-                       number);
-    const std::int32_t centre = first + of_cell.inner + (rings - 1) * n;
-    for (int k = 0; k <= sampling.centre.back(); ++k) grid.add_point(cell.centre, number);
-    const auto point = [&](std::int32_t ring, std::int32_t k) {
-      return first + (ring == 0 ? of_cell.outer[static_cast<std::size_t>(k)] : of_cell.inner + (ring - 1) * n + k);
-    };
-    for (std::int32_t ring = 0; ring < rings; ++ring)
-      for (std::size_t e = 0; e < sampling.points.size(); ++e)
-        for (std::size_t i = 0; i + 1 < sampling.points[e].size(); ++i) {
-          const std::int32_t a = sampling.points[e][i], b = sampling.points[e][i + 1];
-          if (ring + 1 < rings)
-            grid.add_cell(CellType::quad,
-                          std::array{point(ring + 1, a), point(ring, a), point(ring, b), point(ring + 1, b)}, number);
-          else
-            grid.add_cell(CellType::triangle, std::array{centre + sampling.centre[e], point(ring, a), point(ring, b)},
-                          number);
-        }
+    for (std::size_t k = 0; k < sampling.nodes.size(); ++k)
+      of_cell.outer.push_back(points.of(nodes[static_cast<std::size_t>(sampling.nodes[k])],
+                                        cells[c]->sectors.material_of(sampling.sectors[k])));
+  }
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    interruption_point();
+    if (cells[c])
+      add_inside(grid, body.cells[c], body.nodes, made.cells[c], first, number);
+    else
+      add_finite_element(grid, element::finite_element_of(body.cells[c], body.nodes), made.cells[c], first, number);
   }
   return made;
 }

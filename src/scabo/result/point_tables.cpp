@@ -43,6 +43,28 @@ double hoop_energy(const PointResult& point, const model::Material& material, co
   return 0.5 * point.stress_zz * (point.values.strain_zz - free);
 }
 
+/// Stress across the plane and energy density where displacement, strain and stress are known. `super_element`: that of
+/// the cell, null for a finite element.
+void complete(const analysis::Discretisation& discretisation, const analysis::FieldState& fields, std::size_t body,
+              const element::SolvedSuperElement* super_element, const CellPlace& place, const Vec2& x,
+              PointResult& result) {
+  const model::Analysis& analysis = discretisation.model.analysis;
+  const double temperature = element::loads_in(fields.interior[body], place.cell).temperature_at(x);
+  const auto element = static_cast<std::size_t>(place.scaled.element);
+  const int number = super_element ? super_element->sectors.material_of(element)
+                                   : discretisation.mesh.bodies[body].cells[place.cell].materials.front();
+  const model::Material& material = discretisation.model.materials[static_cast<std::size_t>(number)];
+  const element::Vec3 free = super_element ? super_element->sectors.unit_strain_of(element)
+                                           : element::thermal_strain(material, analysis.plane);
+  const element::Vec3 elastic = result.values.strain - free * temperature;
+  const element::InitialStress& initial = fields.initial_of(body);
+  const element::Vec3 change = result.values.stress - initial.at(x);
+  result.stress_zz = element::stress_zz(change, material, analysis.plane, temperature, result.values.strain_zz) +
+                     initial.zz_at(x, material, analysis.plane);
+  result.energy_density = 0.5 * change.dot(elastic) + hoop_energy(result, material, analysis, temperature) +
+                          0.5 * element::heat_across(material, analysis.plane) * temperature * temperature;
+}
+
 void append(fmt::memory_buffer& to, double value) { fmt::format_to(std::back_inserter(to), ",{}", value); }
 
 }  // namespace
@@ -56,6 +78,8 @@ struct PointEvaluation::Group {
   std::vector<bool> infinite;                     // stress at the scaling centre of a super-element
   std::vector<element::PointOperator> operators;  // empty: not condensed
   std::vector<int> dofs;                          // of the cell, if condensed
+
+  bool of_super_element() const { return !infinite.empty(); }
 };
 
 PointEvaluation::~PointEvaluation() = default;
@@ -117,66 +141,61 @@ void PointEvaluation::prepare(const analysis::Discretisation& discretisation, Gr
   group.dofs = element::dofs_of(cell);
 }
 
+std::vector<element::PointValues> PointEvaluation::condensed_values(const analysis::Discretisation& discretisation,
+                                                                    const analysis::FieldState& fields,
+                                                                    const Group& group) const {
+  const auto b = static_cast<std::size_t>(group.body);
+  const element::SolvedSuperElement& super_element = *discretisation.cells[b][group.cell];
+  const Vector u = fields.displacements[b](group.dofs);
+  std::vector<element::PointValues> values(group.rows.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const element::PointOperator& rows = group.operators[i];
+    values[i].displacement = rows.N * u - fields.reference_displacement(b);
+    values[i].strain = rows.B * u;
+    values[i].stress =
+        super_element.sectors.D.of(static_cast<std::size_t>(group.places[i].scaled.element)) * values[i].strain +
+        fields.initial_of(b).at(points_[group.rows[i]].at);
+  }
+  return values;
+}
+
+std::vector<element::PointValues> PointEvaluation::probed_values(const analysis::Discretisation& discretisation,
+                                                                 const analysis::FieldState& fields,
+                                                                 const Group& group) const {
+  const bool rigid = discretisation.model.bodies[static_cast<std::size_t>(group.body)].rigid;
+  Probe probe(discretisation, fields, group.body);
+  if (group.of_super_element() && group.rows.size() > many_points) probe.expect_many();
+  std::vector<element::PointValues> values;
+  for (std::size_t i = 0; i < group.rows.size(); ++i) {
+    const Vec2& x = points_[group.rows[i]].at;
+    const auto at_point = rigid ? probe.at(x) : std::optional(probe.at(x, group.places[i]));
+    ensure(at_point.has_value(), "a point of a body has no value");
+    values.push_back(*at_point);
+  }
+  return values;
+}
+
 std::vector<PointResult> PointEvaluation::at(const analysis::Discretisation& discretisation,
                                              const analysis::IncrementResult& increment) const {
+  const analysis::FieldState& fields = increment.fields;
   std::vector<PointResult> results(points_.size());
   for (const Group& group : groups_) {
-    const auto b = static_cast<std::size_t>(group.body);
-    const model::Body& named = discretisation.model.bodies[b];
     if (increment.is_absent(group.body)) {
       for (const std::size_t row : group.rows) results[row].absent = true;
       continue;
     }
+    const auto b = static_cast<std::size_t>(group.body);
     const element::SolvedSuperElement* super_element =
-        group.infinite.empty() ? nullptr : discretisation.cells[b][group.cell].get();
-    const element::InteriorLoads& interior = element::loads_in(increment.fields.interior[b], group.cell);
-    const bool condensed = !group.operators.empty() && !interior.acts();
-    std::optional<Probe> probe;
-    Vector u;
-    if (condensed)
-      u = increment.fields.displacements[b](group.dofs);
-    else
-      probe.emplace(discretisation, increment.fields, group.body);
-    if (probe && super_element && group.rows.size() > many_points) probe->expect_many();
+        group.of_super_element() ? discretisation.cells[b][group.cell].get() : nullptr;
+    const bool condensed = !group.operators.empty() && !element::loads_in(fields.interior[b], group.cell).acts();
+    const std::vector<element::PointValues> values =
+        condensed ? condensed_values(discretisation, fields, group) : probed_values(discretisation, fields, group);
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
-      const Vec2& x = points_[group.rows[i]].at;
-      const CellPlace& place = group.places[i];
       PointResult& result = results[group.rows[i]];
-      if (condensed) {
-        const element::PointOperator& rows = group.operators[i];
-        result.values.displacement = rows.N * u - increment.fields.reference_displacement(b);
-        result.values.strain = rows.B * u;
-        result.values.stress =
-            super_element->sectors.D.of(static_cast<std::size_t>(place.scaled.element)) * result.values.strain +
-            increment.fields.initial_of(b).at(x);
-      } else {
-        const auto values = named.rigid ? probe->at(x) : std::optional(probe->at(x, place));
-        ensure(values.has_value(), "a point of a body has no value");
-        result.values = *values;
-      }
-      result.has_stress = !named.rigid && !(super_element && group.infinite[i]);
-      if (!result.has_stress) continue;
-      const double temperature = element::loads_in(increment.fields.interior[b], place.cell).temperature_at(x);
-      int material = discretisation.mesh.bodies[b].cells[place.cell].materials.front();
-      element::Vec3 elastic = result.values.strain;
-      if (super_element) {
-        const auto element = static_cast<std::size_t>(place.scaled.element);
-        material = super_element->sectors.material_of(element);
-        elastic -= super_element->sectors.unit_strain_of(element) * temperature;
-      } else {
-        elastic -= element::thermal_strain(discretisation.model.materials[static_cast<std::size_t>(material)],
-                                           discretisation.model.analysis.plane) *
-                   temperature;
-      }
-      const model::Material& of_point = discretisation.model.materials[static_cast<std::size_t>(material)];
-      const element::InitialStress& initial = increment.fields.initial_of(b);
-      const element::Vec3 change = result.values.stress - initial.at(x);
-      result.stress_zz = element::stress_zz(change, of_point, discretisation.model.analysis.plane, temperature,
-                                            result.values.strain_zz) +
-                         initial.zz_at(x, of_point, discretisation.model.analysis.plane);
-      result.energy_density =
-          0.5 * change.dot(elastic) + hoop_energy(result, of_point, discretisation.model.analysis, temperature) +
-          0.5 * element::heat_across(of_point, discretisation.model.analysis.plane) * temperature * temperature;
+      result.values = values[i];
+      result.has_stress = !discretisation.model.bodies[b].rigid && !(super_element && group.infinite[i]);
+      if (result.has_stress)
+        complete(discretisation, fields, b, super_element, group.places[i], points_[group.rows[i]].at, result);
     }
   }
   return results;

@@ -50,6 +50,11 @@ class PointEvaluation {
  private:
   struct Group;  // the points in one cell
   void prepare(const analysis::Discretisation& discretisation, Group& group, int increments);
+  /// Displacement, strain and stress at the points of a group, by its operators or by the fields inside the cell.
+  std::vector<element::PointValues> condensed_values(const analysis::Discretisation& discretisation,
+                                                     const analysis::FieldState& fields, const Group& group) const;
+  std::vector<element::PointValues> probed_values(const analysis::Discretisation& discretisation,
+                                                  const analysis::FieldState& fields, const Group& group) const;
   std::vector<mesh::OutputPoint> points_;
   std::vector<Group> groups_;
   std::vector<std::string> warnings_;

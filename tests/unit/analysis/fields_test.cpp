@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string_view>
 
 namespace scabo::analysis {
 namespace {
@@ -72,7 +73,8 @@ TEST(FieldsOfAState, HaveTheNumbersThatTheyDeclare) {
 TEST(FieldsOfAState, OfOtherNumbersAreRefused) {
   State state;
   for (const Field& field : fields_of_state()) {
-    if (field.name != "released" && field.name != "history" && field.name != "energy") continue;
+    const std::string_view name = field.name;
+    if (name != "released" && name != "history" && name != "energy") continue;
     EXPECT_THROW(field.set(state, {3.0, 1.0}), std::out_of_range) << field.name;
   }
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/components.hpp"
+
 namespace scabo::analysis {
 
 namespace {
@@ -42,7 +44,7 @@ std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const Vector& fle
   const auto is_soft = [&](int body, Eigen::Index pair) {
     const std::size_t p = prepared.structure.dofs.part_of(body);
     return prepared.structure.parts[p]->has_springs() ||
-           flexibility.segment<2>(2 * pair).maxCoeff() * stiffness[p] > soft;
+           flexibility.segment<2>(place_of(pair)).maxCoeff() * stiffness[p] > soft;
   };
   std::vector<Eigen::Index> found;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
@@ -63,7 +65,7 @@ double resisting_at(const Prepared& prepared, const Vector& flexibility, const s
     if (const double of_body = stiffness[prepared.structure.dofs.part_of(body)]; of_body > 0.0)
       least = least > 0.0 ? std::min(least, of_body) : of_body;
   if (least > 0.0) return least;
-  const double of_springs = flexibility.segment<2>(2 * pair).maxCoeff();
+  const double of_springs = flexibility.segment<2>(place_of(pair)).maxCoeff();
   return of_springs > 0.0 ? 1.0 / of_springs : 0.0;
 }
 
@@ -72,7 +74,7 @@ double flexibility_at(const Prepared& prepared, int body, Eigen::Index pair) {
   const std::size_t p = prepared.structure.dofs.part_of(body);
   if (!prepared.structure.parts[p]->is_flexible()) return 0.0;
   double flexibility = 0.0;
-  for (const Eigen::Index row : {2 * pair, 2 * pair + 1}) {
+  for (const Eigen::Index row : {place_of(pair), place_of(pair, 1)}) {
     const auto& motion = prepared.contact.motion[p];
     const Vector along = motion.transpose() * Vector::Unit(motion.rows(), row);
     std::vector<int> dofs;
@@ -111,13 +113,13 @@ std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to,
     largest = std::max(largest, to.u[p].lpNorm<Eigen::Infinity>());
   }
   for (Eigen::Index i = 0; i < solution.gap.size(); ++i)
-    held.difference.segment<2>(2 * i) -= Vec2(solution.gap[i], solution.slip_increment[i]);
+    held.difference.segment<2>(place_of(i)) -= Vec2(solution.gap[i], solution.slip_increment[i]);
   const double force = std::max(force_scale, solution.p.lpNorm<Eigen::Infinity>());
   Eigen::Index worst = pairs.front();
   for (const Eigen::Index pair : pairs) {
     const double resisting = resisting_at(prepared, flexibility, stiffness, pair),
                  allowed = std::max(largest, resisting > 0.0 ? force / resisting : 0.0);
-    const double apart = held.difference.segment<2>(2 * pair).lpNorm<Eigen::Infinity>();
+    const double apart = held.difference.segment<2>(place_of(pair)).lpNorm<Eigen::Infinity>();
     const double wrong = std::max(apart, against_the_law(problem, solution, pair));
     if (apart > held.apart * allowed) held.apart = apart / allowed;
     if (wrong > held.wrong * allowed) held.wrong = wrong / allowed, worst = pair;

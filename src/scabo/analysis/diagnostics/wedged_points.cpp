@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "scabo/base/components.hpp"
 #include "scabo/contact/questions/infeasibility.hpp"
 
 namespace scabo::analysis {
@@ -48,7 +49,7 @@ double angles_of_friction(const contact::Problem& problem, const Touching& one, 
 
 /// Whether a force of the pair in its friction cone works against its motion without contact forces, q.r < 0.
 bool is_driven(const contact::Problem& problem, Eigen::Index pair) {
-  return problem.q[2 * pair] < problem.largest_mu(pair) * std::abs(problem.q[2 * pair + 1]);
+  return problem.q[place_of(pair)] < problem.largest_mu(pair) * std::abs(problem.q[place_of(pair, 1)]);
 }
 
 /// Whether forces of these two pairs move nothing while they are driven against each other. W is positive
@@ -56,7 +57,7 @@ bool is_driven(const contact::Problem& problem, Eigen::Index pair) {
 bool are_wedged(const contact::Problem& problem, Eigen::Index one, Eigen::Index other) {
   if (!is_driven(problem, one) && !is_driven(problem, other)) return false;  // products with W may take long
   Matrix unit = Matrix::Zero(problem.q.size(), 4);
-  const std::array<Eigen::Index, 4> rows = {2 * one, 2 * one + 1, 2 * other, 2 * other + 1};
+  const std::array<Eigen::Index, 4> rows = {place_of(one), place_of(one, 1), place_of(other), place_of(other, 1)};
   for (Eigen::Index k = 0; k < 4; ++k) unit(rows[static_cast<std::size_t>(k)], k) = 1.0;
   contact::Problem two;
   Matrix W = unit.transpose() * problem.W.times(unit);

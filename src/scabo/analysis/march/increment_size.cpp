@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/components.hpp"
+
 namespace scabo::analysis {
 
 namespace {
@@ -15,7 +17,7 @@ int state_of(const State& state, std::size_t pair) {
     case contact::ContactState::stick:
       return 1;
     case contact::ContactState::slip:
-      return state.p[static_cast<Eigen::Index>(2 * pair + 1)] >= 0.0 ? 2 : 3;
+      return state.p[place_of(pair, 1)] >= 0.0 ? 2 : 3;
   }
   throw BrokenInvariant("a pair without a state");
 }

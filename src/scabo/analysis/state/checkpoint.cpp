@@ -71,7 +71,7 @@ void exchange_state(Io& io, RunState& run) {
   exchange_scalars(io, "state/progress", {&run.progress.reached, &run.progress.size, &run.progress.limit});
   for (const Field& field : fields_of_state()) {
     std::vector<double> numbers = field.get(run.state);
-    io.numbers("state/" + field.name, numbers);
+    io.numbers(std::string("state/") + field.name, numbers);
     if constexpr (Io::reads) field.set(run.state, numbers);
   }
 }

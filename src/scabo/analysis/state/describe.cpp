@@ -6,6 +6,7 @@
 
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/state.hpp"
+#include "scabo/base/components.hpp"
 #include "scabo/system/tributary_lengths.hpp"
 
 namespace scabo::analysis {
@@ -88,8 +89,8 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     row.gap = state.gap[k];
     row.slip = state.slip[k];
     if (state.replaced.slip_before.size() > 0) row.slip += state.replaced.slip_before[k];
-    row.normal_force = state.p[2 * k];
-    row.tangential_force = state.p[2 * k + 1];
+    row.normal_force = state.p[place_of(k)];
+    row.tangential_force = state.p[place_of(k, 1)];
     row.pressure = row.normal_force / prepared.contact.laws.area[k];
     row.shear = row.tangential_force / prepared.contact.laws.area[k];
     row.state = state.states[i];
@@ -135,6 +136,79 @@ double lost_to_rounding(const Prepared& prepared, const State& state) {
   return energy > 1e-22 * resisting ? lost / energy : 0.0;
 }
 
+/// Factors of all loads, and of the supports that prescribe a motion.
+void add_factors(const Prepared& prepared, const State& state, IncrementResult& result) {
+  for (std::size_t i = 0; i < prepared.model.loads.size(); ++i)
+    result.factors[prepared.model.loads[i].name] = state.factors.loads[i];
+  for (std::size_t i = 0; i < prepared.model.supports.size(); ++i) {
+    const model::Support& support = prepared.model.supports[i];
+    if (support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0 ||
+        support.rotation.value_or(0.0) != 0.0)
+      result.factors[support.name] = state.factors.supports[i];
+  }
+}
+
+/// Forces of all supports, and moments of those that prescribe a rotation.
+void add_reactions(const Prepared& prepared, const State& state, IncrementResult& result) {
+  result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
+  result.moments.resize(prepared.model.supports.size());
+  for (std::size_t p = 0; p < state.u.size(); ++p) {
+    const system::BodySystem& part = *prepared.structure.parts[p];
+    for (std::size_t c = 0; c < part.constraints().size(); ++c) {
+      const system::Constraint& constraint = part.constraints()[c];
+      const auto support = static_cast<std::size_t>(constraint.support);
+      const double reaction = state.reactions[p][static_cast<Eigen::Index>(c)];
+      if (!constraint.rotation)
+        result.reactions[support] += reaction * constraint.direction();
+      else if (prepared.model.supports[support].rotation)
+        result.moments[support] = reaction * part.lever();
+    }
+  }
+}
+
+/// Displacements of the nodes of a body, of a rigid one with its rotation, from where the analysis began.
+Vector displacements_of(const Prepared& prepared, const State& state, int body) {
+  const system::Dofs& dofs = prepared.structure.dofs;
+  const bool rigid = prepared.model.bodies[static_cast<std::size_t>(body)].rigid;
+  Vector u = dofs.of_body(body, state.u[dofs.part_of(body)]);
+  if (!state.replaced.moved.empty()) {
+    const Vec2& moved = state.replaced.moved[dofs.part_of(body)];
+    if (rigid)
+      u.head<2>() += moved;
+    else
+      u.reshaped(2, u.size() / 2).colwise() += moved;
+  }
+  if (rigid) u[2] /= part_of(prepared, body).lever();
+  return u;
+}
+
+Vector velocities_of(const Prepared& prepared, const State& state, int body) {
+  const system::Dofs& dofs = prepared.structure.dofs;
+  Vector v = dofs.of_body(body, state.velocity[dofs.part_of(body)]);
+  if (prepared.model.bodies[static_cast<std::size_t>(body)].rigid) v[2] /= part_of(prepared, body).lever();
+  return v;
+}
+
+/// What the fields of all bodies follow from.
+FieldState fields_of(const Prepared& prepared, const State& state) {
+  FieldState fields;
+  const std::size_t bodies = prepared.model.bodies.size();
+  fields.interior.resize(bodies);
+  fields.initial.resize(bodies);
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const auto body = static_cast<int>(b);
+    fields.displacements.push_back(displacements_of(prepared, state, body));
+    if (!state.velocity.empty()) fields.velocities.push_back(velocities_of(prepared, state, body));
+    const double presence = presence_of(prepared, state.factors, prepared.structure.dofs.part_of(body));
+    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load) {
+      const double factor = presence * state.factors.loads[load];
+      add(fields.interior[b], prepared.structure.interior[load][b], factor);
+      fields.initial[b].add(prepared.structure.initial[load][b], factor);
+    }
+  }
+  return fields;
+}
+
 }  // namespace
 
 Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
@@ -153,64 +227,20 @@ Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, 
 }
 
 IncrementResult describe(const Prepared& prepared, const State& state) {
+  const system::Dofs& dofs = prepared.structure.dofs;
   IncrementResult result;
-  for (std::size_t i = 0; i < prepared.model.loads.size(); ++i)
-    result.factors[prepared.model.loads[i].name] = state.factors.loads[i];
-  for (std::size_t i = 0; i < prepared.model.supports.size(); ++i) {
-    const model::Support& support = prepared.model.supports[i];
-    if (support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0 ||
-        support.rotation.value_or(0.0) != 0.0)
-      result.factors[support.name] = state.factors.supports[i];
-  }
+  add_factors(prepared, state, result);
   result.contacts = contact_results(prepared, state);
   result.energy = state.energy;
   if (!state.velocity.empty()) result.time = state.time;
   result.largest_force = scale_of(prepared, state, largest_force(state));
   result.lost_to_rounding = lost_to_rounding(prepared, state);
-  result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
-  result.moments.resize(prepared.model.supports.size());
-  for (std::size_t p = 0; p < state.u.size(); ++p) {
-    const std::vector<system::Constraint>& constraints = prepared.structure.parts[p]->constraints();
-    for (std::size_t c = 0; c < constraints.size(); ++c) {
-      if (constraints[c].rotation) {
-        const auto support = static_cast<std::size_t>(constraints[c].support);
-        if (prepared.model.supports[support].rotation)
-          result.moments[support] =
-              state.reactions[p][static_cast<Eigen::Index>(c)] * prepared.structure.parts[p]->lever();
-        continue;
-      }
-      result.reactions[static_cast<std::size_t>(constraints[c].support)] +=
-          state.reactions[p][static_cast<Eigen::Index>(c)] * constraints[c].direction();
-    }
-  }
-  const system::Dofs& dofs = prepared.structure.dofs;
+  add_reactions(prepared, state, result);
   result.springs =
       system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u, state.factors.loads);
-  result.fields.interior.resize(prepared.model.bodies.size());
-  result.fields.initial.resize(prepared.model.bodies.size());
-  for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
-    const auto body = static_cast<int>(b);
-    result.fields.displacements.push_back(dofs.of_body(body, state.u[dofs.part_of(body)]));
-    if (!state.replaced.moved.empty()) {
-      Vector& u = result.fields.displacements[b];
-      const Vec2& moved = state.replaced.moved[dofs.part_of(body)];
-      if (prepared.model.bodies[b].rigid)
-        u.head<2>() += moved;
-      else
-        u.reshaped(2, u.size() / 2).colwise() += moved;
-    }
-    if (prepared.model.bodies[b].rigid) result.fields.displacements[b][2] /= part_of(prepared, body).lever();
-    if (!state.velocity.empty()) {
-      result.fields.velocities.push_back(dofs.of_body(body, state.velocity[dofs.part_of(body)]));
-      if (prepared.model.bodies[b].rigid) result.fields.velocities[b][2] /= part_of(prepared, body).lever();
-    }
-    const double presence = presence_of(prepared, state.factors, dofs.part_of(body));
-    for (std::size_t load = 0; load < prepared.model.loads.size(); ++load) {
-      add(result.fields.interior[b], prepared.structure.interior[load][b], presence * state.factors.loads[load]);
-      result.fields.initial[b].add(prepared.structure.initial[load][b], presence * state.factors.loads[load]);
-    }
+  result.fields = fields_of(prepared, state);
+  for (int body = 0; body < static_cast<int>(prepared.model.bodies.size()); ++body)
     if (prepared.is_absent(dofs.part_of(body))) result.absent.push_back(body);
-  }
   return result;
 }
 

@@ -94,7 +94,7 @@ enum class Kept { lasts, in_this_run };
 
 /// `of`: the member, of a State or of a const State.
 template <typename Of>
-Field field(const char* name, Owner owner, int count, Kept kept, Of) {
+constexpr Field field(const char* name, Owner owner, int count, Kept kept, Of) {
   return {name,
           owner,
           count,
@@ -105,7 +105,7 @@ Field field(const char* name, Owner owner, int count, Kept kept, Of) {
 }
 
 template <typename Of>
-Field optional_field(const char* name, Owner owner, int count, Kept kept, Of of) {
+constexpr Field optional_field(const char* name, Owner owner, int count, Kept kept, Of of) {
   Field made = field(name, owner, count, kept, of);
   made.optional = true;
   return made;
@@ -113,7 +113,7 @@ Field optional_field(const char* name, Owner owner, int count, Kept kept, Of of)
 
 /// What is a part of the history in time only, and follows from the others at rest.
 template <typename Of>
-Field in_time(const char* name, Of) {
+constexpr Field in_time(const char* name, Of) {
   return {name,
           Owner::whole,
           0,
@@ -125,12 +125,10 @@ Field in_time(const char* name, Of) {
           }};
 }
 
-}  // namespace
-
-const std::vector<Field>& fields_of_state() {
+struct Table {
   using enum Owner;
   using enum Kept;
-  static const std::vector<Field> fields = {
+  static constexpr Field fields[] = {
       field(
           "load_factors", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.loads; }),
       field(
@@ -187,8 +185,11 @@ const std::vector<Field>& fields_of_state() {
       in_time(
           "reactions", [](auto& state) -> auto& { return state.reactions; }),
   };
-  return fields;
-}
+};
+
+}  // namespace
+
+std::span<const Field> fields_of_state() { return Table::fields; }
 
 std::vector<double> entries_at(const std::vector<double>& numbers, int count, const std::vector<Eigen::Index>& places) {
   Numbers entries;

@@ -3,7 +3,7 @@
 // carried over where bodies come and go (transfer() below). What is not in it follows from it (complete()).
 #pragma once
 
-#include <string>
+#include <span>
 #include <vector>
 
 #include "scabo/analysis/state/state.hpp"
@@ -14,7 +14,7 @@ namespace scabo::analysis {
 enum class Owner { pair, held_pair, rigid_motion, contact, part, whole };
 
 struct Field {
-  std::string name;
+  const char* name = "";
   Owner owner = Owner::whole;
   int count = 1;  ///< numbers of each owner, of all in their order. Of `whole`: any
   /// Another run may start with it: it does not depend on the loads, steps and bodies that only this run has.
@@ -25,7 +25,7 @@ struct Field {
   void (*set)(State&, const std::vector<double>&) = nullptr;
 };
 
-const std::vector<Field>& fields_of_state();
+std::span<const Field> fields_of_state();
 
 /// The entries of a field, `count` numbers each, at some places; zero at the place -1.
 std::vector<double> entries_at(const std::vector<double>& numbers, int count, const std::vector<Eigen::Index>& places);

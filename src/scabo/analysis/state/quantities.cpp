@@ -8,6 +8,7 @@
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/cracks.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
+#include "scabo/base/components.hpp"
 #include "scabo/element/cell_locator.hpp"
 #include "scabo/element/plane/elasticity.hpp"
 #include "scabo/linalg/general_solver.hpp"
@@ -113,6 +114,38 @@ std::optional<double> figure_of(const element::StressIntensity& factors, const m
   }
 }
 
+std::optional<double> value_of(const ContactResult& contact, const model::Quantity& quantity) {
+  switch (quantity.kind) {
+    case Kind::normal_force:
+      return contact.normal_force;
+    case Kind::tangential_force:
+      return contact.tangential_force;
+    case Kind::max_gap:
+      return contact.max_gap;
+    case Kind::contact_force:
+      return contact.force[quantity.component];
+    case Kind::contact_moment:
+      return contact.moment;
+    case Kind::centre_of_pressure:
+      return contact.centre_of_pressure ? std::optional((*contact.centre_of_pressure)[quantity.component])
+                                        : std::nullopt;
+    case Kind::max_pressure:
+      return contact.max_pressure;
+    case Kind::pairs_in_state:
+      return quantity.component == 0 ? contact.open : quantity.component == 1 ? contact.stick : contact.slip;
+    case Kind::broken_pairs:
+      return contact.broken;
+    case Kind::end_pair:
+      return quantity.component == 0 ? contact.first_in_contact : contact.last_in_contact;
+    case Kind::pore_force:
+      return contact.pore_force;
+    case Kind::total_normal_force:
+      return contact.pore_force ? std::optional(contact.normal_force + *contact.pore_force) : std::nullopt;
+    default:
+      throw BrokenInvariant("a number that is none of a contact");
+  }
+}
+
 }  // namespace
 
 std::optional<double> value_of(const Discretisation& discretisation, const IncrementResult& increment,
@@ -120,22 +153,31 @@ std::optional<double> value_of(const Discretisation& discretisation, const Incre
   const auto index = static_cast<std::size_t>(std::max(quantity.index, 0));
   switch (quantity.kind) {
     case Kind::normal_force:
-      return increment.contacts[index].normal_force;
     case Kind::tangential_force:
-      return increment.contacts[index].tangential_force;
     case Kind::max_gap:
-      return increment.contacts[index].max_gap;
+    case Kind::contact_force:
+    case Kind::contact_moment:
+    case Kind::centre_of_pressure:
+    case Kind::max_pressure:
+    case Kind::pairs_in_state:
+    case Kind::broken_pairs:
+    case Kind::end_pair:
+    case Kind::pore_force:
+    case Kind::total_normal_force:
+      return value_of(increment.contacts[index], quantity);
     case Kind::reaction:
       return increment.reactions[index][quantity.component];
+    case Kind::support_moment:
+      return increment.moments[index];
     case Kind::spring_force:
       return increment.springs[index][quantity.component];
     case Kind::displacement:
       return displacement_of_point(discretisation, increment, quantity);
+    case Kind::velocity:
+      return displacement_of_point(discretisation, with_velocities(increment), quantity);
     case Kind::ground_velocity:
       return ground_velocity(discretisation.model, static_cast<std::size_t>(increment.step) - 1, increment.reached,
                              static_cast<std::size_t>(quantity.component));
-    case Kind::velocity:
-      return displacement_of_point(discretisation, with_velocities(increment), quantity);
     case Kind::stress_intensity:
     case Kind::t_stress:
     case Kind::energy_release:
@@ -145,32 +187,6 @@ std::optional<double> value_of(const Discretisation& discretisation, const Incre
       return std::nullopt;
     case Kind::elastic_energy:
       return increment.energy.elastic;
-    case Kind::contact_force:
-      return increment.contacts[index].force[quantity.component];
-    case Kind::contact_moment:
-      return increment.contacts[index].moment;
-    case Kind::centre_of_pressure:
-      if (const auto& centre = increment.contacts[index].centre_of_pressure) return (*centre)[quantity.component];
-      return std::nullopt;
-    case Kind::max_pressure:
-      return increment.contacts[index].max_pressure;
-    case Kind::pairs_in_state: {
-      const ContactResult& contact = increment.contacts[index];
-      return quantity.component == 0 ? contact.open : quantity.component == 1 ? contact.stick : contact.slip;
-    }
-    case Kind::broken_pairs:
-      return increment.contacts[index].broken;
-    case Kind::end_pair:
-      return quantity.component == 0 ? increment.contacts[index].first_in_contact
-                                     : increment.contacts[index].last_in_contact;
-    case Kind::pore_force:
-      return increment.contacts[index].pore_force;
-    case Kind::total_normal_force:
-      if (const auto& pores = increment.contacts[index].pore_force)
-        return increment.contacts[index].normal_force + *pores;
-      return std::nullopt;
-    case Kind::support_moment:
-      return increment.moments[index];
     case Kind::external_energy:
       return increment.energy.external;
     case Kind::friction_energy:
@@ -225,14 +241,14 @@ void add_contact(const Prepared& prepared, const State& state, const model::Quan
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     if (prepared.contact.pairs[i].contact != quantity.index) continue;
     const auto k = static_cast<Eigen::Index>(i);
-    if (quantity.kind == Kind::normal_force) of.c_p[2 * k] = 1.0;
-    if (quantity.kind == Kind::tangential_force) of.c_p[2 * k + 1] = 1.0;
+    if (quantity.kind == Kind::normal_force) of.c_p[place_of(k)] = 1.0;
+    if (quantity.kind == Kind::tangential_force) of.c_p[place_of(k, 1)] = 1.0;
     if (state.states[i] == contact::ContactState::open && (widest < 0 || state.gap[k] > state.gap[widest]))
       widest = static_cast<int>(i);
   }
   if (quantity.kind != Kind::max_gap || widest < 0) return;
   Vector gap = Vector::Zero(of.c_p.size());
-  gap[2 * widest] = 1.0;
+  gap[place_of(widest)] = 1.0;
   for (std::size_t p = 0; p < of.c.size(); ++p) of.c[p] += prepared.contact.motion[p].transpose() * gap;
 }
 

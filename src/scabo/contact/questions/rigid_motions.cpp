@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "scabo/base/components.hpp"
 #include "scabo/linalg/nonnegative_combination.hpp"
 #include "scabo/linalg/nonnegative_least_squares.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
@@ -85,8 +86,8 @@ RigidMap::Sparse sparse_rays(const Problem& problem) {
       const Eigen::Index pair = it.row() / 2;
       const bool normal = it.row() % 2 == 0;
       const double plus = problem.mu_against(pair, 1.0), minus = problem.mu_against(pair, -1.0);
-      entries.emplace_back(motion, 2 * pair, normal ? it.value() : plus * it.value());
-      entries.emplace_back(motion, 2 * pair + 1, normal ? it.value() : -minus * it.value());
+      entries.emplace_back(motion, place_of(pair), normal ? it.value() : plus * it.value());
+      entries.emplace_back(motion, place_of(pair, 1), normal ? it.value() : -minus * it.value());
     }
   RigidMap::Sparse rays(G.cols(), G.rows());
   rays.setFromTriplets(entries.begin(), entries.end());

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "scabo/base/components.hpp"
+
 namespace scabo::element {
 
 namespace {
@@ -125,7 +127,7 @@ std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const
   const int nodes = static_cast<int>(ring.nodes.size());
   const std::vector<Mirror> mirrors = find_mirrors(ring, D);
   if (mirrors.empty()) {
-    Eigen::SparseMatrix<double> identity(2 * nodes, 2 * nodes);
+    Eigen::SparseMatrix<double> identity(places_of(nodes), places_of(nodes));
     identity.setIdentity();
     return {identity};
   }
@@ -165,13 +167,13 @@ std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const
         if (norm == 0.0) continue;  // a node on a mirror line has no such field
         const Vec2 direction = component == 0 ? along : across;
         for (const auto& [at, value] : vector) {
-          entries.emplace_back(2 * at, columns, value / norm * direction.x());
-          entries.emplace_back(2 * at + 1, columns, value / norm * direction.y());
+          entries.emplace_back(place_of(at), columns, value / norm * direction.x());
+          entries.emplace_back(place_of(at, 1), columns, value / norm * direction.y());
         }
         ++columns;
       }
     if (columns == 0) continue;
-    Eigen::SparseMatrix<double> T(2 * nodes, columns);
+    Eigen::SparseMatrix<double> T(places_of(nodes), columns);
     T.setFromTriplets(entries.begin(), entries.end());
     T.prune(0.0);
     blocks.push_back(std::move(T));

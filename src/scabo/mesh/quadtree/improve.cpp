@@ -1,7 +1,9 @@
 // Improvement of the cells that lines cut: no short sides, no small cells, no unseen sides.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "scabo/mesh/polygon_kernel.hpp"
 #include "scabo/mesh/quadtree/pieces.hpp"
@@ -88,65 +90,76 @@ class Surroundings {
   std::vector<std::vector<int>> cells_of_;
 };
 
-/// Puts node `gone` where `kept` is, if the cells around stay well shaped.
-bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
+/// Node `gone` moves to `kept` only along its own line, and does not come from outside to a line.
+bool may_move(const Pieces& pieces, int gone, int kept) {
   if (pieces.holds[gone] == Hold::corner) return false;
   const auto between = pieces.line_sides.find(side_key(kept, gone));
-  if (pieces.holds[gone] == Hold::line) {
-    if (between == pieces.line_sides.end() || between->second != pieces.line_of[gone]) return false;
-  } else if (between != pieces.line_sides.end()) {
-    return false;
+  if (pieces.holds[gone] != Hold::line) return between == pieces.line_sides.end();
+  return between != pieces.line_sides.end() && between->second == pieces.line_of[gone];
+}
+
+/// Whether a triangle may vanish whose sides from a third node to `kept` and `gone` become one: not both may be on
+/// lines.
+bool may_vanish(const Pieces& pieces, const PolygonCell& triangle, int gone, int kept) {
+  int third = -1;
+  for (int node : triangle.nodes) {
+    if (node != kept && node != gone) third = node;
   }
-  struct Change {
-    int cell;
-    std::vector<int> nodes;
-  };
-  std::vector<Change> changes;
-  for (int index : surroundings.around(gone)) {
-    const PolygonCell& cell = pieces.cells[index];
-    std::vector<int> nodes = cell.nodes;
-    const bool has_both = std::find(nodes.begin(), nodes.end(), kept) != nodes.end();
-    if (cell.open && has_both && (nodes.front() == nodes.back())) return false;
-    if (!cell.side_regions.empty() && has_both) return false;
-    std::replace(nodes.begin(), nodes.end(), gone, kept);
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    if (!cell.open && nodes.size() > 1 && nodes.front() == nodes.back()) nodes.pop_back();
-    if (has_both && std::count(nodes.begin(), nodes.end(), kept) > 1) return false;
-    if (nodes.size() < 3 && cell.open) return false;
-    if (nodes.size() < 3) {
-      // A triangle whose other two sides become one: not both may be on lines.
-      int third = -1;
-      for (int node : cell.nodes) {
-        if (node != kept && node != gone) third = node;
-      }
-      if (third < 0 ||
-          (pieces.line_sides.count(side_key(kept, third)) && pieces.line_sides.count(side_key(gone, third)))) {
-        return false;
-      }
-      changes.push_back({index, {}});
-      continue;
-    }
-    const double after = clearance_with(pieces, cell, nodes);
-    if (after < fair * pieces.sizes[index] && after < 0.8 * clearance_of(pieces, cell)) return false;
-    if (!(after > 0.0) && !(clearance_of(pieces, cell) <= 0.0 && polygon_area(corners_of(pieces, nodes)) > 0.0))
-      return false;
-    changes.push_back({index, std::move(nodes)});
+  return third >= 0 &&
+         !(pieces.line_sides.count(side_key(kept, third)) && pieces.line_sides.count(side_key(gone, third)));
+}
+
+/// The nodes of a cell once `gone` is where `kept` is, empty if it vanishes; nothing if it would be badly shaped.
+std::optional<std::vector<int>> nodes_without(const Pieces& pieces, int index, int gone, int kept) {
+  const PolygonCell& cell = pieces.cells[index];
+  std::vector<int> nodes = cell.nodes;
+  const bool has_both = std::find(nodes.begin(), nodes.end(), kept) != nodes.end();
+  if (cell.open && has_both && (nodes.front() == nodes.back())) return std::nullopt;
+  if (!cell.side_regions.empty() && has_both) return std::nullopt;
+  std::replace(nodes.begin(), nodes.end(), gone, kept);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  if (!cell.open && nodes.size() > 1 && nodes.front() == nodes.back()) nodes.pop_back();
+  if (has_both && std::count(nodes.begin(), nodes.end(), kept) > 1) return std::nullopt;
+  if (nodes.size() < 3) {
+    if (cell.open || !may_vanish(pieces, cell, gone, kept)) return std::nullopt;
+    return std::vector<int>();
   }
-  // A cell on only one side of a piece of a line that vanishes would change the body.
-  std::vector<std::pair<int, int>> moved;  // other node, line
-  for (int index : surroundings.around(gone)) {
+  const double after = clearance_with(pieces, cell, nodes);
+  if (after < fair * pieces.sizes[index] && after < 0.8 * clearance_of(pieces, cell)) return std::nullopt;
+  if (!(after > 0.0) && !(clearance_of(pieces, cell) <= 0.0 && polygon_area(corners_of(pieces, nodes)) > 0.0))
+    return std::nullopt;
+  return nodes;
+}
+
+/// The other nodes of the sides of `gone` on lines, and these lines; nothing if `kept` has a side on a line to one of
+/// them. A cell on only one side of a piece of a line that vanishes would change the body.
+std::optional<std::map<int, int>> sides_that_move(const Pieces& pieces, const std::vector<int>& cells, int gone,
+                                                  int kept) {
+  std::map<int, int> moved;
+  for (int index : cells) {
     for (int node : pieces.cells[index].nodes) {
       if (node == gone || node == kept) continue;
       const auto side = pieces.line_sides.find(side_key(gone, node));
       if (side == pieces.line_sides.end()) continue;
-      const auto other = pieces.line_sides.find(side_key(kept, node));
-      if (other != pieces.line_sides.end()) return false;
-      moved.push_back({node, side->second});
+      if (pieces.line_sides.count(side_key(kept, node))) return std::nullopt;
+      moved.emplace(node, side->second);
     }
   }
-  std::sort(moved.begin(), moved.end());
-  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
-  for (const auto& [node, line] : moved) {
+  return moved;
+}
+
+/// Puts node `gone` where `kept` is, if the cells around stay well shaped.
+bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
+  if (!may_move(pieces, gone, kept)) return false;
+  std::vector<std::pair<int, std::vector<int>>> changes;  // cell, its nodes
+  for (int index : surroundings.around(gone)) {
+    std::optional<std::vector<int>> nodes = nodes_without(pieces, index, gone, kept);
+    if (!nodes) return false;
+    changes.emplace_back(index, std::move(*nodes));
+  }
+  const auto moved = sides_that_move(pieces, surroundings.around(gone), gone, kept);
+  if (!moved) return false;
+  for (const auto& [node, line] : *moved) {
     pieces.line_sides.erase(side_key(gone, node));
     pieces.line_sides.emplace(side_key(kept, node), line);
   }
@@ -155,10 +168,10 @@ bool collapse(Pieces& pieces, Surroundings& surroundings, int kept, int gone) {
     std::vector<int>& chain = pieces.chains[pieces.line_of[gone]];
     chain.erase(std::remove(chain.begin(), chain.end(), gone), chain.end());
   }
-  for (Change& change : changes) {
-    for (int node : pieces.cells[change.cell].nodes) surroundings.remove(node, change.cell);
-    for (int node : change.nodes) surroundings.add(node, change.cell);
-    pieces.cells[change.cell].nodes = std::move(change.nodes);
+  for (auto& [cell, nodes] : changes) {
+    for (int node : pieces.cells[cell].nodes) surroundings.remove(node, cell);
+    for (int node : nodes) surroundings.add(node, cell);
+    pieces.cells[cell].nodes = std::move(nodes);
   }
   return true;
 }
@@ -336,141 +349,6 @@ void place_centres(Pieces& pieces, std::vector<Vec2>& trouble) {
     // Sharp corners leave cells with little clearance, which no refinement changes.
     if (!(sight.clearance > 1e-5 * pieces.sizes[k])) trouble.push_back(pieces.nodes[cell.nodes.front()]);
   }
-}
-
-namespace {
-
-/// Gives every fan of cells around a node of a crack a node of its own.
-void separate_cracks(Pieces& pieces, const std::vector<DomainLine>& lines) {
-  std::vector<int> place(pieces.nodes.size(), -1);
-  std::vector<int> cracked;
-  for (std::size_t line = 0; line < lines.size(); ++line) {
-    if (!lines[line].crack) continue;
-    for (int node : pieces.chains[line]) {
-      if (place[node] >= 0) continue;
-      place[node] = int(cracked.size());
-      cracked.push_back(node);
-    }
-  }
-  if (cracked.empty()) return;
-  struct Visit {
-    int cell, corner;
-    int before, after;  // neighbours in the cell, -1 at a side face
-    int fan;
-  };
-  std::vector<std::vector<Visit>> visits(cracked.size());
-  for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
-    const PolygonCell& cell = pieces.cells[k];
-    const int n = int(cell.nodes.size());
-    for (int i = 0; i < n; ++i) {
-      if (place[cell.nodes[i]] < 0) continue;
-      const int before = i > 0 ? cell.nodes[i - 1] : cell.open ? -1 : cell.nodes[n - 1];
-      const int after = i + 1 < n ? cell.nodes[i + 1] : cell.open ? -1 : cell.nodes[0];
-      visits[place[cell.nodes[i]]].push_back({int(k), i, before, after, int(visits[place[cell.nodes[i]]].size())});
-    }
-  }
-  for (std::size_t c = 0; c < cracked.size(); ++c) {
-    std::vector<Visit>& here = visits[c];
-    const auto joined = [&](int neighbour) {
-      if (neighbour < 0) return false;
-      const auto side = pieces.line_sides.find(side_key(cracked[c], neighbour));
-      return side == pieces.line_sides.end() || !lines[side->second].crack;
-    };
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (Visit& one : here) {
-        for (Visit& other : here) {
-          if (one.after < 0 || one.after != other.before || !joined(one.after) || one.fan == other.fan) continue;
-          one.fan = other.fan = std::min(one.fan, other.fan);
-          changed = true;
-        }
-      }
-    }
-    std::vector<std::pair<int, int>> copies{{here.empty() ? 0 : here.front().fan, cracked[c]}};  // fan and its node
-    for (const Visit& visit : here) {
-      auto known =
-          std::find_if(copies.begin(), copies.end(), [&](const auto& copy) { return copy.first == visit.fan; });
-      if (known == copies.end()) {
-        copies.push_back({visit.fan, int(pieces.nodes.size())});
-        known = copies.end() - 1;
-        const Vec2 at = pieces.nodes[cracked[c]];
-        pieces.nodes.push_back(at);
-      }
-      pieces.cells[visit.cell].nodes[visit.corner] = known->second;
-    }
-  }
-}
-
-}  // namespace
-
-PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines) {
-  const std::size_t original = pieces.nodes.size();
-  // Sides of cells on lines, before nodes of cracks are separated: cell and place of the first node.
-  std::unordered_map<std::uint64_t, std::pair<int, int>> beside;
-  for (std::size_t k = 0; k < pieces.cells.size(); ++k) {
-    const PolygonCell& cell = pieces.cells[k];
-    const bool may = k >= pieces.first_cut || std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) {
-                       return pieces.holds[node] != Hold::nothing;
-                     });
-    for (std::size_t i = 0; may && i + (cell.open ? 1 : 0) < cell.nodes.size(); ++i) {
-      const int a = cell.nodes[i], b = cell.nodes[i + 1 < cell.nodes.size() ? i + 1 : 0];
-      const auto side = pieces.line_sides.find(side_key(a, b));
-      if (side == pieces.line_sides.end()) continue;
-      beside[(std::uint64_t(a) << 32) | std::uint32_t(b)] = {int(k), int(i)};
-    }
-  }
-  separate_cracks(pieces, lines);
-  PolygonMesh mesh;
-  mesh.left = pieces.chains;
-  mesh.right = mesh.left;
-  for (std::size_t line = 0; line < lines.size(); ++line) {
-    const std::vector<int>& chain = pieces.chains[line];
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      const auto left = beside.find((std::uint64_t(chain[i]) << 32) | std::uint32_t(chain[i + 1]));
-      const auto right = beside.find((std::uint64_t(chain[i + 1]) << 32) | std::uint32_t(chain[i]));
-      if (left != beside.end()) {
-        const std::vector<int>& nodes = pieces.cells[left->second.first].nodes;
-        const std::size_t at = left->second.second;
-        mesh.left[line][i] = nodes[at];
-        mesh.left[line][i + 1] = nodes[at + 1 < nodes.size() ? at + 1 : 0];
-      }
-      if (right != beside.end()) {
-        const std::vector<int>& nodes = pieces.cells[right->second.first].nodes;
-        const std::size_t at = right->second.second;
-        mesh.right[line][i + 1] = nodes[at];
-        mesh.right[line][i] = nodes[at + 1 < nodes.size() ? at + 1 : 0];
-      }
-      // Both sides of other lines are one; they may begin or end at the mouth of a crack.
-      if (lines[line].crack) continue;
-      auto &one = mesh.left[line], &other = mesh.right[line];
-      auto &from = left != beside.end() ? one : other, &to = left != beside.end() ? other : one;
-      std::copy_n(from.begin() + std::ptrdiff_t(i), 2, to.begin() + std::ptrdiff_t(i));
-    }
-  }
-  // Nodes that no cell has are left out.
-  std::vector<int> number(pieces.nodes.size(), -1);
-  for (const PolygonCell& cell : pieces.cells) {
-    for (int node : cell.nodes) number[node] = 0;
-  }
-  mesh.nodes.reserve(original);
-  for (std::size_t k = 0; k < number.size(); ++k) {
-    if (number[k] < 0) continue;
-    number[k] = int(mesh.nodes.size());
-    mesh.nodes.push_back(pieces.nodes[k]);
-  }
-  mesh.cells = std::move(pieces.cells);
-  mesh.cells.erase(
-      std::remove_if(mesh.cells.begin(), mesh.cells.end(), [](const PolygonCell& cell) { return cell.nodes.empty(); }),
-      mesh.cells.end());
-  for (PolygonCell& cell : mesh.cells) {
-    for (int& node : cell.nodes) node = number[node];
-  }
-  for (std::vector<std::vector<int>>* chains : {&mesh.left, &mesh.right}) {
-    for (std::vector<int>& chain : *chains) {
-      for (int& node : chain) node = number[node];
-    }
-  }
-  return mesh;
 }
 
 }  // namespace scabo::mesh::quadtree
