@@ -219,7 +219,7 @@ std::string totals_of(const Json& increment) {
   return table(rows);
 }
 
-std::string place_of(const Json& summary, const Json& increment) {
+std::string which_increment(const Json& summary, const Json& increment) {
   return fmt::format("step {}, increment {}",
                      summary["model"]["steps"][increment["step"].get<std::size_t>() - 1].get<std::string>(),
                      increment["increment"].get<int>());
@@ -345,14 +345,14 @@ SolidEnd SolidResults::finish(bool interrupted) {
   for (const Json& increment : made)
     for (const Json& figure : increment["certificate"])
       end.certificate = std::max(end.certificate, figure.get<double>());
-  if (!made.empty()) end.at = place_of(json, made.back());
+  if (!made.empty()) end.at = which_increment(json, made.back());
   std::string text = end.status == "solved" ? "\nSolved: every increment converged and is certified.\n"
                      : interrupted          ? fmt::format("\nInterrupted: {}\n", end.reason)
                                             : fmt::format("\nNot solved: {}\n", end.reason);
   if (finished_ > 0) {
     const Json& last = made[static_cast<std::size_t>(finished_ - 1)];
     end.totals = totals_of(last);
-    text += fmt::format("\nAfter {}:\n{}", place_of(json, last), end.totals);
+    text += fmt::format("\nAfter {}:\n{}", which_increment(json, last), end.totals);
   }
   for (const Warning& warning : model_.warnings) text += "warning: " + warning.text + '\n';
   log_->append(text);
