@@ -5,8 +5,10 @@
 #include "commands.hpp"
 #include "scabo/base/impossible_path.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/version.hpp"
+#include "solids.hpp"
 #include "startup.hpp"
 #include "static_run.hpp"
 #include "terminal.hpp"
@@ -45,12 +47,38 @@ std::string model_of(const ResumeOptions& options, const analysis::RunOrigin& or
          "the model file of the run is no longer there: say where it is with --model, or start anew with `scabo run`");
 }
 
-void check_files(const model::Model& model, const analysis::RunOrigin& origin) {
-  bool same = model.files.size() + 1 == origin.files.size();
-  for (std::size_t i = 0; same && i < model.files.size(); ++i)
-    if (!is_same(model.files[i], origin.files[i + 1]))
-      refuse(model.files[i], "has changed since the run began: restore it, or start anew with `scabo run`");
-  if (!same) refuse(model.file, "names other files than when the run began: start anew with `scabo run`");
+/// `files`: those that the model names.
+void check_files(const std::vector<std::string>& files, const std::string& model, const analysis::RunOrigin& origin) {
+  bool same = files.size() + 1 == origin.files.size();
+  for (std::size_t i = 0; same && i < files.size(); ++i)
+    if (!is_same(files[i], origin.files[i + 1]))
+      refuse(files[i], "has changed since the run began: restore it, or start anew with `scabo run`");
+  if (!same) refuse(model, "names other files than when the run began: start anew with `scabo run`");
+}
+
+/// How many threads go on; tells what is resumed.
+int begin(const ResumeOptions& options, const analysis::RunOrigin& origin, std::size_t finished) {
+  ignore_broken_pipes();
+  const int wanted = options.threads > 0 ? options.threads : origin.threads, threads = threads_that_fit(wanted);
+  if (!options.quiet)
+    print_to_stderr(finished > 0
+                        ? fmt::format("Resuming after {}\n", model::counted(static_cast<long>(finished), "increment"))
+                        : std::string("No increment was finished: the run starts from the beginning\n"));
+  if (threads != origin.threads)
+    print_warning(fmt::format("the run began with {} and continues with {}: the last digits of results may differ",
+                              model::counted(origin.threads, "thread"), threads));
+  return threads;
+}
+
+ExitStatus resume_in_space(const ResumeOptions& options, result::DirectoryLock lock, Events& events) {
+  analysis::SolidCheckpoint begun = analysis::read_solid_checkpoint(options.directory, std::string(result::version()));
+  const analysis::RunOrigin& origin = begun.origin;
+  input::AnyModel read = input::read_any_model(model_of(options, origin), input::parse_settings(origin.settings));
+  auto& model = std::get<model::SpaceModel>(read);
+  check_files(model.files, model.file, origin);
+  model.file = origin.model;  // results do not depend on the place from which the run is resumed
+  const int threads = begin(options, origin, static_cast<std::size_t>(begun.results.finished));
+  return resume_solids(model, std::move(begun), std::move(lock), options.directory, threads, options.quiet, events);
 }
 
 ExitStatus resume(const ResumeOptions& options, Cluster* cluster, Events& events) {
@@ -69,25 +97,16 @@ ExitStatus resume(const ResumeOptions& options, Cluster* cluster, Events& events
   if (*status != "running" && *status != "interrupted" && *status != "failed")
     refuse(name, fmt::format("the run has ended with status `{}`: nothing is left to resume; `scabo run` starts anew",
                              *status));
+  if (result::analysis_in(options.directory) == "space") return resume_in_space(options, std::move(lock), events);
   analysis::Checkpoint checkpoint = analysis::read_checkpoint(options.directory, std::string(result::version()));
   const analysis::RunOrigin& origin = checkpoint.origin;
   const std::string path = model_of(options, origin);
   model::Model model = input::read_model(path, input::parse_settings(origin.settings));
-  check_files(model, origin);
+  check_files(model.files, model.file, origin);
   model.file = origin.model;  // results do not depend on the place from which the run is resumed
   const double reading = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  ignore_broken_pipes();
-  const int wanted = options.threads > 0 ? options.threads : origin.threads, threads = threads_that_fit(wanted);
-  if (!options.quiet) {
-    const std::size_t finished = checkpoint.from.increments.size();
-    print_to_stderr(finished > 0
-                        ? fmt::format("Resuming after {}\n", model::counted(static_cast<long>(finished), "increment"))
-                        : std::string("No increment was finished: the run starts from the beginning\n"));
-  }
-  if (threads != origin.threads)
-    print_warning(fmt::format("the run began with {} and continues with {}: the last digits of results may differ",
-                              model::counted(origin.threads, "thread"), threads));
+  const int threads = begin(options, origin, checkpoint.from.increments.size());
   const Interrupt interrupt;
   result::ResultsDirectory directory(options.directory, std::move(lock), model, checkpoint.results);
   run::StaticRun run{model, &directory};

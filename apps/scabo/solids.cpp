@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "interrupt.hpp"
 #include "scabo/base/interruption.hpp"
-#include "scabo/contact/status_name.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
-#include "scabo/result/solid/solid_results.hpp"
 #include "scabo/run/failures.hpp"
 #include "scabo/run/solid_run.hpp"
 #include "startup.hpp"
@@ -44,44 +40,51 @@ ExitStatus check_solids(const model::SpaceModel& model) {
 
 namespace {
 
-/// All increments; nothing if a signal has ended the run before they were made.
-std::optional<std::vector<analysis::SolidIncrement>> solve_until(const Interrupt& interrupt, const run::SolidRun& run) {
+/// A signal ends the run at once.
+result::SolidEnd solve_until(const Interrupt& interrupt, const run::SolidRun& run) {
   const Interruptible::Ask ask = [&] {
     if (interrupt.requested()) throw run::Stopped{};
   };
   const Interruptible here(&ask);
-  try {
-    return run::solve(run);
-  } catch (const run::Stopped&) {
-    return std::nullopt;
-  }
+  return run::solve(run);
 }
 
 ExitStatus solve_and_report(const run::SolidRun& run, bool quiet, Events& events) {
   const Interrupt interrupt;
-  const auto increments = solve_until(interrupt, run);
-  if (!increments) {
-    const std::string why =
-        fmt::format("{}: interrupted; increments that were finished are in {}", run.model.file, run.output.string());
+  const result::SolidEnd end = solve_until(interrupt, run);
+  if (end.status == "interrupted") {
+    const std::string why = fmt::format(
+        "{}: interrupted; {}", run.model.file,
+        end.finished > 0 ? model::counted(end.finished, "finished increment") + " kept" : "no increment was finished");
     events.error(why);
     print_error(why);
     return static_cast<ExitStatus>(ExitStatus::signalled + interrupt.signal());
   }
-  const analysis::SolidIncrement& last = increments->back();
-  const auto& [step, number] = run.posed.step_and_number[increments->size() - 1];
-  if (last.status != contact::Status::solved) {
-    const std::string why = fmt::format("{}: step {}, increment {}: {}: {}", run.model.file, run.model.steps[step].name,
-                                        number, contact::name_of(last.status), last.reason);
+  if (end.status != "solved") {
+    const std::string why = fmt::format("{}: {}: {}", run.model.file, end.at, end.reason);
     events.error(why);
     print_error(why);
     return ExitStatus::not_converged;
   }
   if (!quiet)
     events.print_summary(fmt::format("{} solved, certificate {:.1e}\n{}Results: {}\n",
-                                     model::counted(static_cast<long>(increments->size()), "increment"),
-                                     last.certificate.worst(), result::report_solids(run.model, run.posed, last),
-                                     run.output.string()));
+                                     model::counted(end.finished, "increment"), end.certificate, end.totals,
+                                     run.directory.string()));
   return ExitStatus::solved;
+}
+
+/// Warnings and the plan, before the work.
+run::Plan begin(const model::SpaceModel& model, const analysis::PosedSolids& posed,
+                const std::filesystem::path& directory, Events& events) {
+  ignore_broken_pipes();
+  events.files(model.file, directory, "space");
+  for (const Warning& warning : model.warnings) {
+    events.warning(warning);
+    print_warning(warning.text);
+  }
+  const run::Plan plan = run::plan_of(posed);
+  events.plan(plan);
+  return plan;
 }
 
 }  // namespace
@@ -94,21 +97,28 @@ ExitStatus run_solids(const model::SpaceModel& model, const std::filesystem::pat
                                    "without --report, and draw it by `scabo plot`"}});
   events.stage("checking");
   const analysis::PosedSolids posed = analysis::pose_solids(model);
-  ignore_broken_pipes();
-  events.files(model.file, directory, "space");
-  for (const Warning& warning : model.warnings) {
-    events.warning(warning);
-    print_warning(warning.text);
-  }
-  const run::Plan plan = run::plan_of(posed);
-  events.plan(plan);
+  const run::Plan plan = begin(model, posed, directory, events);
   if (!options.ignore_memory)
     if (const std::string why =
             run::why_it_does_not_fit(plan, run::available_memory(), "start it with --ignore-memory");
         !why.empty())
       throw run::NotEnoughMemory(why);
+  const int threads = threads_that_fit(options.threads);
   events.stage("solving");
-  return solve_and_report({model, posed, directory, threads_that_fit(options.threads)}, options.quiet, events);
+  result::SolidResults results(directory, model, posed);
+  run::SolidRun run{model, posed, results, directory, threads};
+  run.begun.origin = run::origin_of(model, options.settings, directory, threads);
+  return solve_and_report(run, options.quiet, events);
+}
+
+ExitStatus resume_solids(const model::SpaceModel& model, analysis::SolidCheckpoint begun, result::DirectoryLock lock,
+                         const std::filesystem::path& directory, int threads, bool quiet, Events& events) {
+  events.stage("checking");
+  const analysis::PosedSolids posed = analysis::pose_solids(model);
+  begin(model, posed, directory, events);
+  events.stage("solving");
+  result::SolidResults results(directory, std::move(lock), model, posed, begun.results);
+  return solve_and_report({model, posed, results, directory, threads, std::move(begun)}, quiet, events);
 }
 
 }  // namespace scabo::app

@@ -1,9 +1,13 @@
 #include "read_mesh_fuzzer.hpp"
 #include "scabo/files/gmsh.hpp"
+#include "scabo/files/solid_gmsh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   check_mesh_reader(data, size, [](std::string_view bytes, const std::string& file) {
     return scabo::files::parse_gmsh(bytes, file);
+  });
+  check_solid_reader(data, size, [](std::string_view bytes, const std::string& file) {
+    return scabo::files::parse_solid_gmsh(bytes, file);
   });
   return 0;
 }

@@ -9,6 +9,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/files/imported_mesh.hpp"
+#include "scabo/files/imported_solid_mesh.hpp"
 
 template <class Read>
 void check_mesh_reader(const std::uint8_t* data, std::size_t size, Read read) {
@@ -45,6 +46,33 @@ void check_mesh_reader(const std::uint8_t* data, std::size_t size, Read read) {
     std::size_t on_boundary = 0;
     for (const BoundaryLoop& loop : boundary_facets(mesh)) on_boundary += loop.facets.size();
     require(on_boundary > 0 && on_boundary <= sides);
+  } catch (const scabo::InputError& error) {
+    require(!error.diagnostics().empty() && !error.diagnostics().front().message.empty());
+  }
+}
+
+/// What the header of ImportedSolidMesh promises, or an InputError with a message.
+template <class Read>
+void check_solid_reader(const std::uint8_t* data, std::size_t size, Read read) {
+  using namespace scabo::files;
+  const auto require = [](bool holds) {
+    if (!holds) __builtin_trap();
+  };
+  try {
+    const ImportedSolidMesh mesh =
+        read(std::string_view(reinterpret_cast<const char*>(data), size), std::string("fuzz"));
+    require(!mesh.cells.empty() && mesh.nodes.allFinite());
+    for (const ImportedSolidCell& cell : mesh.cells) {
+      require(cell.nodes.size() == 4 || cell.nodes.size() == 10);
+      for (const int node : cell.nodes) require(node >= 0 && node < mesh.nodes.cols());
+    }
+    for (const NodeSet& set : mesh.node_sets)
+      for (const int node : set.nodes) require(node >= 0 && node < mesh.nodes.cols());
+    for (const CellSet& set : mesh.cell_sets)
+      for (const int cell : set.cells) require(cell >= 0 && cell < static_cast<int>(mesh.cells.size()));
+    for (const SolidSideSet& set : mesh.side_sets)
+      for (const SolidSide& at : set.sides)
+        require(at.cell >= 0 && at.cell < static_cast<int>(mesh.cells.size()) && at.side >= 0 && at.side < 4);
   } catch (const scabo::InputError& error) {
     require(!error.diagnostics().empty() && !error.diagnostics().front().message.empty());
   }

@@ -4,6 +4,7 @@ import json
 import math
 import re
 import resource
+import shutil
 import signal
 import struct
 import subprocess
@@ -44,6 +45,80 @@ def arrays_of(file):
 
 def vector(row, name):
     return [float(row[f"{name}_{axis}"]) for axis in "xyz"]
+
+
+GMSH_MIDDLES = (0, 1, 2, 3, 5, 4)  # the order of Gmsh's middle nodes among those of C3D10
+
+
+class MeshOfBlocks:
+    """Both blocks of the example as one mesh, to be written in other formats. Physical numbers: volumes 1 and 2, surfaces 11 ... by their names."""
+
+    def __init__(self, linear=False):
+        self.points, self.cells, self.facets, self.names = [], [], [], []
+        for volume, name in enumerate(("base", "block"), 1):
+            first, section, faces = len(self.points), "", {}
+            for line in (EXAMPLE / f"{name}.inp").read_text(encoding="utf-8").splitlines():
+                if line.startswith("*"):
+                    section = line
+                    continue
+                fields = line.split(", ")
+                if section == "*NODE":
+                    self.points.append(tuple(map(float, fields[1:])))
+                elif section.startswith("*ELEMENT"):
+                    self.cells.append((volume, [first + int(node) - 1 for node in fields[1:5 if linear else 11]]))
+                    faces[fields[0]] = self.cells[-1][1]
+                else:
+                    face = section.split("NAME=")[1]
+                    if face not in self.names:
+                        self.names.append(face)
+                    corners = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))[int(fields[1][1]) - 1]
+                    self.facets.append((11 + self.names.index(face), [faces[fields[0]][i] for i in corners]))
+
+    def names_of_gmsh(self):
+        groups = [(3, 1, "base"), (3, 2, "block")] + [(2, 11 + i, name) for i, name in enumerate(self.names)]
+        return f"$PhysicalNames\n{len(groups)}\n" + "".join(f'{d} {tag} "{name}"\n' for d, tag, name in groups) + "$EndPhysicalNames\n"
+
+    @staticmethod
+    def in_order_of_gmsh(nodes):
+        return " ".join(str(node + 1) for node in nodes[:4] + [nodes[4 + k] for k in GMSH_MIDDLES if len(nodes) == 10])
+
+    def msh_2(self):
+        type_of = {3: 2, 4: 4, 10: 11}
+        elements = [f"{type_of[len(nodes)]} 2 {group} {group} {self.in_order_of_gmsh(nodes)}" for group, nodes in self.facets + self.cells]
+        return ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + self.names_of_gmsh() + f"$Nodes\n{len(self.points)}\n" +
+                "".join(f"{i} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in enumerate(self.points, 1)) + f"$EndNodes\n$Elements\n{len(elements)}\n" +
+                "".join(f"{i} {element}\n" for i, element in enumerate(elements, 1)) + "$EndElements\n")
+
+    def msh_4(self):
+        type_of = {3: 2, 4: 4, 10: 11}
+        surfaces = range(11, 11 + len(self.names))
+        entities = "".join(f"{tag} 0 0 0 0 0 0 1 {tag} 0\n" for tag in [*surfaces, 1, 2])
+        blocks, number = [], 0
+        for dimension, of in ((2, self.facets), (3, self.cells)):
+            for tag in sorted({group for group, _ in of}):
+                rows = [nodes for group, nodes in of if group == tag]
+                lines = [f"{dimension} {tag} {type_of[len(rows[0])]} {len(rows)}"]
+                for nodes in rows:
+                    number += 1
+                    lines.append(f"{number} {self.in_order_of_gmsh(nodes)}")
+                blocks.append("\n".join(lines) + "\n")
+        n = len(self.points)
+        return ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + self.names_of_gmsh() + f"$Entities\n0 0 {len(surfaces)} 2\n{entities}$EndEntities\n" +
+                f"$Nodes\n1 {n} 1 {n}\n3 1 0 {n}\n" + "".join(f"{i}\n" for i in range(1, n + 1)) +
+                "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in self.points) + f"$EndNodes\n$Elements\n{len(blocks)} {number} 1 {number}\n" +
+                "".join(blocks) + "$EndElements\n")
+
+    def vtu(self):
+        rows = self.facets + self.cells
+        ends = [sum(len(nodes) for _, nodes in rows[:i + 1]) for i in range(len(rows))]
+
+        def array(name, kind, values, more=""):
+            return f'<DataArray type="{kind}" Name="{name}"{more}>{" ".join(map(repr, values))}</DataArray>\n'
+        return (f'<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid><Piece NumberOfPoints="{len(self.points)}" NumberOfCells="{len(rows)}">\n<Points>' +
+                array("Points", "Float64", [x for point in self.points for x in point], ' NumberOfComponents="3"') + "</Points><Cells>" +
+                array("connectivity", "Int64", [node for _, nodes in rows for node in nodes]) + array("offsets", "Int64", ends) +
+                array("types", "UInt8", [{3: 5, 4: 10, 10: 24}[len(nodes)] for _, nodes in rows]) + "</Cells><CellData>" +
+                array("region", "Int32", [group for group, _ in rows]) + "</CellData></Piece></UnstructuredGrid></VTKFile>\n")
 
 
 class BlocksInSpace(support.InTemporaryDirectory):
@@ -141,6 +216,75 @@ class BlocksInSpace(support.InTemporaryDirectory):
             self.assert_close([z / 1e6, x / 1e6, y / 1e6], vector(b, "shear"), 1.0)
             self.assertAlmostEqual(float(a["pressure"]) / 1e6, float(b["pressure"]), delta=TOLERANCE)
 
+    def model_of(self, mesh, base, block, places=lambda face: face):
+        """The example with one mesh file: `base` and `block` are the entries of the bodies."""
+        text = (EXAMPLE / "model.yaml").read_text(encoding="utf-8")
+        text = text.replace("  base: {material: steel, mesh: {file: base.inp}}", base).replace("  block: {material: steel, mesh: {file: block.inp}}", block)
+        self.assertNotIn(".inp", text)
+        for face in ("BOTTOM", "LEFT", "TOP"):
+            text = text.replace(f".{face}", f".{places(face)}")
+        (self.directory / mesh[0]).write_text(mesh[1], encoding="utf-8")
+        model = self.directory / "model.yaml"
+        model.write_text(text, encoding="utf-8")
+        return model
+
+    def assert_same_pairs(self, one, other):
+        for a, b in zip(rows_of(self.directory / one), rows_of(self.directory / other), strict=True):
+            self.assertEqual(a["state"], b["state"])
+            for name in ("pressure", "shear_x", "shear_y"):
+                self.assertAlmostEqual(float(a[name]), float(b[name]), delta=1e-9 * 1e6)
+
+    def test_meshes_of_gmsh_and_vtk_give_the_same(self):
+        self.solve(EXAMPLE / "model.yaml", "one")
+        mesh = MeshOfBlocks()
+        for name, text in (("both.msh", mesh.msh_2()), ("both.msh", mesh.msh_4()), ("both.vtu", mesh.vtu())):
+            with self.subTest(name=name):
+                of_vtk = name.endswith("vtu")
+                entries = [f"  {body}: {{material: steel, mesh: {{file: {name}, region: {region if of_vtk else body}}}}}"
+                           for body, region in (("base", "region_1"), ("block", "region_2"))]
+                model = self.model_of((name, text), *entries, (lambda face: f"boundary_{11 + mesh.names.index(face)}") if of_vtk else lambda face: face)
+                self.solve(model, "other")
+                self.assert_same_pairs("one", "other")
+
+    def test_parts_of_one_file_are_bodies(self):
+        self.solve(EXAMPLE / "model.yaml", "one")
+        model = self.model_of(("both.msh", MeshOfBlocks().msh_2()), "  stone: {material: steel, mesh: {file: both.msh}}", "")
+        done = scabo("check", model)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("there is no body named 'base'", done.stderr)
+        model.write_text(model.read_text(encoding="utf-8").replace("base.", "stone_1.").replace("block.", "stone_2."), encoding="utf-8")
+        done = scabo("check", model)
+        self.assertIn("its cells have 2 parts that have no side in common, which become bodies of their own: stone_1 at (0.5, 0.5, -0.25), stone_2 at", done.stderr)
+        self.solve(model, "other")
+        self.assert_same_pairs("one", "other")
+
+    def test_linear_tetrahedra_are_raised_to_quadratic_ones(self):
+        self.solve(EXAMPLE / "model.yaml", "one")
+        mesh = MeshOfBlocks(linear=True)
+        entries = [f"  {body}: {{material: steel, mesh: {{file: both.msh, region: {body}}}}}" for body in ("base", "block")]
+        self.solve(self.model_of(("both.msh", mesh.msh_2()), *entries), "other")
+        self.assert_same_pairs("one", "other")
+
+    def test_energy_is_in_balance(self):
+        """Work of the pressure and of the support that moves: stored, or taken by friction. All pairs stay closed."""
+        for of in self.solve(EXAMPLE / "model.yaml", "results"):
+            energy = of["energy"]
+            self.assertEqual(of["contacts"]["joint"]["open"], 0)
+            self.assertAlmostEqual(energy["external"], energy["elastic"] + energy["friction"], delta=1e-9 * energy["external"])
+        # Once it slides, friction takes mu N times the way of the block.
+        increments = self.solve(EXAMPLE / "model.yaml", "more", "--set", "supports.1.displacement=[1e-2, null, null]")
+        last, before = increments[-1], increments[-2]
+        self.assertAlmostEqual(last["energy"]["friction"] - before["energy"]["friction"], 0.3 * CHECK["normal_force"] * 2.5e-3, delta=1e-6 * CHECK["normal_force"] * 2.5e-3)
+        self.assertLess(last["energy"]["friction_error"], 0.05 * last["energy"]["friction"])
+
+    def test_the_log_tells_the_course(self):
+        self.solve(EXAMPLE / "model.yaml", "results")
+        log = (self.directory / "results" / "log.txt").read_text(encoding="utf-8")
+        self.assertIn("contact joint: block.BOTTOM on base.TOP; friction 0.3\n", log)
+        self.assertRegex(log, r"step push, increment 4 of 4: press = 1, ground = 0, ram = 1; \d+ iterations?, certificate \S+\n")
+        self.assertIn("Solved: every increment converged", log)
+        self.assertIn("joint, tangential", log)
+
     def test_a_push_beyond_friction_is_no_solution(self):
         model = self.directory / "model.yaml"
         text = (EXAMPLE / "model.yaml").read_text(encoding="utf-8")
@@ -158,21 +302,65 @@ class BlocksInSpace(support.InTemporaryDirectory):
         done = scabo("resume", self.directory / "results")
         self.assertEqual(done.returncode, 1, done.stderr)
 
-    def test_a_signal_ends_the_run_and_keeps_what_was_finished(self):
+    def stopped(self, how, model, *settings):
+        """A run of many increments that a signal ends after three of them."""
         results = self.directory / "results"
-        process = subprocess.Popen([support.SCABO, "run", EXAMPLE / "model.yaml", "-o", results, "--set", "steps.1.increments=20000"],
+        shutil.rmtree(results, ignore_errors=True)
+        process = subprocess.Popen([support.SCABO, "run", model, "-o", results, *settings],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.addCleanup(lambda: process.poll() is None and process.kill())
         while process.poll() is None and not (results / "fields_0003.vtu").exists():
             time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(how)
         _, err = process.communicate(timeout=support.PATIENCE)
-        self.assertEqual(process.returncode, 130, err)
-        self.assertIn("interrupted", err)
-        summary = summary_of(results)
-        self.assertEqual((summary["status"], summary["reason"]), ("failed", "interrupted"))
-        self.assertGreaterEqual(len(summary["increments"]), 3)
-        self.assertTrue(all(of["converged"] for of in summary["increments"]))
+        return process.returncode, err
+
+    def content(self, name):
+        return {file.name: file.read_bytes() for file in sorted((self.directory / name).iterdir())}
+
+    def test_a_signal_ends_the_run_and_it_is_resumed(self):
+        settings = ["--set", "steps.1.increments=60"]
+        self.solve(EXAMPLE / "model.yaml", "whole", *settings)
+        for how, status in ((signal.SIGINT, 130), (signal.SIGKILL, -signal.SIGKILL)):
+            with self.subTest(how=how):
+                code, err = self.stopped(how, EXAMPLE / "model.yaml", *settings)
+                self.assertEqual(code, status, err)
+                summary = summary_of(self.directory / "results")
+                self.assertGreaterEqual(len(summary["increments"]), 2)
+                self.assertTrue(all(of["converged"] for of in summary["increments"]))
+                if how == signal.SIGINT:
+                    self.assertIn("interrupted", err)
+                    self.assertEqual((summary["status"], summary["reason"]), ("interrupted", "interrupted: the increments finished so far are kept"))
+                for name in ("contact.csv", "log.txt", "fields.pvd"):
+                    with open(self.directory / "results" / name, "ab") as file:
+                        file.write(b"half a li")
+                done = scabo("resume", self.directory / "results", "--quiet")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                whole = self.content("whole")
+                resumed = self.content("results")
+                self.assertEqual(sorted(resumed), sorted(whole))
+                for name, data in whole.items():
+                    self.assertEqual(resumed[name], data, name)
+                done = scabo("resume", self.directory / "results")
+                self.assertEqual(done.returncode, 1)
+                self.assertIn("has ended with status `solved`", done.stderr)
+
+    def test_what_has_changed_is_not_resumed(self):
+        for name in ("base.inp", "block.inp", "model.yaml"):
+            (self.directory / name).write_bytes((EXAMPLE / name).read_bytes())
+        self.assertEqual(self.stopped(signal.SIGINT, self.directory / "model.yaml", "--set", "steps.1.increments=2000")[0], 130)
+        checkpoint = self.directory / "results" / "checkpoint.hdf5"
+        kept = checkpoint.read_bytes()
+        checkpoint.write_bytes(kept[:len(kept) // 2])
+        done = scabo("resume", self.directory / "results")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("the checkpoint is damaged", done.stderr)
+        checkpoint.write_bytes(kept)
+        with open(self.directory / "block.inp", "a", encoding="utf-8") as file:
+            file.write("** a remark\n")
+        done = scabo("resume", self.directory / "results")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, "block.inp: has changed since the run began")
 
     @unittest.skipIf(support.SANITIZED, "the address sanitizer reserves terabytes of address space")
     def test_what_cannot_fit_is_refused_before_it_starts(self):

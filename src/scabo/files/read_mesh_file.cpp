@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <optional>
 
+#include "scabo/base/error.hpp"
 #include "scabo/files/abaqus.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/bytes_of_file.hpp"
 #include "scabo/files/gmsh.hpp"
 #include "scabo/files/read_deck_file.hpp"
+#include "scabo/files/solid_gmsh.hpp"
+#include "scabo/files/solid_vtu.hpp"
 #include "scabo/files/text_cursor.hpp"
 #include "scabo/files/vtu.hpp"
 
@@ -59,22 +62,22 @@ std::string other_format(std::string_view start) {
   return "of an unknown format";
 }
 
-}  // namespace
+enum class MeshFormat { gmsh, abaqus, vtu };
 
-ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
-  const std::string_view text = readable(bytes, path);
+/// By the content where it shows its format, else by the extension. Throws InputError.
+MeshFormat format_of(std::string_view text, const std::string& path) {
   std::string_view start = text;
   while (!start.empty() && static_cast<unsigned char>(start.front()) <= ' ') start.remove_prefix(1);
   if (start.empty()) fail_in_file(path, 0, 0, "the file is empty; save the mesh again");
   const std::string_view head = start.substr(0, 4096);
   std::string extension = upper(std::filesystem::path(path).extension().string());
 
-  if (start.front() == '$' && head.find("$MeshFormat") != std::string_view::npos) return parse_gmsh(text, path);
-  if (start.front() == '<' && head.find("<VTKFile") != std::string_view::npos) return parse_vtu(text, path);
-  if (start.front() == '*') return parse_abaqus(text, path, read_beside);
-  if (extension == ".MSH" && start.front() == '$') return parse_gmsh(text, path);
-  if (extension == ".INP") return parse_abaqus(text, path, read_beside);
-  if (extension == ".VTU" && start.front() == '<') return parse_vtu(text, path);
+  if (start.front() == '$' && head.find("$MeshFormat") != std::string_view::npos) return MeshFormat::gmsh;
+  if (start.front() == '<' && head.find("<VTKFile") != std::string_view::npos) return MeshFormat::vtu;
+  if (start.front() == '*') return MeshFormat::abaqus;
+  if (extension == ".MSH" && start.front() == '$') return MeshFormat::gmsh;
+  if (extension == ".INP") return MeshFormat::abaqus;
+  if (extension == ".VTU" && start.front() == '<') return MeshFormat::vtu;
   fail_in_file(
       path, 0, 0,
       fmt::format("the file is {}; Scabo reads meshes of Gmsh (.msh 2.2 and 4.1), Abaqus and CalculiX (.inp) and "
@@ -82,15 +85,39 @@ ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
                   other_format(start)));
 }
 
+}  // namespace
+
+ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
+  const std::string_view text = readable(bytes, path);
+  switch (format_of(text, path)) {
+    case MeshFormat::gmsh:
+      return parse_gmsh(text, path);
+    case MeshFormat::abaqus:
+      return parse_abaqus(text, path, read_beside);
+    case MeshFormat::vtu:
+      return parse_vtu(text, path);
+  }
+  throw BrokenInvariant("a format of meshes without a reader");
+}
+
+ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& path) {
+  const std::string_view text = readable(bytes, path);
+  switch (format_of(text, path)) {
+    case MeshFormat::gmsh:
+      return parse_solid_gmsh(text, path);
+    case MeshFormat::abaqus:
+      return parse_solid_abaqus(text, path, read_beside);
+    case MeshFormat::vtu:
+      return parse_solid_vtu(text, path);
+  }
+  throw BrokenInvariant("a format of meshes without a reader");
+}
+
 AbaqusDeck read_deck_file(const std::string& path) {
   return parse_abaqus_deck(readable(bytes_at(path), path), path, read_beside);
 }
 
-ImportedSolidMesh read_solid_mesh_file(const std::string& path) {
-  if (upper(std::filesystem::path(path).extension().string()) != ".INP")
-    fail_in_file(path, 0, 0, "bodies in space are read from files of Abaqus and CalculiX (.inp); save the mesh as one");
-  return parse_solid_abaqus(readable(bytes_at(path), path), path, read_beside);
-}
+ImportedSolidMesh read_solid_mesh_file(const std::string& path) { return parse_solid_mesh(bytes_at(path), path); }
 
 ImportedMesh read_mesh_file(const std::string& path) { return parse_mesh(bytes_at(path), path); }
 

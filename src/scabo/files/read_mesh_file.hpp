@@ -16,7 +16,8 @@ ImportedMesh read_mesh_file(const std::string& path);
 /// The same for the bytes of a file of that name; *INCLUDE is read beside it.
 ImportedMesh parse_mesh(std::string_view bytes, const std::string& path);
 
-/// A file .inp with tetrahedra. Throws InputError.
+/// The same of tetrahedra.
 ImportedSolidMesh read_solid_mesh_file(const std::string& path);
+ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& path);
 
 }  // namespace scabo::files

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <set>
 
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/abaqus_sets.hpp"
-#include "scabo/files/number_index.hpp"
+#include "scabo/files/solid_builder.hpp"
 
 namespace scabo::files {
 
@@ -32,16 +30,13 @@ class SolidReader {
  public:
   SolidReader(std::string_view text, const std::string& file, const ReadInclude& read_include)
       : builder_(file),
+        solid_(builder_, SolidBuilder::TurnedCells::refused),
         lines_(text, file, read_include, builder_),
         most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())) {}
 
   ImportedSolidMesh read();
 
  private:
-  struct RawCell {
-    std::vector<std::int64_t> nodes;
-    FilePlace at;
-  };
   struct SurfaceEntry {
     std::string of, side;  // element or set
     FilePlace at;
@@ -60,19 +55,13 @@ class SolidReader {
   std::int64_t integer(std::string_view field, const char* what) const;
   void add(AbaqusSet& target, std::int64_t number);
   void add_all(AbaqusSet& target, std::vector<std::int64_t> numbers);
-  void check_numbers(const NumberIndex& numbers, const std::vector<FilePlace>& places, const char* what) const;
-  void make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh) const;
-  void make_sets(const NumberIndex& nodes, const NumberIndex& cells, const std::vector<int>& place,
-                 ImportedSolidMesh& mesh) const;
-  SolidSideSet sides_of(const Surface& surface, const NumberIndex& cells) const;
+  void hand_over_sets();
+  void hand_over_sides(const Surface& surface, const NumberIndex& cells);
 
   MeshBuilder builder_;  // knows the files
+  SolidBuilder solid_;
   AbaqusLines lines_;
   std::int64_t most_entries_, entries_ = 0;  // of all sets together: sets of sets grow faster than the file
-  std::vector<std::int64_t> node_numbers_, cell_numbers_;
-  std::vector<FilePlace> node_places_, cell_places_;
-  std::vector<double> coordinates_;
-  std::vector<RawCell> cells_;
   AbaqusSets node_sets_, element_sets_;
   std::vector<Surface> surfaces_;
   std::vector<std::string> remarks_;
@@ -110,18 +99,12 @@ void SolidReader::nodes(const AbaqusKeyword& key) {
   std::vector<std::int64_t> numbers;
   while (next_data(fields)) {
     numbers.push_back(integer(fields[0], "the number of a node"));
-    for (std::size_t k = 1; k <= 3; ++k) {
-      double x = 0.0;  // what is not given is zero
-      if (k < fields.size() && !fields[k].empty() && !parse_number(fields[k], x))
+    std::array<double, 3> x{};  // what is not given is zero
+    for (std::size_t k = 1; k <= 3; ++k)
+      if (k < fields.size() && !fields[k].empty() && !parse_number(fields[k], x[k - 1]))
         builder_.fail(lines_.at(), fmt::format("'{}' is not a coordinate", printable(fields[k])));
-      if (!std::isfinite(x))
-        builder_.fail(lines_.at(),
-                      fmt::format("node {} has a coordinate that is not finite; correct it", numbers.back()));
-      coordinates_.push_back(x);
-    }
-    node_places_.push_back(lines_.at());
+    solid_.add_node(numbers.back(), x[0], x[1], x[2], lines_.at());
   }
-  node_numbers_.insert(node_numbers_.end(), numbers.begin(), numbers.end());
   if (key.has("NSET")) add_all(node_sets_.named(key.value("NSET")), std::move(numbers));
 }
 
@@ -141,21 +124,19 @@ void SolidReader::elements(const AbaqusKeyword& key) {
   std::vector<std::int64_t> numbers;
   while (next_data(fields)) {
     if (wanted == 0) continue;
-    RawCell cell{{}, lines_.at()};
+    const FilePlace at = lines_.at();
+    std::vector<std::int64_t> nodes;
     const std::int64_t number = integer(fields[0], "the number of an element");
     for (std::size_t first = 1; true; first = 0) {
-      for (std::size_t i = first; i < fields.size(); ++i)
-        cell.nodes.push_back(integer(fields[i], "the number of a node"));
-      if (cell.nodes.size() >= wanted || !next_data(fields)) break;
+      for (std::size_t i = first; i < fields.size(); ++i) nodes.push_back(integer(fields[i], "the number of a node"));
+      if (nodes.size() >= wanted || !next_data(fields)) break;
     }
-    if (cell.nodes.size() != wanted)
-      builder_.fail(cell.at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line",
-                                         number, cell.nodes.size(), type, wanted));
+    if (nodes.size() != wanted)
+      builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line", number,
+                                    nodes.size(), type, wanted));
     numbers.push_back(number);
-    cell_places_.push_back(cell.at);
-    cells_.push_back(std::move(cell));
+    solid_.add_cell(number, nodes, at);
   }
-  cell_numbers_.insert(cell_numbers_.end(), numbers.begin(), numbers.end());
   if (key.has("ELSET") && wanted > 0) add_all(element_sets_.named(key.value("ELSET")), std::move(numbers));
 }
 
@@ -223,42 +204,8 @@ void SolidReader::keyword(const AbaqusKeyword& key) {
       builder_.fail(key.at, fmt::format("{} makes nodes or elements and is not read; write them out", key.written));
 }
 
-void SolidReader::check_numbers(const NumberIndex& numbers, const std::vector<FilePlace>& places,
-                                const char* what) const {
-  if (!numbers.repeated()) return;
-  const auto [first, second] = *numbers.repeated();
-  builder_.fail(places[static_cast<std::size_t>(second)],
-                fmt::format("this number is also that of the {} in line {}; number every one differently", what,
-                            places[static_cast<std::size_t>(first)].line));
-}
-
-void SolidReader::make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh) const {
-  const Eigen::Map<const Matrix> x(coordinates_.data(), 3, static_cast<Eigen::Index>(node_numbers_.size()));
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    ImportedSolidCell cell{{}, static_cast<long>(cell_numbers_[c])};
-    for (const std::int64_t number : cells_[c].nodes) {
-      const int node = nodes.find(number);
-      if (node < 0)
-        builder_.fail(cells_[c].at, fmt::format("cell {} has the node {}, which the file does not contain; correct the "
-                                                "number or add the node",
-                                                cell.number, number));
-      cell.nodes.push_back(node);
-    }
-    const Eigen::Vector3d start = x.col(cell.nodes[0]), a = x.col(cell.nodes[1]) - start,
-                          b = x.col(cell.nodes[2]) - start, along = x.col(cell.nodes[3]) - start;
-    const double size = std::max({a.norm(), b.norm(), along.norm()});
-    if (!(a.cross(b).dot(along) > 1e-12 * size * size * size))
-      builder_.fail(cells_[c].at,
-                    fmt::format("cell {} is flat or turned over: seen from node 4, the nodes 1, 2, 3 must "
-                                "be counter-clockwise; write the mesh again",
-                                cell.number));
-    mesh.cells.push_back(std::move(cell));
-  }
-}
-
-SolidSideSet SolidReader::sides_of(const Surface& surface, const NumberIndex& cells) const {
-  SolidSideSet set{surface.name, {}};
-  std::set<std::pair<int, int>> known;
+void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cells) {
+  const int set = solid_.side_set(surface.name);
   for (const SurfaceEntry& entry : surface.entries) {
     const bool is_side = entry.side.size() == 2 && entry.side[0] == 'S' && entry.side[1] >= '1' && entry.side[1] <= '4';
     if (!is_side)
@@ -277,55 +224,32 @@ SolidSideSet SolidReader::sides_of(const Surface& surface, const NumberIndex& ce
       if (side.cell < 0)
         builder_.fail(entry.at, fmt::format("surface '{}': there is no cell {}; correct its number",
                                             printable(surface.name), number));
-      if (known.emplace(side.cell, side.side).second) set.sides.push_back(side);
+      solid_.add_side(set, side);
     }
   }
-  return set;
 }
 
-/// `place`: of each node of the file, its index in the mesh; -1 without a cell.
-void SolidReader::make_sets(const NumberIndex& nodes, const NumberIndex& cells, const std::vector<int>& place,
-                            ImportedSolidMesh& mesh) const {
+void SolidReader::hand_over_sets() {
+  const NumberIndex cells = solid_.cell_index();
   for (const AbaqusSet& set : node_sets_.all()) {
-    std::set<int> kept;
-    for (const std::int64_t number : set.numbers)
-      if (const int node = nodes.find(number); node >= 0 && place[static_cast<std::size_t>(node)] >= 0)
-        kept.insert(place[static_cast<std::size_t>(node)]);
-    if (!kept.empty()) mesh.node_sets.push_back({set.name, {kept.begin(), kept.end()}});
+    const int to = solid_.node_set(set.name);
+    for (const std::int64_t number : set.numbers) solid_.add_node_to_set(to, number);
   }
   for (const AbaqusSet& set : element_sets_.all()) {
-    std::set<int> kept;
+    const int to = solid_.cell_set(set.name);
     for (const std::int64_t number : set.numbers)
-      if (const int cell = cells.find(number); cell >= 0) kept.insert(cell);
-    if (!kept.empty()) mesh.cell_sets.push_back({set.name, {kept.begin(), kept.end()}});
+      if (const int cell = cells.find(number); cell >= 0) solid_.add_cell_to_set(to, cell);
   }
-  for (const Surface& surface : surfaces_)
-    if (SolidSideSet set = sides_of(surface, cells); !set.sides.empty()) mesh.side_sets.push_back(std::move(set));
+  for (const Surface& surface : surfaces_) hand_over_sides(surface, cells);
 }
 
 ImportedSolidMesh SolidReader::read() {
   AbaqusKeyword key;
   while (lines_.next_keyword(key)) keyword(key);
-  if (cells_.empty())
+  if (solid_.cells() == 0)
     fail_in_file(builder_.file({}), 0, 0, "the file has no solid elements; save the mesh with C3D4 or C3D10 elements");
-  const NumberIndex nodes(node_numbers_), cells(cell_numbers_);
-  check_numbers(nodes, node_places_, "node");
-  check_numbers(cells, cell_places_, "cell");
-  ImportedSolidMesh mesh;
-  make_cells(nodes, mesh);
-  std::vector<int> place(node_numbers_.size(), -1);
-  for (const ImportedSolidCell& cell : mesh.cells)
-    for (const int node : cell.nodes) place[static_cast<std::size_t>(node)] = 0;
-  int count = 0;
-  for (int& at : place)
-    if (at == 0) at = count++;
-  mesh.nodes.resize(3, count);
-  for (std::size_t i = 0; i < place.size(); ++i)
-    for (Eigen::Index k = 0; place[i] >= 0 && k < 3; ++k)
-      mesh.nodes(k, place[i]) = coordinates_[3 * i + static_cast<std::size_t>(k)];
-  for (ImportedSolidCell& cell : mesh.cells)
-    for (int& node : cell.nodes) node = place[static_cast<std::size_t>(node)];
-  make_sets(nodes, cells, place, mesh);
+  hand_over_sets();
+  ImportedSolidMesh mesh = solid_.finish();
   mesh.remarks = remarks_;
   return mesh;
 }

@@ -3,38 +3,11 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "scabo/files/abaqus.hpp"
-#include "scabo/files/imported_mesh.hpp"
+#include "scabo/files/imported_solid_mesh.hpp"
 
 namespace scabo::files {
-
-/// A tetrahedron with 4 or 10 nodes: the corners, then the middles of the edges 12, 23, 31, 14, 24, 34.
-struct ImportedSolidCell {
-  std::vector<int> nodes;
-  long number = 0;  ///< as in the file
-};
-
-/// Side i of a cell, from 0: that of the corners 123, 142, 243, 341.
-struct SolidSide {
-  int cell = -1, side = 0;
-};
-struct SolidSideSet {
-  std::string name;
-  std::vector<SolidSide> sides;
-};
-
-/// Lengths are in the unit of the file. Guaranteed: there are cells, every node belongs to one, coordinates are finite,
-/// and (x2 - x1) x (x3 - x1) . (x4 - x1) of the corners of a cell is positive.
-struct ImportedSolidMesh {
-  Matrix nodes = Matrix(3, 0);  ///< 3 x N
-  std::vector<ImportedSolidCell> cells;
-  std::vector<NodeSet> node_sets;       ///< without repetition, those of nodes that belong to cells
-  std::vector<CellSet> cell_sets;       ///< without repetition, ascending
-  std::vector<SolidSideSet> side_sets;  ///< surfaces
-  std::vector<std::string> remarks;     ///< what of the file was left out though it may matter
-};
 
 /// The mesh in the text of a file of that name. Keywords that describe no mesh are passed over. Throws InputError.
 ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file,

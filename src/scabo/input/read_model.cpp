@@ -322,7 +322,11 @@ AnyModel read_any_model(const std::string& file, const std::vector<Override>& ov
   reading.model.file = file;
   reading.model.text = std::make_shared<const std::string>(read_text_file(file));
   const NodePtr root = tree_of_text(*reading.model.text, file, overrides, reading.report);
-  if (is_in_space(*root)) return solid_model_of_tree(root, reading.report, file);
+  if (is_in_space(*root)) {
+    SpaceModel model = solid_model_of_tree(root, reading.report, file);
+    model.text = reading.model.text;
+    return model;
+  }
   return read_tree(reading, root, file);
 }
 

@@ -11,7 +11,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/warning.hpp"
-#include "scabo/files/solid_abaqus.hpp"
+#include "scabo/files/imported_solid_mesh.hpp"
 #include "scabo/model/solid_shape.hpp"
 
 namespace scabo::model {
@@ -72,6 +72,8 @@ struct SpaceStep {
 
 struct SpaceModel {
   std::string file, title;
+  std::vector<std::string> files;           ///< that it names
+  std::shared_ptr<const std::string> text;  ///< of the model file
   std::vector<SpaceMaterial> materials;
   std::vector<SpaceBody> bodies;
   std::vector<SpaceSupport> supports;

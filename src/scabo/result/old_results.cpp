@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <system_error>
@@ -158,6 +159,23 @@ void remove_old_results(const fs::path& path, std::string_view summary) {
 }
 
 }  // namespace
+
+long long size_in(const analysis::WrittenResults& written, const std::string& name) {
+  for (const analysis::WrittenResults::File& file : written.files)
+    if (file.name == name) return file.bytes;
+  return 0;
+}
+
+void remove_later_fields(const fs::path& path, int last) {
+  std::error_code error;
+  std::vector<fs::path> later;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    for (const std::string_view begin : {"fields_", "contact_"})
+      if (is_vtu_name(name, begin) && std::atoi(name.c_str() + begin.size()) > last) later.push_back(entry->path());
+  }
+  for (const fs::path& file : later) fs::remove(file, error);
+}
 
 DirectoryLock prepare_directory(const fs::path& path, std::string_view summary) {
   create(path);

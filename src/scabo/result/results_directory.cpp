@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -47,11 +46,18 @@ void mark_failed(const fs::path& directory, const std::string& reason) noexcept 
 } catch (...) {  // the caller reports why the run ended
 }
 
-std::optional<std::string> status_in(const fs::path& directory) {
+namespace {
+
+std::string summary_in(const fs::path& directory) {
   std::ifstream stream(directory / "summary.json", std::ios::binary);
-  const std::string summary((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  return status_of_summary(summary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
+
+}  // namespace
+
+std::optional<std::string> status_in(const fs::path& directory) { return status_of_summary(summary_in(directory)); }
+
+std::optional<std::string> analysis_in(const fs::path& directory) { return analysis_of_summary(summary_in(directory)); }
 
 namespace {
 
@@ -61,25 +67,6 @@ void mark_running(const fs::path& directory) {
   std::ifstream stream(file, std::ios::binary);
   const std::string before((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (status_of_summary(before)) replace_file(file, running_summary(before));
-}
-
-/// Bytes of a file that count.
-long long size_in(const analysis::WrittenResults& written, const std::string& name) {
-  for (const analysis::WrittenResults::File& file : written.files)
-    if (file.name == name) return file.bytes;
-  return 0;
-}
-
-/// Files of fields that were written after a checkpoint, whose last ones have the number `last`.
-void remove_later_fields(const fs::path& path, int last) {
-  std::error_code error;
-  std::vector<fs::path> later;
-  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    for (const std::string_view begin : {"fields_", "contact_"})
-      if (is_vtu_name(name, begin) && std::atoi(name.c_str() + begin.size()) > last) later.push_back(entry->path());
-  }
-  for (const fs::path& file : later) fs::remove(file, error);
 }
 
 }  // namespace

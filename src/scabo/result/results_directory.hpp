@@ -25,6 +25,8 @@ namespace scabo::result {
 
 /// The `status` in summary.json; nothing if it cannot be read.
 std::optional<std::string> status_in(const std::filesystem::path& directory);
+/// Likewise its `analysis`: `space` of a model in space.
+std::optional<std::string> analysis_in(const std::filesystem::path& directory);
 
 /// Records in summary.json that an error ended the run: status `failed`, with the reason. A full disk has room for the
 /// status alone, which is then written over the one before.

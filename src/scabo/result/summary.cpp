@@ -435,10 +435,20 @@ std::string running_summary(const std::string& summary) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-std::optional<std::string> status_of_summary(const std::string& summary) {
+namespace {
+
+std::optional<std::string> text_in_summary(const std::string& summary, const char* key) {
   const Json json = Json::parse(summary, nullptr, false);
-  if (!json.is_object() || !json.contains("status") || !json["status"].is_string()) return std::nullopt;
-  return json["status"].get<std::string>();
+  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return std::nullopt;
+  return json[key].get<std::string>();
+}
+
+}  // namespace
+
+std::optional<std::string> status_of_summary(const std::string& summary) { return text_in_summary(summary, "status"); }
+
+std::optional<std::string> analysis_of_summary(const std::string& summary) {
+  return text_in_summary(summary, "analysis");
 }
 
 }  // namespace scabo::result

@@ -37,6 +37,8 @@ std::string failed_summary(const std::string& summary, const std::string& reason
 std::string running_summary(const std::string& summary);
 /// Its `status`; nothing if it is not a summary.
 std::optional<std::string> status_of_summary(const std::string& summary);
+/// Likewise its `analysis`.
+std::optional<std::string> analysis_of_summary(const std::string& summary);
 
 /// `solved`, `not_converged`, `mechanism`, `collapse` or `interrupted`.
 std::string_view name_of(analysis::Outcome outcome);

@@ -1,12 +1,13 @@
 #include "scabo/run/solid_run.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
 
 #include "scabo/base/interruption.hpp"
-#include "scabo/result/solid/solid_results.hpp"
 #include "scabo/run/failures.hpp"
+#include "scabo/run/origin.hpp"
 
 namespace scabo::run {
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double unit_dofs = 95232.0, unit_bytes = 0.66e9, unit_seconds = 6.3;
 constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 4e-5;  // of elements and fields, the latter of an increment
 constexpr double sweep_seconds = 3e-8;                          // for each degree of freedom and row of W
+constexpr double share_of_solid_checkpoints = 0.05;             // of the time
 constexpr double contact_bytes = 60.0, contact_seconds = 2e-8;  // for the square of the rows of W
 
 /// Corners of the side with the pairs, or more: those of the side with more of them.
@@ -61,18 +63,77 @@ Plan plan_of(const analysis::PosedSolids& posed) {
   return plan;
 }
 
-std::vector<analysis::SolidIncrement> solve(const SolidRun& run) {
-  result::SolidResults results(run.output, run.model, run.posed);
-  return marking_failures(run.output, [&] {
-    std::size_t left = run.posed.increments.size();
-    auto increments = analysis::solve_solids(run.posed.model, run.posed.increments, run.model.tolerance, run.threads,
-                                             [&](const analysis::SolidIncrement& increment) {
-                                               results.add(increment);
-                                               if (--left > 0) interruption_point();
-                                             });
-    results.finish();
-    return increments;
-  });
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Writes checkpoints, after every increment as long as that takes a twentieth of the time, and at an interruption.
+class SolidCheckpoints {
+ public:
+  explicit SolidCheckpoints(const SolidRun& run)
+      : run_(run), last_(run.begun), wanted_(run.posed.increments.size() > 1) {
+    if (wanted_ && last_.results.finished == 0) write();
+  }
+  void add(const analysis::SolidState& state) {
+    last_.state = state;
+    is_newer_ = true;
+    if (wanted_ && Clock::now() >= next_) write();
+  }
+  void finish() {
+    if (wanted_ && is_newer_) write();
+  }
+
+ private:
+  void write() {
+    const Clock::time_point start = Clock::now();
+    last_.results = run_.results.written();
+    analysis::write_solid_checkpoint(run_.directory, last_);
+    is_newer_ = false;
+    const Clock::time_point end = Clock::now();
+    next_ = end + std::chrono::duration_cast<Clock::duration>((end - start) / share_of_solid_checkpoints);
+  }
+
+  const SolidRun& run_;
+  analysis::SolidCheckpoint last_;
+  bool wanted_, is_newer_ = false;
+  Clock::time_point next_;
+};
+
+result::SolidEnd solve_and_write(const SolidRun& run) {
+  SolidCheckpoints checkpoints(run);
+  analysis::SolidOptions options;
+  options.tolerance = run.model.tolerance;
+  options.threads = run.threads;
+  options.first = static_cast<std::size_t>(run.begun.results.finished);
+  if (options.first > 0) options.from = &run.begun.state;
+  std::size_t left = run.posed.increments.size() - options.first;
+  options.on_increment = [&](const analysis::SolidIncrement& increment, const analysis::SolidState& state) {
+    run.results.add(increment);
+    if (increment.status == contact::Status::solved) checkpoints.add(state);
+    if (--left > 0) interruption_point();
+  };
+  bool interrupted = false;
+  try {
+    if (left > 0) analysis::solve_solids(run.posed.model, run.posed.increments, options);
+  } catch (const Stopped&) {
+    interrupted = true;
+  }
+  const Interruptible nobody(nullptr);
+  if (interrupted) checkpoints.finish();
+  result::SolidEnd end = run.results.finish(interrupted);
+  if (!interrupted) analysis::remove_checkpoint(run.directory);
+  return end;
+}
+
+}  // namespace
+
+analysis::RunOrigin origin_of(const model::SpaceModel& model, const std::vector<std::string>& settings,
+                              const std::filesystem::path& output, int threads) {
+  return origin_of(model.file, model.files, settings, output, threads, model.text.get());
+}
+
+result::SolidEnd solve(const SolidRun& run) {
+  return marking_failures(run.directory, [&] { return solve_and_write(run); });
 }
 
 }  // namespace scabo::run

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "scabo/analysis/space/posed_solids.hpp"
+#include "scabo/analysis/space/solid_checkpoint.hpp"
+#include "scabo/result/solid/solid_results.hpp"
 #include "scabo/run/plan.hpp"
 
 namespace scabo::run {
@@ -15,12 +17,19 @@ Plan plan_of(const analysis::PosedSolids& posed);
 struct SolidRun {
   const model::SpaceModel& model;
   const analysis::PosedSolids& posed;
-  std::filesystem::path output;  ///< directory
+  result::SolidResults& results;
+  std::filesystem::path directory;  ///< of the results
   int threads = 1;
+  analysis::SolidCheckpoint begun = {};  ///< of a new run: without increments
 };
 
-/// All increments; the last one may be unsolved. Throws result::WriteError, and what an interruption point throws
-/// (base/interruption.hpp; one follows every increment but the last); a failure is recorded in the directory.
-std::vector<analysis::SolidIncrement> solve(const SolidRun& run);
+/// What a checkpoint says about the origin of a run. Throws InputError if a file cannot be read.
+analysis::RunOrigin origin_of(const model::SpaceModel& model, const std::vector<std::string>& settings,
+                              const std::filesystem::path& output, int threads);
+
+/// All increments that are not done, with checkpoints. Ends as interrupted where an interruption point throws Stopped
+/// (base/interruption.hpp; one follows every increment but the last). Throws result::WriteError; a failure is recorded
+/// in the directory.
+result::SolidEnd solve(const SolidRun& run);
 
 }  // namespace scabo::run

@@ -9,6 +9,7 @@
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/version.hpp"
+#include "scabo/run/origin.hpp"
 #include "scabo/run/sizes.hpp"
 
 namespace scabo::run {
@@ -137,18 +138,7 @@ bool keeps_checkpoints(const model::Model& model) {
 
 analysis::RunOrigin origin_of(const model::Model& model, const std::vector<std::string>& settings,
                               const std::filesystem::path& output, int threads) {
-  analysis::RunOrigin origin;
-  std::error_code error;
-  origin.version = result::version();
-  origin.model = model.file;
-  origin.folder = std::filesystem::current_path(error).string();
-  const std::filesystem::path beside = std::filesystem::relative(model.file, output, error);
-  if (!error) origin.beside = beside.string();
-  origin.files.push_back(model.text ? analysis::source_of(model.file, *model.text) : analysis::source_file(model.file));
-  for (const std::string& file : model.files) origin.files.push_back(analysis::source_file(file));
-  origin.settings = settings;
-  origin.threads = threads;
-  return origin;
+  return origin_of(model.file, model.files, settings, output, threads, model.text.get());
 }
 
 analysis::StaticSolution solve(const StaticRun& run) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <set>
 
 #include "scabo/system/solid_part.hpp"
 #include "support/solid_blocks.hpp"
@@ -109,6 +110,54 @@ TEST_P(Stacks, SlideWhereThePushExceedsFriction) {
     EXPECT_LT((total_force(increments[k]) - expected).norm(), 1e-9 * weight);
   }
   EXPECT_NE(increments[3].status, contact::Status::solved);
+}
+
+/// Their corners.
+std::set<int> open_pairs(const SolidIncrement& increment) {
+  std::set<int> open;
+  for (const SolidPair& pair : increment.pairs)
+    if (pair.state == contact::ContactState::open) open.insert(pair.corner);
+  return open;
+}
+
+/// The block is pressed, pushed back and forth and let go: from the state after any increment the others have the same
+/// bits; stored energy and work of friction are together the work done.
+TEST_P(Stacks, GoOnFromAnyStateWithTheSameBits) {
+  Stack stack(GetParam(), 1.2);
+  stack.model.contacts[0].friction = 0.3;
+  hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
+  hold_plane(stack.model.bodies[1], 0, 0.4, {0}, 2e-6);
+  stack.load(system::pressure_forces(stack.model.bodies[1].mesh, stack.top(), 1e5));
+  std::vector<SolidFactors> increments;
+  for (const double ram : {0.0, 0.5, 1.0, -1.0, 0.2}) increments.push_back({Vector::Ones(1), Vector::Constant(1, ram)});
+  std::vector<SolidState> states;
+  SolidOptions options;
+  options.on_increment = [&](const SolidIncrement&, const SolidState& state) { states.push_back(state); };
+  const std::vector<SolidIncrement> whole = solve_solids(stack.model, increments, options);
+  ASSERT_EQ(whole.back().status, contact::Status::solved) << whole.back().reason;
+  int compared = 0;
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    // Where pairs open or close within an increment, the balance is one of second order.
+    if (open_pairs(whole[k]) != (k > 0 ? open_pairs(whole[k - 1]) : std::set<int>{})) continue;
+    const Energy now = whole[k].energy, before = k > 0 ? whole[k - 1].energy : Energy{};
+    EXPECT_NEAR(now.external - before.external, now.elastic + now.friction - before.elastic - before.friction,
+                1e-9 * whole.back().energy.external);
+    ++compared;
+  }
+  EXPECT_GE(compared, 3);
+  EXPECT_GT(whole.back().energy.friction, 1.5 * whole[2].energy.friction);
+  for (std::size_t k = 0; k + 1 < states.size(); ++k) {
+    SolidOptions on;
+    on.first = k + 1;
+    on.from = &states[k];
+    const std::vector<SolidIncrement> rest = solve_solids(stack.model, increments, on);
+    ASSERT_EQ(rest.size(), whole.size() - k - 1);
+    EXPECT_EQ(rest.back().u[1], whole.back().u[1]);
+    EXPECT_EQ(rest.back().energy.external, whole.back().energy.external);
+    EXPECT_EQ(rest.back().energy.friction, whole.back().energy.friction);
+    for (std::size_t i = 0; i < rest.back().pairs.size(); ++i)
+      EXPECT_EQ(rest.back().pairs[i].force, whole.back().pairs[i].force);
+  }
 }
 
 /// Sides swapped: the same forces, gaps and slips, with the opposite sign where it is that of a side.

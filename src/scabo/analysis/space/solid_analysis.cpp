@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "scabo/analysis/state/friction_work.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/contact/laws/bonded.hpp"
 #include "scabo/contact/laws/coulomb.hpp"
@@ -124,22 +125,45 @@ contact::Problem problem_of_solids(const PreparedSolids& prepared, const Applied
   return problem;
 }
 
-/// Displacements, reactions, and the certificate of equilibrium at every node.
-void add_solid_displacements(const PreparedSolids& prepared, const AppliedToSolids& applied,
-                             const contact::Solution& solution, SolidIncrement& to) {
-  double largest = solution.p.size() > 0 ? solution.p.lpNorm<Eigen::Infinity>() : 0.0, imbalance = 0.0;
-  for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
-    const system::BodySystem& part = *prepared.structure.parts[p];
-    const Vector forces = applied.forces[p] + prepared.contact.motion[p].transpose() * solution.p;
-    Vector u = part.displacement(forces, applied.prescribed[p]);
-    u += part.rigid_motions() * solution.a.segment(prepared.contact.first_rigid[p], part.rigid_motions().cols());
-    const Vector unbalanced = part.unbalanced(u, forces);
-    to.reactions.push_back(part.reactions_of(unbalanced));
-    largest = std::max({largest, forces.lpNorm<Eigen::Infinity>(), unbalanced.lpNorm<Eigen::Infinity>()});
-    imbalance = std::max(imbalance, part.imbalance_of(unbalanced));
-    to.u.push_back(std::move(u));
+/// What the parts do under loads, contact forces and rigid motions.
+struct MovedSolids {
+  AppliedToSolids applied;
+  std::vector<Vector> u, forces, unbalanced, reactions;
+};
+MovedSolids moved_solids(const PreparedSolids& prepared, AppliedToSolids applied, const Vector& p, const Vector& a) {
+  MovedSolids moved{std::move(applied), {}, {}, {}, {}};
+  for (std::size_t i = 0; i < prepared.structure.parts.size(); ++i) {
+    const system::BodySystem& part = *prepared.structure.parts[i];
+    moved.forces.push_back(moved.applied.forces[i] + prepared.contact.motion[i].transpose() * p);
+    moved.u.push_back(part.displacement(moved.forces[i], moved.applied.prescribed[i]));
+    moved.u[i] += part.rigid_motions() * a.segment(prepared.contact.first_rigid[i], part.rigid_motions().cols());
+    moved.unbalanced.push_back(part.unbalanced(moved.u[i], moved.forces[i]));
+    moved.reactions.push_back(part.reactions_of(moved.unbalanced[i]));
   }
-  if (largest > 0.0) to.certificate.equilibrium = imbalance / largest;
+  return moved;
+}
+
+/// Before the first increment.
+MovedSolids solids_at_rest(const PreparedSolids& prepared) {
+  MovedSolids rest;
+  for (const SolidBody& body : prepared.model.bodies) {
+    rest.applied.forces.push_back(Vector::Zero(in_space.count(body.mesh.nodes.cols())));
+    rest.applied.prescribed.push_back(Vector::Zero(static_cast<Eigen::Index>(body.supports.size())));
+    rest.u.push_back(rest.applied.forces.back());
+    rest.reactions.push_back(rest.applied.prescribed.back());
+  }
+  return rest;
+}
+
+/// The largest imbalance of a node over the largest force.
+double imbalance_of(const PreparedSolids& prepared, const MovedSolids& moved, const Vector& p) {
+  double largest = p.size() > 0 ? p.lpNorm<Eigen::Infinity>() : 0.0, imbalance = 0.0;
+  for (std::size_t i = 0; i < moved.u.size(); ++i) {
+    largest =
+        std::max({largest, moved.forces[i].lpNorm<Eigen::Infinity>(), moved.unbalanced[i].lpNorm<Eigen::Infinity>()});
+    imbalance = std::max(imbalance, prepared.structure.parts[i]->imbalance_of(moved.unbalanced[i]));
+  }
+  return largest > 0.0 ? imbalance / largest : 0.0;
 }
 
 /// All pairs; those that supports hold on both sides as they are at rest.
@@ -189,49 +213,127 @@ std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
   return worst;
 }
 
-/// One increment; if it is solved, `slip` and `start` become those at its end.
-SolidIncrement solid_increment(const PreparedSolids& prepared, const SolidFactors& factors,
-                               contact::SolverOptions& options, contact::Start& start, Vector& slip) {
-  const AppliedToSolids applied = applied_to_solids(prepared.model, factors);
+/// Whether a pair may have begun or ended to slip anywhere within the increment. One that touches without force slips
+/// from the start, as the force grows.
+bool has_changed(const SolidState& from, const contact::Solution& to, std::size_t k) {
+  const auto row = static_cast<Eigen::Index>(k);
+  const Eigen::Vector3d before = from.p.segment<3>(in_space.of(row));
+  if (from.states[k] == contact::ContactState::open && before[0] == 0.0 && from.gap[row] <= 0.0) return false;
+  const bool turned = before.tail<2>().dot(to.slip_increment.segment<2>(2 * row)) > 0.0;
+  return turned || from.states[k] != to.states[k];
+}
+
+/// As analysis/state/friction_work.hpp, with a constant coefficient.
+FrictionWork friction_work_of_solids(const PreparedSolids& prepared, const SolidState& from,
+                                     const contact::Solution& to) {
+  FrictionWork total;
+  for (std::size_t k = 0; k < prepared.contact.pairs.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto i = static_cast<std::size_t>(prepared.contact.pairs[k].index);
+    const auto& friction = prepared.model.contacts[static_cast<std::size_t>(prepared.paired.pairs[i].contact)].friction;
+    const Eigen::Vector2d slip = to.slip_increment.segment<2>(2 * row);
+    if (!friction || slip.isZero(0.0)) continue;
+    const Eigen::Vector3d before = from.p.segment<3>(in_space.of(row)), after = to.p.segment<3>(in_space.of(row));
+    const double way = slip.norm(), bound = *friction * std::max(before[0], 0.0),
+                 at_end = std::max(-after.tail<2>().dot(slip) / way, 0.0), work = 0.5 * (bound + at_end) * way;
+    total.work += work;
+    total.beyond_rule += work + 0.5 * (before + after).tail<2>().dot(slip);
+    if (has_changed(from, to, k)) total.error += 0.5 * std::abs(at_end - bound) * way;
+  }
+  return total;
+}
+
+/// The energy of `from` and what an increment adds to it.
+Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, const MovedSolids& before,
+                        const MovedSolids& after, const contact::Solution& solution) {
+  Energy energy = from.energy;
+  energy.elastic = 0.0;
+  for (std::size_t i = 0; i < after.u.size(); ++i) {
+    energy.external += 0.5 * (before.applied.forces[i] + after.applied.forces[i]).dot(after.u[i] - before.u[i]);
+    energy.external +=
+        0.5 *
+        (before.reactions[i] + after.reactions[i]).dot(after.applied.prescribed[i] - before.applied.prescribed[i]);
+    energy.elastic += prepared.structure.parts[i]->elastic_energy(after.u[i], after.forces[i], after.unbalanced[i]);
+  }
+  const FrictionWork friction = friction_work_of_solids(prepared, from, solution);
+  energy.friction += friction.work;
+  energy.external += friction.beyond_rule;
+  energy.friction_error += friction.error;
+  return energy;
+}
+
+/// Increments in their order, each from the state that the one before it left.
+class SolidMarch {
+ public:
+  SolidMarch(const SolidModel& model, const SolidOptions& options)
+      : prepared_(prepared_solids(model, options.threads)), before_(solids_at_rest(prepared_)) {
+    solver_.tolerance = options.tolerance;
+    if (options.from == nullptr) {
+      const Eigen::Index pairs = prepared_.contact.gap.size();
+      state_.slip = Vector::Zero(2 * pairs);
+      state_.gap = prepared_.contact.gap;
+      state_.p = Vector::Zero(in_space.count(pairs));
+      state_.a = Vector::Zero(prepared_.contact.rigid_motions());
+      state_.states.assign(static_cast<std::size_t>(pairs), contact::ContactState::open);
+      return;
+    }
+    state_ = *options.from;
+    before_ = moved_solids(prepared_, applied_to_solids(model, state_.factors), state_.p, state_.a);
+  }
+
+  SolidIncrement next(const SolidFactors& factors);
+  const SolidState& state() const { return state_; }
+
+ private:
+  PreparedSolids prepared_;
+  contact::SolverOptions solver_;
+  SolidState state_;
+  MovedSolids before_;
+};
+
+SolidIncrement SolidMarch::next(const SolidFactors& factors) {
+  AppliedToSolids applied = applied_to_solids(prepared_.model, factors);
   for (const Vector& forces : applied.forces)
-    options.force_scale = std::max(options.force_scale, forces.lpNorm<Eigen::Infinity>());
-  const contact::Solution solution = contact::solve(problem_of_solids(prepared, applied, slip), start, options);
+    state_.force_scale = std::max(state_.force_scale, forces.lpNorm<Eigen::Infinity>());
+  solver_.force_scale = state_.force_scale;
+  const contact::Solution solution =
+      contact::solve(problem_of_solids(prepared_, applied, state_.slip), {state_.p, state_.a}, solver_);
   SolidIncrement to;
   to.factors = factors;
   to.status = solution.status;
   to.reason = solution.reason;
   to.iterations = solution.iterations;
   if (solution.status != contact::Status::solved) return to;
-  slip += solution.slip_increment;
   to.certificate = solution.certificate;
-  add_solid_displacements(prepared, applied, solution, to);
-  to.pairs = solid_pairs(prepared, solution, slip);
-  if (std::string reason = add_held_gaps(prepared, to); !reason.empty()) {
+  MovedSolids moved = moved_solids(prepared_, std::move(applied), solution.p, solution.a);
+  to.certificate.equilibrium = imbalance_of(prepared_, moved, solution.p);
+  to.u = moved.u;
+  to.reactions = moved.reactions;
+  to.energy = energy_of_solids(prepared_, state_, before_, moved, solution);
+  const Vector slip = state_.slip + solution.slip_increment;
+  to.pairs = solid_pairs(prepared_, solution, slip);
+  if (std::string reason = add_held_gaps(prepared_, to); !reason.empty()) {
     to.status = contact::Status::not_converged;
     to.reason = std::move(reason);
-  } else if (to.certificate.worst() > options.tolerance) {
+  } else if (to.certificate.worst() > solver_.tolerance) {
     to.status = contact::Status::not_converged;
     to.reason = "the forces at some node do not balance to the tolerance of the certificate";
   }
-  start.p = solution.p;
-  start.a = solution.a;
+  if (to.status != contact::Status::solved) return to;
+  state_ = {factors, slip, solution.gap, solution.p, solution.a, solution.states, state_.force_scale, to.energy};
+  before_ = std::move(moved);
   return to;
 }
 
 }  // namespace
 
 std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
-                                         double tolerance, int threads,
-                                         const std::function<void(const SolidIncrement&)>& on_increment) {
-  const PreparedSolids prepared = prepared_solids(model, threads);
-  contact::SolverOptions options;
-  options.tolerance = tolerance;
-  contact::Start start;
-  Vector slip = Vector::Zero(2 * prepared.contact.gap.size());
+                                         const SolidOptions& options) {
+  SolidMarch march(model, options);
   std::vector<SolidIncrement> made;
-  for (const SolidFactors& factors : increments) {
-    made.push_back(solid_increment(prepared, factors, options, start, slip));
-    if (on_increment) on_increment(made.back());
+  for (std::size_t k = options.first; k < increments.size(); ++k) {
+    made.push_back(march.next(increments[k]));
+    if (options.on_increment) options.on_increment(made.back(), march.state());
     if (made.back().status != contact::Status::solved) break;
   }
   return made;

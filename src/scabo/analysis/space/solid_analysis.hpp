@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scabo/analysis/state/results.hpp"
 #include "scabo/contact/certificate.hpp"
 #include "scabo/contact/solution.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
@@ -67,13 +68,32 @@ struct SolidIncrement {
   std::vector<Vector> reactions;  ///< [body], of its constraints
   std::vector<SolidPair> pairs;
   contact::Certificate certificate;
+  Energy energy;
   int iterations = 0;
 };
 
-/// All increments, in their order; the last one may be unsolved, and ends the analysis. Contacts have faces for which
-/// mesh::why_no_pairs gives no reason. `on_increment` gets each as soon as it is known.
+/// All that the next increment depends on. Displacements follow from the factors, the contact forces and the motions.
+struct SolidState {
+  SolidFactors factors;  ///< empty before the first increment
+  Vector slip, gap;      ///< of each pair that moves, the former so far, two numbers
+  Vector p, a;           ///< contact forces, rigid motions
+  std::vector<contact::ContactState> states;
+  double force_scale = 0.0;  ///< largest applied force so far
+  Energy energy;
+};
+
+struct SolidOptions {
+  double tolerance = 1e-10;  ///< of the certificate
+  int threads = 1;
+  std::size_t first = 0;             ///< of the increments, those before it are done,
+  const SolidState* from = nullptr;  ///< and this is the state after them; null: nothing is done
+  /// Told of every increment as soon as it is known, with the state after it, which an unsolved one does not change.
+  std::function<void(const SolidIncrement&, const SolidState&)> on_increment;
+};
+
+/// The increments from `first`, in their order; the last one may be unsolved, and ends the analysis. Contacts have
+/// faces for which mesh::why_no_pairs gives no reason.
 std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
-                                         double tolerance = 1e-10, int threads = 1,
-                                         const std::function<void(const SolidIncrement&)>& on_increment = {});
+                                         const SolidOptions& options = {});
 
 }  // namespace scabo::analysis

@@ -9,11 +9,10 @@
 #include <iterator>
 #include <limits>
 #include <stdexcept>
-#include <system_error>
 
+#include "scabo/analysis/state/checkpoint_file.hpp"
 #include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/increment_record.hpp"
-#include "scabo/analysis/state/sealed_file.hpp"
 
 namespace scabo::analysis {
 
@@ -21,47 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* state_name = "checkpoint.hdf5";
 constexpr const char* records_name = "checkpoint.increments";
 constexpr std::string_view records_mark = "scabo checkpoint\n";
-constexpr const char* group = "scabo_checkpoint/";
 
 std::string content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string content((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file.is_open() || file.bad()) throw InputError(path, {{{}, "cannot be read"}});
   return content;
-}
-
-template <typename Io>
-void exchange_origin(Io& io, RunOrigin& origin) {
-  io.text("version", origin.version);
-  io.text("origin/model", origin.model);
-  io.text("origin/folder", origin.folder);
-  io.text("origin/beside", origin.beside);
-  exchange_texts(io, "origin/settings", origin.settings);
-  exchange_integer(io, "origin/threads", origin.threads);
-  origin.files.resize(exchange_count(io, "origin/files/count", origin.files.size()));
-  for (std::size_t i = 0; i < origin.files.size(); ++i) {
-    io.text(fmt::format("origin/files/path_{}", i), origin.files[i].path);
-    io.text(fmt::format("origin/files/digest_{}", i), origin.files[i].digest);
-  }
-}
-
-template <typename Io>
-void exchange_results(Io& io, WrittenResults& results) {
-  exchange_integer(io, "results/finished", results.finished);
-  exchange_integer(io, "results/fields_written", results.fields_written);
-  exchange_integer(io, "results/log_begun", results.log_begun);
-  exchange_texts(io, "results/warnings", results.warnings);
-  results.files.resize(exchange_count(io, "results/files/count", results.files.size()));
-  for (std::size_t i = 0; i < results.files.size(); ++i) {
-    WrittenResults::File& file = results.files[i];
-    io.text(fmt::format("results/files/name_{}", i), file.name);
-    double bytes = static_cast<double>(file.bytes);  // exact to 2^53
-    exchange_scalars(io, fmt::format("results/files/bytes_{}", i), {&bytes});
-    file.bytes = static_cast<long long>(bytes);
-  }
 }
 
 template <typename Io>
@@ -113,19 +79,6 @@ void exchange_checkpoint(Io& io, Checkpoint& of, int& count) {
   exchange_warnings(io, of.from.warnings);
 }
 
-[[noreturn]] void fail_to_keep(const fs::path& path, int error) {
-  throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::system_category().message(error)));
-}
-
-/// Waits until the file is on the disk.
-void synchronise(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail_to_keep(path, errno);
-  const int error = ::fsync(descriptor) != 0 && errno != EINVAL ? errno : 0;  // some file systems cannot
-  ::close(descriptor);
-  if (error != 0) fail_to_keep(path, error);
-}
-
 /// Puts `bytes` at `position`, the end of the part of the file that counts.
 void append_records(const fs::path& path, long long position, std::string_view bytes) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
@@ -171,64 +124,31 @@ std::vector<IncrementResult> read_records(std::string_view content, int count) {
   return increments;
 }
 
-struct OtherVersion : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-[[noreturn]] void refuse(const fs::path& path, std::string message) {
-  throw InputError(path.string(), {{{}, std::move(message)}});
-}
-
 }  // namespace
 
 SourceFile source_of(const std::string& path, std::string_view content) { return {path, hexadecimal(digest(content))}; }
 
 SourceFile source_file(const std::string& path) { return source_of(path, content_of(path)); }
 
-bool has_checkpoint(const fs::path& directory) {
-  std::error_code error;
-  return fs::exists(directory / state_name, error);
-}
-
 Checkpoint read_checkpoint(const fs::path& directory, const std::string& version) {
-  const fs::path file = directory / state_name;
-  if (!has_checkpoint(directory))
-    refuse(directory,
-           "there is no checkpoint to resume from: analyses of one increment and modal analyses write none; run the "
-           "model again with `scabo run`");
-  constexpr const char* damaged = "the checkpoint is damaged: run the model again with `scabo run`";
-  try {
-    Unsealing io(file.string(), group);
-    if (const std::string written_by = io.text_of("version"); !written_by.empty() && written_by != version)
-      throw OtherVersion(
-          fmt::format("the checkpoint was written by Scabo {}, and this is {}: resume with that version, or "
-                      "run the model again with `scabo run`",
-                      written_by, version));
-    Checkpoint checkpoint;
+  Checkpoint checkpoint;
+  read_checkpoint_file(directory, version, [&](Unsealing& io) {
     int count = 0;
     exchange_checkpoint(io, checkpoint, count);
     io.finish();
-    if (count == 0) return checkpoint;
+    if (count == 0) return;
     const std::string records = content_of((directory / records_name).string());
     if (checkpoint.increments_bytes > static_cast<long long>(records.size()))
       throw std::out_of_range("records are missing");
     checkpoint.from.increments =
         read_records(std::string_view(records).substr(0, static_cast<std::size_t>(checkpoint.increments_bytes)), count);
-    return checkpoint;
-  } catch (const OtherVersion& error) {
-    refuse(file, error.what());
-  } catch (const InputError&) {
-    refuse(file, damaged);
-  } catch (const std::out_of_range&) {
-    refuse(file, damaged);
-  } catch (const std::length_error&) {
-    refuse(file, damaged);
-  }
+  });
+  return checkpoint;
 }
 
 void remove_checkpoint(const fs::path& directory) noexcept {
   std::error_code ignored;
-  const std::string name = state_name;
+  const std::string name = checkpoint_name;
   for (const std::string& of : {name, name + ".new", name + ".new.part", std::string(records_name)})
     fs::remove(directory / of, ignored);
 }
@@ -263,16 +183,8 @@ void CheckpointWriter::write(const RunState& run, const StaticSolution& solution
 }
 
 void CheckpointWriter::replace() {
-  const fs::path written = directory_ / (std::string(state_name) + ".new"), file = directory_ / state_name;
   int count = static_cast<int>(recorded_);
-  Sealing io(written.string(), group);
-  exchange_checkpoint(io, checkpoint_, count);
-  io.finish();
-  synchronise(written);
-  std::error_code error;
-  fs::rename(written, file, error);
-  if (error) fail_to_keep(file, error.value());
-  synchronise(directory_);
+  write_checkpoint_file(directory_, [&](Sealing& io) { exchange_checkpoint(io, checkpoint_, count); });
 }
 
 }  // namespace scabo::analysis

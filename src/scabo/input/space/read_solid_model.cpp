@@ -14,6 +14,7 @@
 #include "scabo/input/suggestions.hpp"
 #include "scabo/model/imported_body.hpp"
 #include "scabo/model/limits.hpp"
+#include "scabo/model/solid_bodies.hpp"
 #include "scabo/model/wording.hpp"
 
 namespace scabo::input {
@@ -44,6 +45,8 @@ class SpaceReader {
   void factor(const Entry& entry, SpaceStep& step);
 
   std::shared_ptr<const files::ImportedSolidMesh> mesh_of_file(const Value& value);
+  void add_bodies_of_file(const Value& mesh, SpaceBody body);
+  std::optional<int> region_of(const Value& value, const files::ImportedSolidMesh& mesh) const;
   std::optional<SpaceFace> face(const Value& value);
   std::array<std::optional<double>, 3> fixed(const Value& value);
   std::array<std::optional<double>, 3> prescribed(const Value& value);
@@ -108,6 +111,7 @@ std::shared_ptr<const files::ImportedSolidMesh> SpaceReader::mesh_of_file(const 
     files::ImportedSolidMesh mesh = files::read_solid_mesh_file(path);
     for (const std::string& remark : mesh.remarks) model_.warnings.push_back({WarningKind::input, path, remark});
     found->second = std::make_shared<const files::ImportedSolidMesh>(std::move(mesh));
+    model_.files.push_back(path);
   } catch (const InputError& error) {
     report_.error(value, format_diagnostic(error.file(), error.diagnostics().front()));
   }
@@ -137,16 +141,57 @@ void SpaceReader::body(const Entry& entry) {
   if (const auto name = map.need("material")) body.material = material_of(*name);
   const auto shape = map.get("shape"), mesh = map.need("mesh");
   if (shape) body.shape = read_solid_shape(report_, *shape);
-  if (mesh && shape) {
-    body.sizes = read_solid_sizes(report_, *mesh);
-  } else if (mesh) {
-    Later later = only_in_the_plane({"kind", "order", "centre", "tolerance", "min_size", "elements"});
-    for (const char* key : {"size", "refine"})
-      later.emplace_back(key, "it divides a 'shape', and the body has none: give it one, or leave the key out");
-    const MapReader keys(report_, *mesh, {"file"}, "{file: part.inp}", later);
-    if (const auto name = keys.need("file")) body.mesh = mesh_of_file(*name);
-  }
+  if (mesh && !shape) return add_bodies_of_file(*mesh, std::move(body));
+  if (mesh) body.sizes = read_solid_sizes(report_, *mesh);
   model_.bodies.push_back(body);
+}
+
+/// Index of a set of cells.
+std::optional<int> SpaceReader::region_of(const Value& value, const files::ImportedSolidMesh& mesh) const {
+  const auto text = read_text(report_, value);
+  if (!text) return {};
+  std::vector<std::string> known;
+  for (const files::CellSet& set : mesh.cell_sets) {
+    if (set.name == *text || name_from(set.name) == *text) return static_cast<int>(known.size());
+    known.push_back(set.name);
+  }
+  report_.error(value, fmt::format("the mesh file has no region or set of cells named {}{}", quoted_name(*text),
+                                   suggestion(*text, known)));
+  return {};
+}
+
+void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
+  Later later = only_in_the_plane({"kind", "order", "centre", "tolerance", "min_size", "elements"});
+  for (const char* key : {"size", "refine"})
+    later.emplace_back(key, "it divides a 'shape', and the body has none: give it one, or leave the key out");
+  const MapReader keys(report_, mesh, {"file", "region"}, "{file: part.msh}", later);
+  const auto name = keys.need("file"), region = keys.get("region");
+  const auto file = name ? mesh_of_file(*name) : nullptr;
+  const auto choice = file && region ? region_of(*region, *file) : std::optional(-1);
+  if (!file || !choice) return model_.bodies.push_back(body);
+  std::vector<files::ImportedSolidMesh> parts = solid_bodies(*file, *choice);
+  std::vector<std::string> told;
+  const std::string whole = body.name;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts.size() > 1) body.name = fmt::format("{}_{}", whole, k + 1);
+    const Eigen::Vector3d centre = parts[k].nodes.rowwise().mean();
+    constexpr std::size_t most_told = 8;
+    if (k < most_told)
+      told.push_back(fmt::format("{} at ({:.4g}, {:.4g}, {:.4g})", body.name, centre.x(), centre.y(), centre.z()));
+    body.mesh = std::make_shared<const files::ImportedSolidMesh>(std::move(parts[k]));
+    for (const SpaceBody& other : model_.bodies)
+      if (other.name == body.name)
+        report_.error(
+            mesh,
+            fmt::format("a part of this file is called '{0}', as is another body: give that another name", body.name));
+    model_.bodies.push_back(body);
+  }
+  if (parts.size() > 1)
+    model_.warnings.push_back(
+        {WarningKind::input, whole + " parts",
+         fmt::format("body '{}': its cells have {} parts that have no side in common, which "
+                     "become bodies of their own: {}{}",
+                     whole, parts.size(), fmt::join(told, ", "), parts.size() > told.size() ? ", ..." : "")});
 }
 
 std::optional<SpaceFace> SpaceReader::face(const Value& value) {
@@ -186,7 +231,7 @@ std::optional<SpaceFace> SpaceReader::face(const Value& value) {
     if (known.back() == part) face.node_set = static_cast<int>(i);
   }
   if (face.side_set >= 0 || face.node_set >= 0) return face;
-  report_.error(value, fmt::format("the mesh of body '{}' has no surface or set of nodes named {}{}", name,
+  report_.error(value, fmt::format("the mesh of body '{}' has no face or set of nodes named {}{}", name,
                                    quoted_name(part), suggestion(part, known)));
   return {};
 }

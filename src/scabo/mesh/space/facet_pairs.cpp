@@ -211,16 +211,58 @@ std::vector<Ball> balls_of(const Face& face) {
   return balls;
 }
 
+/// Finds the balls near a line, among those whose boxes in the plane across the axis nearest to its direction are near
+/// what is seen of it there.
+class BallsNearLines {
+ public:
+  explicit BallsNearLines(const std::vector<Ball>& balls)
+      : trees_{tree_across(balls, 0), tree_across(balls, 1), tree_across(balls, 2)} {}
+
+  /// In ascending order; `radius`: within which the boxes are.
+  std::vector<std::size_t> near(const Vector3d& point, const Vector3d& direction, double radius) const {
+    Eigen::Index axis = 0;
+    direction.cwiseAbs().maxCoeff(&axis);
+    const geometry::BoxTree& tree = trees_[static_cast<std::size_t>(axis)];
+    const Vec2 seen = across(point, axis), along = across(direction, axis).stableNormalized();
+    const auto is_near = [&](const geometry::Box& box) {
+      const Vec2 apart = 0.5 * (box.low + box.high) - seen;
+      return (apart - apart.dot(along) * along).norm() <= 0.5 * (box.high - box.low).norm() + radius;
+    };
+    std::vector<std::size_t> found;
+    tree.visit([&](std::size_t node) { return is_near(tree.nodes()[node].box); },
+               [&](std::size_t ball) {
+                 if (is_near(tree.box(ball))) found.push_back(ball);
+               });
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+ private:
+  static Vec2 across(const Vector3d& x, Eigen::Index axis) { return {x[(axis + 1) % 3], x[(axis + 2) % 3]}; }
+  static geometry::BoxTree tree_across(const std::vector<Ball>& balls, Eigen::Index axis) {
+    std::vector<geometry::Box> boxes(balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      const Vec2 centre = across(balls[i].centre, axis);
+      boxes[i].low = centre.array() - balls[i].radius;
+      boxes[i].high = centre.array() + balls[i].radius;
+    }
+    return geometry::BoxTree(std::move(boxes));
+  }
+
+  std::array<geometry::BoxTree, 3> trees_;
+};
+
 /// Of faces of any form: every facet of B sees those of A along its own normal, if they face it.
 std::map<int, Sums> curved_integrals(const Face& a, const Face& b) {
   constexpr double most_turned = -0.5;  // cosine of the angle between outward normals: 60 degrees from opposite ones
   std::map<int, Sums> sums;
   const std::vector<Ball> of_a = balls_of(a), of_b = balls_of(b);
+  const BallsNearLines balls(of_a);
   for (std::size_t j = 0; j < of_b.size(); ++j) {
     const Ball& at = of_b[j];
     const View view{directions_of(-at.normal), at.centre};
     const Seen seen = seen_along(b, b.facets[j], view, true);
-    for (std::size_t i = 0; i < of_a.size(); ++i) {
+    for (const std::size_t i : balls.near(at.centre, at.normal, at.radius)) {
       if (of_a[i].normal.dot(at.normal) > most_turned) continue;
       const Vector3d apart = of_a[i].centre - at.centre;
       if ((apart - apart.dot(at.normal) * at.normal).norm() > of_a[i].radius + at.radius) continue;

@@ -1,14 +1,55 @@
 #include "scabo/mesh/space/imported_solid.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 
+#include "scabo/geometry/simplex_basis.hpp"
+
 namespace scabo::mesh {
+
+namespace {
+
+using EdgeOfCell = std::pair<int, int>;  // corners, ascending
+
+/// Calls `visit` with every edge of a cell and its place in the cell.
+template <typename Visit>
+void for_edges(const std::vector<int>& cell, const Visit& visit) {
+  std::size_t place = 4;
+  for (const std::array<int, 2>& edge : geometry::SimplexBasis::of(3, 10).edges())
+    visit(EdgeOfCell(std::minmax(cell[static_cast<std::size_t>(edge[0])], cell[static_cast<std::size_t>(edge[1])])),
+          place++);
+}
+
+/// Gives cells with 4 nodes those in the middle of their edges: that of a quadratic neighbour, or one on a straight
+/// edge.
+void raise_to_quadratic(SolidMesh& mesh) {
+  std::map<EdgeOfCell, int> middle_of;
+  for (const std::vector<int>& cell : mesh.cells)
+    if (cell.size() == 10)
+      for_edges(cell, [&](const EdgeOfCell& edge, std::size_t place) { middle_of[edge] = cell[place]; });
+  std::vector<Eigen::Vector3d> added;
+  const auto before = static_cast<int>(mesh.nodes.cols());
+  for (std::vector<int>& cell : mesh.cells) {
+    if (cell.size() == 10) continue;
+    for_edges(cell, [&](const EdgeOfCell& edge, std::size_t) {
+      const auto [middle, is_new] = middle_of.try_emplace(edge, before + static_cast<int>(added.size()));
+      if (is_new) added.push_back(0.5 * (mesh.nodes.col(edge.first) + mesh.nodes.col(edge.second)));
+      cell.push_back(middle->second);
+    });
+  }
+  mesh.nodes.conservativeResize(3, before + static_cast<Eigen::Index>(added.size()));
+  for (std::size_t i = 0; i < added.size(); ++i) mesh.nodes.col(before + static_cast<Eigen::Index>(i)) = added[i];
+}
+
+}  // namespace
 
 SolidMesh solid_mesh_of(const files::ImportedSolidMesh& file) {
   SolidMesh mesh;
   mesh.nodes = file.nodes;
   for (const files::ImportedSolidCell& cell : file.cells) mesh.cells.push_back(cell.nodes);
+  raise_to_quadratic(mesh);
   return mesh;
 }
 

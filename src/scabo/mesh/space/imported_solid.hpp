@@ -1,11 +1,12 @@
 // A body of tetrahedra from a mesh file: its mesh, and the facets that named sets of the file are.
 #pragma once
 
-#include "scabo/files/solid_abaqus.hpp"
+#include "scabo/files/imported_solid_mesh.hpp"
 #include "scabo/mesh/space/solid_mesh.hpp"
 
 namespace scabo::mesh {
 
+/// All cells quadratic: linear ones get straight edges, but where a quadratic neighbour has its middle node.
 SolidMesh solid_mesh_of(const files::ImportedSolidMesh& file);
 
 /// The sides of cells, as facets whose normals are outwards.

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "scabo/model/wording.hpp"
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/old_results.hpp"
 #include "scabo/result/report.hpp"
@@ -97,12 +99,18 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   json["newton_iterations"] = increment.iterations;
   json["contacts"] = Json::object();
   json["reactions"] = Json::object();
+  json["energy"] = nullptr;
   json["certificate"] = nullptr;
   if (!solved) return json;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     json["contacts"][model.contacts[c].name] = json_of(totals_of(increment, c));
   const std::vector<Eigen::Vector3d> reactions = reactions_of(posed, model.supports.size(), increment);
   for (std::size_t i = 0; i < reactions.size(); ++i) json["reactions"][model.supports[i].name] = json_of(reactions[i]);
+  const analysis::Energy& energy = increment.energy;
+  json["energy"] = {{"external", energy.external},
+                    {"elastic", energy.elastic},
+                    {"friction", energy.friction},
+                    {"friction_error", energy.friction_error}};
   json["certificate"] = figures_of(increment.certificate);
   return json;
 }
@@ -143,10 +151,7 @@ std::string rows_of(const model::SpaceModel& model, const analysis::PosedSolids&
   return fmt::to_string(rows);
 }
 
-}  // namespace
-
-std::string solid_summary_content(const model::SpaceModel& model, const analysis::PosedSolids& posed,
-                                  const std::vector<analysis::SolidIncrement>& increments, bool running) {
+Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& posed) {
   Eigen::Index nodes = 0;
   std::size_t cells = 0;
   for (const analysis::SolidBody& body : posed.model.bodies) {
@@ -157,68 +162,202 @@ std::string solid_summary_content(const model::SpaceModel& model, const analysis
   json["scabo"] = version();
   json["title"] = model.title;
   json["analysis"] = "space";
-  const bool made = !increments.empty();
-  json["status"] = running ? "running" : made ? status_of(increments.back().status) : "not_converged";
-  json["reason"] = made && !increments.back().reason.empty() ? Json(increments.back().reason) : Json();
+  json["status"] = "running";
+  json["reason"] = nullptr;
   json["warnings"] = texts_of(model.warnings);
   json["model"] = {{"nodes", nodes}, {"dofs", 3 * nodes}, {"finite_elements", cells}, {"steps", Json::array()}};
   for (const model::SpaceStep& step : model.steps) json["model"]["steps"].push_back(step.name);
   json["increments"] = Json::array();
-  for (std::size_t k = 0; k < increments.size(); ++k)
-    json["increments"].push_back(json_of(model, posed, increments[k], k));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json;
 }
 
-std::string report_solids(const model::SpaceModel& model, const analysis::PosedSolids& posed,
-                          const analysis::SolidIncrement& increment) {
-  const auto row = [](const std::string& name, const Eigen::Vector3d& force) {
-    return std::vector<std::string>{name, fmt::format("{:.6g}", force.x()), fmt::format("{:.6g}", force.y()),
-                                    fmt::format("{:.6g}", force.z())};
-  };
+std::string text_of(const Json& summary) { return summary.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
+std::string log_header(const model::SpaceModel& model, const Json& summary) {
+  std::string text = fmt::format("Scabo {}\n", version());
+  if (!model.title.empty()) text += model.title + '\n';
+  if (!model.file.empty()) text += fmt::format("Model: {}\n", model.file);
+  const Json& sizes = summary["model"];
+  text += fmt::format("{} in space, {} nodes, {} degrees of freedom, {} tetrahedra\n",
+                      model.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", model.bodies.size()),
+                      sizes["nodes"].get<long>(), sizes["dofs"].get<long>(), sizes["finite_elements"].get<long>());
+  for (const model::SpaceContact& contact : model.contacts)
+    text += fmt::format("{} {}: {} on {}{}\n", contact.friction ? "contact" : "tie", contact.name, contact.b.text,
+                        contact.a.text, contact.friction ? fmt::format("; friction {:g}", *contact.friction) : "");
+  return text + '\n';
+}
+
+/// `step press, increment 2 of 10: tip = 0.2; 4 iterations, certificate 2.2e-14`
+std::string log_line(const model::SpaceModel& model, const Json& json, const analysis::SolidIncrement& increment) {
+  const model::SpaceStep& step = model.steps[json["step"].get<std::size_t>() - 1];
+  std::string text =
+      fmt::format("step {}, increment {} of {}:", step.name, json["increment"].get<int>(), step.increments);
+  for (const auto& [name, factor] : json["factors"].items())
+    text += fmt::format(" {} = {:.6g},", name, factor.get<double>());
+  if (json["factors"].empty())
+    text += ' ';
+  else
+    text.back() = ';', text += ' ';
+  text += model::counted(increment.iterations, "iteration");
+  if (increment.status == contact::Status::solved)
+    return text + fmt::format(", certificate {:.2g}\n", increment.certificate.worst());
+  return text + fmt::format("; {}: {}\n", status_of(increment.status), increment.reason);
+}
+
+/// Forces of contacts and supports, for people.
+std::string totals_of(const Json& increment) {
   std::vector<std::vector<std::string>> rows = {{"force on side b, on the body", "x", "y", "z"}};
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const SolidTotals totals = totals_of(increment, c);
-    rows.push_back(row(model.contacts[c].name + ", normal", totals.normal));
-    rows.push_back(row(model.contacts[c].name + ", tangential", totals.tangential));
+  const auto add = [&](const std::string& name, const Json& force) {
+    rows.push_back({name});
+    for (const Json& component : force) rows.back().push_back(fmt::format("{:.6g}", component.get<double>()));
+  };
+  for (const auto& [name, contact] : increment["contacts"].items()) {
+    add(name + ", normal", contact["normal_force"]);
+    add(name + ", tangential", contact["tangential_force"]);
   }
-  const std::vector<Eigen::Vector3d> reactions = reactions_of(posed, model.supports.size(), increment);
-  for (std::size_t i = 0; i < reactions.size(); ++i) rows.push_back(row(model.supports[i].name, reactions[i]));
+  for (const auto& [name, force] : increment["reactions"].items()) add(name, force);
   return table(rows);
 }
+
+std::string which_increment(const Json& summary, const Json& increment) {
+  return fmt::format("step {}, increment {}",
+                     summary["model"]["steps"][increment["step"].get<std::size_t>() - 1].get<std::string>(),
+                     increment["increment"].get<int>());
+}
+
+}  // namespace
+
+struct SolidResults::Summary {
+  Json json;
+};
 
 SolidResults::SolidResults(std::filesystem::path path, const model::SpaceModel& model,
                            const analysis::PosedSolids& posed)
     : path_(std::move(path)),
       model_(model),
       posed_(posed),
-      lock_(prepare_directory(path_, solid_summary_content(model, posed, {}, true))),
-      table_(path_ / "contact.csv"),
-      collection_(path_ / "fields.pvd") {
-  replace_file(path_ / "summary.json", solid_summary_content(model, posed, {}, true));
-  table_.append(columns_of_solids);
-  if (!model_.contacts.empty()) faces_.emplace(path_ / "contact.pvd");
+      summary_(new Summary{begun_summary(model, posed)}),
+      lock_(prepare_directory(path_, text_of(summary_->json))) {
+  replace_summary();
+  open_files(nullptr);
+}
+
+SolidResults::SolidResults(std::filesystem::path path, DirectoryLock lock, const model::SpaceModel& model,
+                           const analysis::PosedSolids& posed, const analysis::WrittenResults& written)
+    : path_(std::move(path)),
+      model_(model),
+      posed_(posed),
+      summary_(new Summary{begun_summary(model, posed)}),
+      lock_(std::move(lock)),
+      finished_(written.finished) {
+  std::ifstream stream(path_ / "summary.json", std::ios::binary);
+  Json before = Json::parse(stream, nullptr, false);
+  const auto count = static_cast<std::size_t>(finished_);
+  if (!before.is_object() || !before["increments"].is_array() || before["increments"].size() < count)
+    throw WriteError("cannot continue", path_ / "summary.json",
+                     "it has fewer increments than the run finished: run the model again with `scabo run`");
+  for (std::size_t k = 0; k < count; ++k) summary_->json["increments"].push_back(std::move(before["increments"][k]));
+  open_files(&written);
+  remove_later_fields(path_, written.fields_written);
+  replace_summary();
+}
+
+SolidResults::~SolidResults() = default;
+
+void SolidResults::open_files(const analysis::WrittenResults* written) {
+  const auto open = [&](const char* name, auto& file) {
+    if (written)
+      file.emplace(path_ / name, size_in(*written, name));
+    else
+      file.emplace(path_ / name);
+  };
+  open("contact.csv", table_);
+  open("log.txt", log_);
+  open("fields.pvd", collection_);
+  if (!model_.contacts.empty()) open("contact.pvd", faces_);
+  if (written) return;
+  table_->append(columns_of_solids);
+  log_->append(log_header(model_, summary_->json));
+}
+
+std::vector<GrowingFile*> SolidResults::growing_files() {
+  std::vector<GrowingFile*> files{&*table_, &*log_, &collection_->file()};
+  if (faces_) files.push_back(&faces_->file());
+  return files;
+}
+
+void SolidResults::replace_summary() const { replace_file(path_ / "summary.json", text_of(summary_->json)); }
+
+void SolidResults::add_fields(const analysis::SolidIncrement& increment) {
+  const auto write = [&](const char* name, const std::string& content, FieldCollection& collection) {
+    const std::string file = fmt::format("{}_{:04d}.vtu", name, finished_);
+    replace_file(path_ / file, content);
+    collection.add(static_cast<double>(finished_), file);
+    not_synchronised_.push_back(path_ / file);
+  };
+  write("fields", vtu_content(solid_cells(posed_.model, increment.u)), *collection_);
+  if (faces_) write("contact", vtu_content(solid_faces(posed_.model, increment)), *faces_);
 }
 
 void SolidResults::add(const analysis::SolidIncrement& increment) {
-  const std::size_t number = made_.size();
-  made_.push_back(increment);
-  made_.back().u.clear();
+  Json& made = summary_->json["increments"];
+  const std::size_t number = made.size();
+  made.push_back(json_of(model_, posed_, increment, number));
   if (increment.status == contact::Status::solved) {
-    table_.append(rows_of(model_, posed_, increment, number));
-    const std::string file = fmt::format("fields_{:04d}.vtu", number + 1);
-    replace_file(path_ / file, vtu_content(solid_cells(posed_.model, increment.u)));
-    collection_.add(static_cast<double>(number + 1), file);
-    if (faces_) {
-      const std::string of_faces = fmt::format("contact_{:04d}.vtu", number + 1);
-      replace_file(path_ / of_faces, vtu_content(solid_faces(posed_.model, increment)));
-      faces_->add(static_cast<double>(number + 1), of_faces);
-    }
+    ++finished_;
+    table_->append(rows_of(model_, posed_, increment, number));
+    add_fields(increment);
   }
-  replace_file(path_ / "summary.json", solid_summary_content(model_, posed_, made_, true));
+  log_->append(log_line(model_, made.back(), increment));
+  summary_->json["status"] = "running";
+  summary_->json["reason"] = nullptr;
+  replace_summary();
+  summary_->json["status"] = status_of(increment.status);
+  if (!increment.reason.empty()) summary_->json["reason"] = increment.reason;
 }
 
-void SolidResults::finish() {
-  replace_file(path_ / "summary.json", solid_summary_content(model_, posed_, made_, false));
+analysis::WrittenResults SolidResults::written() {
+  analysis::WrittenResults written{finished_, finished_, true, {}, {}};
+  for (const std::filesystem::path& file : not_synchronised_) synchronise_file(file);
+  not_synchronised_.clear();
+  synchronise_file(path_ / "summary.json");
+  for (GrowingFile* file : growing_files()) {
+    file->synchronise();
+    written.files.push_back({file->path().filename().string(), file->size()});
+  }
+  return written;
+}
+
+SolidEnd SolidResults::finish(bool interrupted) {
+  Json& json = summary_->json;
+  const Json& made = json["increments"];
+  if (interrupted) {
+    json["status"] = "interrupted";
+    json["reason"] = finished_ > 0 ? "interrupted: the increments finished so far are kept"
+                                   : "interrupted: no increment was finished";
+  } else if (json["status"] == "running") {  // all increments had been made before
+    json["status"] = "solved";
+  }
+  SolidEnd end;
+  end.status = json["status"].get<std::string>();
+  if (json["reason"].is_string()) end.reason = json["reason"].get<std::string>();
+  end.finished = finished_;
+  for (const Json& increment : made)
+    for (const Json& figure : increment["certificate"])
+      end.certificate = std::max(end.certificate, figure.get<double>());
+  if (!made.empty()) end.at = which_increment(json, made.back());
+  std::string text = end.status == "solved" ? "\nSolved: every increment converged and is certified.\n"
+                     : interrupted          ? fmt::format("\nInterrupted: {}\n", end.reason)
+                                            : fmt::format("\nNot solved: {}\n", end.reason);
+  if (finished_ > 0) {
+    const Json& last = made[static_cast<std::size_t>(finished_ - 1)];
+    end.totals = totals_of(last);
+    text += fmt::format("\nAfter {}:\n{}", which_increment(json, last), end.totals);
+  }
+  for (const Warning& warning : model_.warnings) text += "warning: " + warning.text + '\n';
+  log_->append(text);
+  replace_summary();
+  return end;
 }
 
 }  // namespace scabo::result

@@ -1,0 +1,45 @@
+#include "scabo/analysis/space/solid_checkpoint.hpp"
+
+#include "scabo/analysis/state/checkpoint_file.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+template <typename Io>
+void exchange_solid_checkpoint(Io& io, SolidCheckpoint& of) {
+  exchange_origin(io, of.origin);
+  exchange_results(io, of.results);
+  SolidState& state = of.state;
+  exchange_vector(io, "space/factors/loads", state.factors.loads);
+  exchange_vector(io, "space/factors/supports", state.factors.supports);
+  exchange_vector(io, "space/slip", state.slip);
+  exchange_vector(io, "space/gap", state.gap);
+  exchange_vector(io, "space/p", state.p);
+  exchange_vector(io, "space/a", state.a);
+  std::vector<int> states;
+  for (const contact::ContactState one : state.states) states.push_back(static_cast<int>(one));
+  io.integers("space/states", states);
+  state.states.clear();
+  for (const int one : states) state.states.push_back(static_cast<contact::ContactState>(one));
+  Energy& energy = state.energy;
+  exchange_scalars(io, "space/scalars",
+                   {&state.force_scale, &energy.external, &energy.elastic, &energy.friction, &energy.friction_error});
+}
+
+}  // namespace
+
+void write_solid_checkpoint(const std::filesystem::path& directory, SolidCheckpoint checkpoint) {
+  write_checkpoint_file(directory, [&](Sealing& io) { exchange_solid_checkpoint(io, checkpoint); });
+}
+
+SolidCheckpoint read_solid_checkpoint(const std::filesystem::path& directory, const std::string& version) {
+  SolidCheckpoint checkpoint;
+  read_checkpoint_file(directory, version, [&](Unsealing& io) {
+    exchange_solid_checkpoint(io, checkpoint);
+    io.finish();
+  });
+  return checkpoint;
+}
+
+}  // namespace scabo::analysis
