@@ -101,7 +101,7 @@ def history_of(results):
     rows = len(table["time"])
     every = max(1, -(-rows * len(table) // MOST_HISTORY))
     kept = np.unique([*range(0, rows, every), rows - 1])
-    columns = [name for name in table if name not in ("step", "increment", "time")]
+    columns = [name for name in table if name not in ("step", "increment", "time", "forces_of_radians")]
     return {"time": numbers(table["time"][kept]), "columns": [{"name": name, "values": numbers(table[name][kept])} for name in columns],
             "note": f"One row of {every} is shown." if every > 1 else ""}
 

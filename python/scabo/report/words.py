@@ -49,8 +49,8 @@ def verdict(summary, increments):
         sentences.append(f"The results of the {count} finished increment{'s' * (count != 1)} are certified.")
     else:
         sentences.append("No increment was finished, so that there are no results.")
-    if count and summary.get("model", {}).get("plane") == "axisymmetric":
-        sentences.append("Forces are those of the whole circumference.")
+    if count and summary.get("model", {}).get("forces_of"):
+        sentences.append(f"Forces are those of {summary['model']['forces_of']}.")
     return {"level": level, "heading": heading, "text": " ".join(sentences)}
 
 

@@ -61,7 +61,7 @@ std::string other_format(std::string_view start) {
 
 }  // namespace
 
-ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
+ImportedMesh parse_mesh(std::string_view bytes, const std::string& path, std::vector<std::string>* types) {
   const std::string_view text = readable(bytes, path);
   std::string_view start = text;
   while (!start.empty() && static_cast<unsigned char>(start.front()) <= ' ') start.remove_prefix(1);
@@ -71,9 +71,9 @@ ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
 
   if (start.front() == '$' && head.find("$MeshFormat") != std::string_view::npos) return parse_gmsh(text, path);
   if (start.front() == '<' && head.find("<VTKFile") != std::string_view::npos) return parse_vtu(text, path);
-  if (start.front() == '*') return parse_abaqus(text, path, read_beside);
+  if (start.front() == '*') return parse_abaqus(text, path, read_beside, types);
   if (extension == ".MSH" && start.front() == '$') return parse_gmsh(text, path);
-  if (extension == ".INP") return parse_abaqus(text, path, read_beside);
+  if (extension == ".INP") return parse_abaqus(text, path, read_beside, types);
   if (extension == ".VTU" && start.front() == '<') return parse_vtu(text, path);
   fail_in_file(
       path, 0, 0,
@@ -92,6 +92,8 @@ ImportedSolidMesh read_solid_mesh_file(const std::string& path) {
   return parse_solid_abaqus(readable(bytes_at(path), path), path, read_beside);
 }
 
-ImportedMesh read_mesh_file(const std::string& path) { return parse_mesh(bytes_at(path), path); }
+ImportedMesh read_mesh_file(const std::string& path, std::vector<std::string>* types) {
+  return parse_mesh(bytes_at(path), path, types);
+}
 
 }  // namespace scabo::files
