@@ -266,6 +266,8 @@ std::string ResultsDirectory::fields_of_bodies(const analysis::StaticSolution& s
     const Stopwatch recovering(recover_seconds_);
     if (!recovery_) recovery_.emplace(solution);
     fields = recovery_->fields(solution, increment.fields);
+    if (output_.fields.displacement && model::is_dynamic(solution.model))
+      fields->velocity = recovery_->fields(solution, analysis::with_velocities(increment).fields).displacement;
   }
   const Stopwatch writing(write_seconds_);
   if (increment.absent.empty())
