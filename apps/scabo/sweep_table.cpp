@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 #include "scabo/result/contact_table.hpp"
@@ -64,6 +65,12 @@ class RowReader {
         if (crack.contains(key)) add(name + "." + key, crack[key]);
   }
 
+  /// Of bodies of revolution the angle whose forces these are.
+  void add_radians(const Json& model) {
+    if (model.contains("forces_of"))
+      add("forces_of_radians", model["forces_of"] == "one radian" ? 1.0 : 2.0 * std::numbers::pi);
+  }
+
  private:
   SweepRow& row_;
 };
@@ -93,6 +100,7 @@ SweepRow row_of(const std::filesystem::path& results) {
   if (row.status != "solved") return row;
   RowReader reader(row);
   reader.add_increment(*last);
+  reader.add_radians(summary.value("model", Json::object()));
   const Json histories = summary.value("history", Json::object());
   for (const auto& [name, history] : histories.items()) reader.add_numbers(name, history);
   return row;

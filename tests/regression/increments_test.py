@@ -2,10 +2,15 @@
 import json
 import os
 import subprocess
+import sys
 import unittest
 
+import numpy as np
 import support
-from support import scabo, summary_of
+from support import ROOT, scabo, summary_of
+
+sys.path.insert(0, str(ROOT / "python" / "scabo"))
+from plot import vtu  # noqa: E402  (its readers need NumPy alone)
 
 # A block pressed on a rigid floor and pushed to and fro; lengths in `length` m, forces in N.
 MODEL = """
@@ -66,6 +71,32 @@ class Increments(support.InTemporaryDirectory):
         limit = summary_of(results)["limit"]
         self.assertLessEqual(limit["solved"] * 150e6 * 0.01, 0.5 * 100e6 * 0.04 * (1 + 1e-9))  # T = mu N
         self.assertGreaterEqual(limit["beyond"] * 150e6 * 0.01, 0.5 * 100e6 * 0.04 * (1 - 1e-9))
+
+    def test_fields_of_steps_in_time_have_velocities_and_true_times(self):
+        """A bar that flies and a rigid block that turns, without any force; the step at rest before has the velocity 0."""
+        self.solve("""scabo: 1
+analysis: {plane: strain}
+materials: {rubber: {young: 5e6, poisson: 0.45, density: 1100}}
+bodies:
+  bar: {material: rubber, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.5}}
+  block: {rigid: true, density: 1000, shape: {rectangle: {corner: [4, 0], size: [2, 1]}}}
+  wall: {rigid: true, shape: {rectangle: {corner: [-3, 0], size: [1, 1]}}}
+supports: [{on: wall, fix: [x, y]}]
+initial: [{on: bar, velocity: [2, 1]}, {on: block, velocity: [0, 3], rotation: 0.5}]
+steps: [{dynamic: {duration: 0.02, step: 1e-3}, increments: 4}]
+""", "analysis.type=dynamic")
+        results = self.directory / "model.results"
+        for (time, name), end in zip(vtu.read_collection(results / "fields.pvd"), (0.005, 0.01, 0.015, 0.02), strict=True):
+            self.assertAlmostEqual(float(time), end, delta=1e-12)
+            mesh = vtu.read_grid(results / name, dimension=3)
+            velocity, body = mesh.point_data["velocity"], mesh.point_data["body"]
+            self.assertLess(abs(velocity[body == 1] - [2, 1, 0]).max(), 1e-9)
+            arm = mesh.points[body == 2] - [5, 0.5, 0]
+            turning = [0, 3, 0] + 0.5 * np.column_stack([-arm[:, 1], arm[:, 0], 0 * arm[:, 0]])
+            self.assertLess(abs(velocity[body == 2] - turning).max(), 1e-9)
+            self.assertEqual(abs(velocity[body == 3]).max(), 0.0)
+        self.solve(model(1))
+        self.assertNotIn("velocity", vtu.read_grid(results / "fields_0001.vtu").point_data)
 
     def test_where_states_change_there_are_more(self):
         increments = self.solve(model("auto"))

@@ -115,6 +115,14 @@ class Practice(support.InTemporaryDirectory):
         self.check("26_shaken_block", page=ROOT / "examples" / "26_shaken_block" / "README.md")
         self.assertLess(abs(self.history("26_shaken_block", ["parameters.friction=0.6"])[-1]["moved"]), 1e-8)
 
+    def test_shaken_wall(self):
+        """All stones above the damp course move as one, and those below it stay."""
+        self.check("27_shaken_wall", page=ROOT / "examples" / "27_shaken_wall" / "README.md")
+        rows = self.history("27_shaken_wall", [])
+        for row in rows:
+            self.assertLess(abs(row["top"] - row["upper"]), 1e-9)
+            self.assertLess(abs(row["lower"]), 1e-9)
+
 
     def test_press_fit_of_revolution(self):
         self.check("32_press_fit_of_revolution", page=ROOT / "examples" / "32_press_fit_of_revolution" / "README.md")

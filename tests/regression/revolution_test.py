@@ -54,6 +54,41 @@ class Revolution(support.InTemporaryDirectory):
         log = (self.directory / "tube.results" / "log.txt").read_text(encoding="utf-8")
         self.assertIn("forces are those of the whole circumference", log)
 
+    def test_every_table_says_whose_forces_these_are(self):
+        """Of the whole circumference, or of one radian: contact.csv, history.csv and sweep.csv by a column, the rest by a sentence."""
+        output = "output: {history: {force: push.reaction_y}}\n"
+        for forces, angle, words in (("whole", 2 * math.pi, "the whole circumference"), ("per_radian", 1.0, "one radian")):
+            text = FIT.replace("axisymmetric", f"axisymmetric, forces: {forces}") + STEPS + output
+            self.solve(forces, text)
+            results = self.directory / f"{forces}.results"
+            run = scabo("sweep", f"{forces}.yaml", "--vary", "contacts.fit.friction=0.1", "--quiet", cwd=self.directory)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            for table in (results / "contact.csv", results / "history.csv", self.directory / f"{forces}.sweep" / "sweep.csv"):
+                with open(table, newline="", encoding="utf-8") as file:
+                    angles = {float(row["forces_of_radians"]) for row in csv.DictReader(file)}
+                self.assertEqual(angles, {angle}, table)
+            self.assertEqual(summary_of(results)["model"]["forces_of"], words)
+            self.assertIn(f"forces are those of {words}", (results / "log.txt").read_text(encoding="utf-8"))
+        self.solve("plane", TUBE.replace("axisymmetric", "strain").replace("fix: y", "fix: [x, y]"))
+        for table in ("contact.csv", "history.csv"):
+            self.assertNotIn("radians", (self.directory / "plane.results" / table).read_text(encoding="utf-8"))
+
+    def test_elements_of_the_plane_are_taken_with_a_warning(self):
+        """A mesh file with CPS4, as Gmsh writes them; with CAX4 there is no warning, and nothing else differs."""
+        model = TUBE.replace("shape: {rectangle: {corner: [1, 0], size: [1, 2]}}, mesh: {size: 0.25}", "mesh: {file: KIND.inp, elements: fem}")
+        model = model[:model.index("output")]
+        found = {}
+        for kind in ("CPS4", "CAX4"):
+            (self.directory / f"{kind}.inp").write_text(
+                f"*NODE\n1, 1, 0\n2, 2, 0\n3, 2, 2\n4, 1, 2\n*ELEMENT, TYPE={kind}, ELSET=TUBE\n1, 1, 2, 3, 4\n"
+                "*SURFACE, NAME=BOTTOM, TYPE=ELEMENT\nTUBE, S1\n*SURFACE, NAME=TOP, TYPE=ELEMENT\nTUBE, S3\n", encoding="utf-8")
+            reactions = self.solve(kind, model.replace("KIND", kind).replace("tube.top", "tube.TOP").replace("tube.bottom", "tube.BOTTOM"))["reactions"]
+            warnings = summary_of(self.directory / f"{kind}.results")["warnings"]
+            found[kind] = (list(reactions.values())[0][1], [text for text in warnings if "half section of a body of revolution" in text])
+        self.assertEqual(len(found["CPS4"][1]), 1)
+        self.assertEqual(found["CAX4"][1], [])
+        self.assertEqual(found["CPS4"][0], found["CAX4"][0])
+
     def test_springs_on_an_edge_carry_the_whole_circumference(self):
         text = TUBE.replace("supports: [{on: tube.bottom, fix: y}]", "springs: [{name: bed, on: tube.bottom, k_n: 1e9}]")
         self.solve("bed", text.replace("top: tube.top_right.uy", "low: tube.bottom_left.uy, bed: bed.reaction_y"))
@@ -120,6 +155,10 @@ class Revolution(support.InTemporaryDirectory):
         self.assertIn("hoop stress", [quantity["name"] for quantity in content["field"]["quantities"]])
         self.assertAlmostEqual(content["field"]["low"][0], -2.0)
         self.assertIn("Forces are those of the whole circumference.", content["verdict"]["text"])
+        self.assertNotIn("forces_of_radians", [column["name"] for column in content["history"]["columns"]])
+        self.solve("radian", TUBE.replace("axisymmetric", "axisymmetric, forces: per_radian"))
+        scabo("report", "radian.results", cwd=self.directory, SCABO_PYTHON=sys.executable)
+        self.assertIn("Forces are those of one radian.", (self.directory / "radian.report.html").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ std::vector<std::map<std::string, double>> contact_rows(const analysis::Incremen
   header.pop_back();
   const std::vector<std::string> names = cells_of(header);
   std::vector<std::map<std::string, double>> rows;
-  std::istringstream text(result::contact_table_rows(increment));
+  std::istringstream text(result::contact_table_rows(increment, {}));
   for (std::string line; std::getline(text, line);) {
     const std::vector<std::string> cells = cells_of(line);
     EXPECT_EQ(cells.size(), names.size());

@@ -176,13 +176,16 @@ Hertz hertz_contact(double size, const char* sides, bool ball_first = false) {
 }
 
 TEST(RevolutionExact, HertzBallOnABlock) {
-  const Hertz coarse = hertz_contact(0.2, "ground.surface, ball.face"),
-              fine = hertz_contact(0.05, "ground.surface, ball.face");
+  std::array<Hertz, 3> of;
+  for (std::size_t i = 0; i < 3; ++i) of[i] = hertz_contact(std::array{0.2, 0.1, 0.05}[i], "ground.surface, ball.face");
+  const Hertz& fine = of[2];
   EXPECT_NEAR(fine.force, 1.0, 1e-5);
   EXPECT_NEAR(fine.pressure, 1.0, 1e-3);
   EXPECT_NEAR(fine.approach, 1.0, 1e-3);
   EXPECT_NEAR(fine.radius, 1.0, 1e-3);
-  EXPECT_GT(std::abs(coarse.approach - 1.0), 4.0 * std::abs(fine.approach - 1.0));
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_GT(std::abs(of[i].approach - 1.0), 2.0 * std::abs(of[i + 1].approach - 1.0));
+  for (std::size_t i = 1; i < 3; ++i) EXPECT_GT(std::abs(of[0].pressure - 1.0), 4.0 * std::abs(of[i].pressure - 1.0));
 }
 
 TEST(RevolutionExact, OrderOfBodiesAndSidesChangesNothing) {
@@ -233,12 +236,16 @@ std::string heated(double inner, double height, double size, const std::string& 
 }
 
 TEST(RevolutionExact, HeatedDisc) {
-  // Thin: radial stress 1e-3 (1 - r), hoop stress 1e-3 (1 - 2 r), u(1) = 4e-3.
-  const auto solution = run(heated(0.0, 0.01, 0.25, "{on: ring.bottom, fix: y}"));
-  EXPECT_NEAR(values_at(solution, 0, {1.0, 0.005}).u.x(), 4e-3, 1e-3 * 4e-3);
-  EXPECT_NEAR(values_at(solution, 0, {1.0, 0.005}).hoop, -1e-3, 1e-6);
-  EXPECT_NEAR(values_at(solution, 0, {0.5, 0.005}).radial, 0.5e-3, 1e-6);
-  EXPECT_NEAR(values_at(solution, 0, {0.0, 0.005}).hoop, 1e-3, 1.5e-6);
+  // Thin: radial stress 1e-3 (1 - r), hoop stress 1e-3 (1 - 2 r), u(1) = 4e-3. The displacement is a polynomial of
+  // second order, so that the mesh does not matter; what is left is of the order of the thickness, and of the stress
+  // that the kink of T on the axis causes within a thickness of it.
+  for (const double size : {0.25, 0.125}) {
+    const auto solution = run(heated(0.0, 0.002, size, "{on: ring.bottom, fix: y}"));
+    EXPECT_NEAR(values_at(solution, 0, {1.0, 0.001}).u.x(), 4e-3, 1e-5 * 4e-3);
+    EXPECT_NEAR(values_at(solution, 0, {1.0, 0.001}).hoop, -1e-3, 1e-7);
+    EXPECT_NEAR(values_at(solution, 0, {0.5, 0.001}).radial, 0.5e-3, 1e-7);
+    EXPECT_NEAR(values_at(solution, 0, {0.0, 0.001}).hoop, 1e-3, 1e-6);
+  }
 }
 
 TEST(RevolutionExact, HeatedTube) {
@@ -249,7 +256,7 @@ TEST(RevolutionExact, HeatedTube) {
   };
   const double hoop = 1e-3 / 0.7 * (2.0 / 3.0 * I(2.0) - 5.0);
   std::vector<double> errors, of_stress;
-  for (const double size : {0.25, 0.125, 0.0625}) {
+  for (const double size : {0.25, 0.125, 0.0625, 0.03125}) {
     const auto solution = run(heated(1.0, 0.25, size, "{on: ring.bottom, fix: y}, {on: ring.top, fix: y}"));
     const Values inner = values_at(solution, 0, {1.0, 0.125});
     EXPECT_NEAR(inner.u.x(), u(1.0), 1e-3 * u(1.0));
@@ -258,8 +265,8 @@ TEST(RevolutionExact, HeatedTube) {
     of_stress.push_back(std::abs(inner.hoop - hoop));
   }
   EXPECT_GT(errors[0], 8.0 * errors[1]);
-  EXPECT_GT(of_stress[0], 3.0 * of_stress[1]);
-  EXPECT_LT(of_stress[2], 2e-3 * std::abs(hoop));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_GT(of_stress[i], 3.0 * of_stress[i + 1]);
+  EXPECT_LT(of_stress.back(), 1e-3 * std::abs(hoop));
 }
 
 // --- Conical seats and sides that are divided differently ---

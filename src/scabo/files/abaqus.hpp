@@ -26,7 +26,8 @@ using ReadInclude = std::function<std::optional<IncludedFile>(const std::string&
 /// facet sets. Trusses and beams without a section (as Gmsh writes curves) become facet sets. Each instance of a part
 /// has nodes and elements of its own; its sets are `Set`, or `Instance.Set` where another set is called so. Throws
 /// InputError.
-ImportedMesh parse_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include = {});
+ImportedMesh parse_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include = {},
+                          std::vector<std::string>* types = nullptr);
 
 struct DeckPlace {
   std::string file;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scabo/files/abaqus_element.hpp"
 
 namespace scabo::files {
@@ -118,6 +120,7 @@ void AbaqusReader::elements(const AbaqusKeyword& key) {
     cell_numbers_.push_back(number);
     if (whole_) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
     shell_.push_back(element->family == ElementFamily::shell);
+    if (std::find(types_.begin(), types_.end(), type) == types_.end()) types_.push_back(type);
   }
   if (key.has("ELSET")) add_numbers(element_sets_.named(name), numbers);
 }

@@ -26,6 +26,8 @@ class AbaqusReader {
 
   ImportedMesh read();
   AbaqusDeck read_deck();
+  /// Of the cells, each once, as they are written in upper case.
+  const std::vector<std::string>& types() const { return types_; }
 
  private:
   /// A number that a set names; those of GENERATE need not exist.
@@ -109,6 +111,7 @@ class AbaqusReader {
   std::int64_t entries_ = 0;
   std::vector<std::int64_t> cell_numbers_;
   std::vector<bool> shell_;  // per cell
+  std::vector<std::string> types_;
   std::vector<LineElement> line_elements_;
   std::vector<std::int64_t> discrete_;
   AbaqusSets node_sets_, element_sets_;

@@ -163,8 +163,12 @@ AbaqusDeck parse_abaqus_deck(std::string_view text, const std::string& file, con
   return AbaqusReader(text, file, read_include).read_deck();
 }
 
-ImportedMesh parse_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include) {
-  return AbaqusReader(text, file, read_include).read();
+ImportedMesh parse_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include,
+                          std::vector<std::string>* types) {
+  AbaqusReader reader(text, file, read_include);
+  ImportedMesh mesh = reader.read();
+  if (types) *types = reader.types();
+  return mesh;
 }
 
 }  // namespace scabo::files

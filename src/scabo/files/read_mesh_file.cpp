@@ -87,13 +87,13 @@ MeshFormat format_of(std::string_view text, const std::string& path) {
 
 }  // namespace
 
-ImportedMesh parse_mesh(std::string_view bytes, const std::string& path) {
+ImportedMesh parse_mesh(std::string_view bytes, const std::string& path, std::vector<std::string>* types) {
   const std::string_view text = readable(bytes, path);
   switch (format_of(text, path)) {
     case MeshFormat::gmsh:
       return parse_gmsh(text, path);
     case MeshFormat::abaqus:
-      return parse_abaqus(text, path, read_beside);
+      return parse_abaqus(text, path, read_beside, types);
     case MeshFormat::vtu:
       return parse_vtu(text, path);
   }
@@ -119,6 +119,8 @@ AbaqusDeck read_deck_file(const std::string& path) {
 
 ImportedSolidMesh read_solid_mesh_file(const std::string& path) { return parse_solid_mesh(bytes_at(path), path); }
 
-ImportedMesh read_mesh_file(const std::string& path) { return parse_mesh(bytes_at(path), path); }
+ImportedMesh read_mesh_file(const std::string& path, std::vector<std::string>* types) {
+  return parse_mesh(bytes_at(path), path, types);
+}
 
 }  // namespace scabo::files

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scabo/files/imported_mesh.hpp"
 #include "scabo/files/solid_abaqus.hpp"
@@ -11,10 +12,11 @@ namespace scabo::files {
 
 /// Reads a .msh, .inp or .vtu file. The content decides where it shows its format, else the extension. Throws
 /// InputError with the file, the line (text) or the byte or cell (binary), what is wrong and how to correct it.
-ImportedMesh read_mesh_file(const std::string& path);
+/// `types`: of the cells, as Abaqus calls them (CPS4, CAX8R); none of other formats.
+ImportedMesh read_mesh_file(const std::string& path, std::vector<std::string>* types = nullptr);
 
 /// The same for the bytes of a file of that name; *INCLUDE is read beside it.
-ImportedMesh parse_mesh(std::string_view bytes, const std::string& path);
+ImportedMesh parse_mesh(std::string_view bytes, const std::string& path, std::vector<std::string>* types = nullptr);
 
 /// The same of tetrahedra.
 ImportedSolidMesh read_solid_mesh_file(const std::string& path);

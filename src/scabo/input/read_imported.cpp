@@ -9,6 +9,7 @@
 
 #include "scabo/files/cad.hpp"
 #include "scabo/files/read_mesh_file.hpp"
+#include "scabo/files/text_cursor.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/model/imported_body.hpp"
@@ -25,6 +26,28 @@ std::string as_given(std::string text, const std::string& path, const std::strin
   return text;
 }
 
+/// Elements of the plane in bodies of revolution, or the other way round: the type in the file says how they were
+/// meant.
+void compare_types(Reading& reading, const Value& value, const std::string& path, const std::string& name,
+                   const std::vector<std::string>& types) {
+  const bool revolved = reading.model.analysis.revolved();
+  const auto other = std::find_if(types.begin(), types.end(), [&](const std::string& type) {
+    return type.starts_with("CAX") != revolved && type.starts_with("C");
+  });
+  if (other == types.end()) return;
+  const std::string type = files::printable(*other);
+  if (revolved)
+    reading.model.warnings.push_back(
+        {WarningKind::input, path + " types",
+         fmt::format("'{}' has elements of the plane (type {}), which are taken as the half section of a body of "
+                     "revolution: write CAX{} there if that is meant",
+                     name, type, type.substr(3))});
+  else
+    reading.report.error(value, fmt::format("'{}' has elements of bodies of revolution (type {}): write analysis: "
+                                            "{{plane: axisymmetric}}, or CPS{} or CPE{} in the file",
+                                            name, type, type.substr(3), type.substr(3)));
+}
+
 /// The content of a file, which is read once, or meshed once for each choice of `cad`; null if it is broken.
 Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name,
                   const std::optional<files::CadOptions>& cad) {
@@ -37,9 +60,11 @@ Mesh mesh_of_file(Reading& reading, const Value& value, const std::string& name,
   }
   reading.model.files.push_back(path);
   try {
-    files::ImportedMesh mesh = cad ? files::mesh_cad_file(path, *cad) : files::read_mesh_file(path);
+    std::vector<std::string> types;
+    files::ImportedMesh mesh = cad ? files::mesh_cad_file(path, *cad) : files::read_mesh_file(path, &types);
     for (const std::string& remark : mesh.remarks)
       reading.model.warnings.push_back({WarningKind::input, path, as_given(remark, path, name)});
+    compare_types(reading, value, path, name, types);
     found->second = std::make_shared<const files::ImportedMesh>(std::move(mesh));
   } catch (const InputError& error) {
     reading.report.error(value, as_given(format_diagnostic(error.file(), error.diagnostics().front()), path, name));

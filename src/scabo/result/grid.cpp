@@ -81,6 +81,7 @@ GridFields without_bodies(const Grid& grid, const Fields& fields, const std::vec
     rest.grid.add_cell(static_cast<CellType>(grid.types[c]), of_cell, grid.cell_body[c]);
   }
   rest.fields.displacement = kept(fields.displacement, 3, points);
+  if (!fields.velocity.empty()) rest.fields.velocity = kept(fields.velocity, 3, points);
   rest.fields.stress = kept(fields.stress, 6, points);
   for (const auto member :
        {&Fields::stress_xx, &Fields::stress_yy, &Fields::stress_xy, &Fields::stress_zz, &Fields::principal_1,

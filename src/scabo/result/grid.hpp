@@ -45,6 +45,7 @@ struct Grid {
 /// compared with coordinates; for the other fields seven digits are sufficient.
 struct Fields {
   std::vector<double> displacement;  // 3 per point, z = 0
+  std::vector<double> velocity;      // likewise; empty: the model has no steps in time
   std::vector<float> stress;         // 6 per point: xx, yy, zz, xy, yz, xz (ParaView's order)
   std::vector<float> stress_xx, stress_yy, stress_xy, stress_zz;
   std::vector<float> principal_1, principal_2, principal_3;

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "scabo/analysis/state/quantities.hpp"
+#include "scabo/result/contact_table.hpp"
 
 namespace scabo::result {
 
@@ -77,7 +78,7 @@ std::vector<std::optional<double>> numbers_in(std::string_view line) {
 
 }  // namespace
 
-History::History(const model::Model& model) : items_(model.output.history) {
+History::History(const model::Model& model) : analysis_(model.analysis), items_(model.output.history) {
   for (const model::HistoryItem& item : items_)
     for (std::string& column : columns_of(item)) columns_.push_back({std::move(column), {}, {}, {}});
 }
@@ -85,6 +86,7 @@ History::History(const model::Model& model) : items_(model.output.history) {
 std::string History::header() const {
   std::string line(history_mark.substr(0, history_mark.size() - 1));
   for (const HistoryExtremes& column : columns_) line += "," + column.column;
+  if (analysis_.revolved()) line += radians_column;
   return line + "\n";
 }
 
@@ -187,18 +189,18 @@ std::string History::row(const analysis::StaticSolution& solution, const analysi
     add(force.dot(along));
     add(moment);
   }
-  line.push_back('\n');
-  return fmt::to_string(line);
+  return fmt::to_string(line) + radians_field(analysis_) + '\n';
 }
 
 void History::restore(std::string_view table) {
   table.remove_prefix(std::min(table.size(), table.find('\n') + 1));  // the header
+  const std::size_t after = analysis_.revolved() ? 1 : 0;
   while (!table.empty()) {
     const auto end = table.find('\n');
     const std::vector<std::optional<double>> numbers = numbers_in(table.substr(0, end));
     table.remove_prefix(end == std::string_view::npos ? table.size() : end + 1);
     constexpr std::size_t before = 3;
-    if (numbers.size() != columns_.size() + before || !numbers[0] || !numbers[1]) continue;
+    if (numbers.size() != before + columns_.size() + after || !numbers[0] || !numbers[1]) continue;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (numbers[c + before])
         take(c, {*numbers[c + before], static_cast<int>(*numbers[0]), static_cast<int>(*numbers[1]),

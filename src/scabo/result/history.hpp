@@ -61,6 +61,7 @@ class History {
                                       const analysis::IncrementResult& increment) const;
   void take(std::size_t column, const HistoryExtremes::Value& here);
 
+  model::Analysis analysis_;
   std::vector<model::HistoryItem> items_;
   std::vector<HistoryExtremes> columns_;
   std::optional<PointEvaluation> evaluation_;  // of all places and sections; empty before the first increment

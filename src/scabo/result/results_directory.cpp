@@ -127,7 +127,7 @@ void ResultsDirectory::open_files(const model::Model& model, const analysis::Wri
     else
       collection.emplace(path_ / name);
   };
-  open("contact.csv", contact_table_, contact_table_header);
+  open("contact.csv", contact_table_, contact_table_header_of(model.analysis));
   open("convergence.csv", convergence_table_, convergence_table_header);
   if (model::has_growth(model)) open("cracks.csv", crack_table_, crack_table_header);
   if (history_.wanted()) open("history.csv", history_table_, history_.header());
@@ -233,7 +233,7 @@ void ResultsDirectory::add_files(const analysis::StaticSolution& solution, const
     finished_ = number;
     if (with_fields) write_fields(solution, increment, fields);
     const Stopwatch writing(write_seconds_);
-    contact_table_->append(contact_table_rows(increment));
+    contact_table_->append(contact_table_rows(increment, solution.model.analysis));
     if (crack_table_) crack_table_->append(crack_table_rows(increment));
     if (history_table_) history_table_->append(history_.row(solution, increment));
     for (std::size_t i = 0; i < points.size(); ++i) point_files_[i].file->append(points[i]);
@@ -253,6 +253,8 @@ std::string ResultsDirectory::fields_of_bodies(const analysis::StaticSolution& s
     const Stopwatch recovering(recover_seconds_);
     if (!recovery_) recovery_.emplace(solution);
     fields = recovery_->fields(solution, increment.fields);
+    if (output_.fields.displacement && model::is_dynamic(solution.model))
+      fields->velocity = recovery_->fields(solution, analysis::with_velocities(increment).fields).displacement;
   }
   const Stopwatch writing(write_seconds_);
   if (increment.absent.empty())

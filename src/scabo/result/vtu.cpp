@@ -174,6 +174,7 @@ constexpr std::string_view components_of_stress =
 template <typename To>
 void add_fields(To& document, const Fields& fields, const model::OutputFields& wanted) {
   if (wanted.displacement) document.add_field("displacement", 3, fields.displacement);
+  if (wanted.displacement && !fields.velocity.empty()) document.add_field("velocity", 3, fields.velocity);
   if (wanted.stress) {
     document.add_field("stress", 6, fields.stress, components_of_stress);
     document.add_field("stress_xx", 1, fields.stress_xx);

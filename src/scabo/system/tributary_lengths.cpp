@@ -212,7 +212,8 @@ std::vector<double> tributary_areas(int contact, const model::Model& model, cons
   for (std::size_t i = 0; i < areas.size(); ++i) {
     if (is_on_axis(interface.pairs[i], interface, model)) {
       const double radius = 0.5 * distance_from_others(i, interface);
-      areas[i] = std::isfinite(radius) ? std::numbers::pi * radius * radius : 1.0;
+      const double disc = std::isfinite(radius) ? std::numbers::pi * radius * radius : 1.0;
+      if (areas[i] <= 1e-9 * disc) areas[i] = disc;  // order 2
     }
     ensure(areas[i] > 0.0, "a node of a contact has no tributary area");
     if (model.analysis.per_radian) areas[i] /= 2.0 * std::numbers::pi;

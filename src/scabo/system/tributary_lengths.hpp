@@ -27,9 +27,8 @@
 //
 //     A_i = | int N_i 2 pi r x,eta d eta |                                                                   (3)
 //
-// which on the axis is 0 at order 2. A pair there has the area of the disc that is nearer to it than to the next pair,
-// and its pressure is not its force over that area, but extrapolated from the pairs beside it
-// (analysis/state/describe.cpp).
+// which on the axis is 0 at order 2: a pair there then has the area of the disc that is nearer to it than to the next
+// pair. Pressure on the axis is extrapolated from the pairs beside it (analysis/state/describe.cpp).
 #pragma once
 
 #include <vector>
