@@ -427,7 +427,7 @@ TEST(Springs, ThatAreTooSoftBesideAContactAreNotSolved) {
   for (const double k : {1.0, 1e-2, 1e-6}) {
     const auto solution = run(block_with_a_spring(k));
     EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged) << k;
-    EXPECT_NE(solution.reason.find("the springs of body 'block' are so soft"), std::string::npos) << solution.reason;
+    EXPECT_NE(solution.reason.find("the springs of body 'block' give way "), std::string::npos) << solution.reason;
   }
 }
 
@@ -441,7 +441,7 @@ TEST(Springs, ThatAreTooSoftAreThoseThatAreNamed) {
   replace("on: floor,", "on: floor.bottom,");
   const auto solution = run(model);
   EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
-  EXPECT_NE(solution.reason.find("the springs of body 'block' are so soft"), std::string::npos) << solution.reason;
+  EXPECT_NE(solution.reason.find("the springs of body 'block' give way "), std::string::npos) << solution.reason;
 }
 
 // A spring that is softer by far than the blocks, and a crack that slips at first and sticks then: gaps count by the
