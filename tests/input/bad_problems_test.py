@@ -136,14 +136,32 @@ class BadProblems(unittest.TestCase):
         for size in (0, 1, 7, 8, 100, 512, len(whole) // 2, len(whole) - 1):
             with self.subTest(size=size):
                 self.file.write_bytes(whole[:size])
-                self.expect("")
+                self.expect("is empty" if size == 0 else "is not an HDF5 file: the signature" if size < 8 else
+                            "the HDF5 file cannot be opened: HDF5 says 'truncated file: eof = " if size >= 512 else
+                            "the HDF5 file cannot be opened: HDF5 says '")
+
+    def test_what_hdf5_cannot_read(self):
+        """The message says what HDF5 says."""
+        name = "fclib_local/vectors/q"
+        for change, message in ((lambda file: file.create_group(name), "cannot be read as a dataset: HDF5 says 'not a dataset'"),
+                                (lambda file: file.create_dataset(name, data=np.zeros(4, "f8, f8")), "must hold numbers, not data of another kind"),
+                                (lambda file: file.create_dataset(name, (4,), "f8", external=[("missing.raw", 0, 32)]),
+                                 "cannot be read as a dataset: HDF5 says '")):
+            with self.subTest(message=message):
+                write_local(self.file, W, Q, MU)
+                with h5py.File(self.file, "r+") as file:
+                    del file[name]
+                    change(file)
+                self.expect(f"{name}: {message}")
 
     def test_files_that_are_no_problem(self):
         folder = self.file.parent
         self.expect("no such file", folder / "missing.hdf5")
         self.expect("is a directory: name a problem file", folder)
         (folder / "text.hdf5").write_text("2\n1\n")
-        self.expect("is not an HDF5 file", folder / "text.hdf5")
+        self.expect("is not an HDF5 file: the signature with which one begins is missing", folder / "text.hdf5")
+        (folder / "empty.hdf5").write_text("")
+        self.expect("is empty", folder / "empty.hdf5")
         (folder / "empty.dat").write_text("")
         self.expect("is empty", folder / "empty.dat")
         with h5py.File(self.file, "w") as file:

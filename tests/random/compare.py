@@ -7,6 +7,7 @@ step resultants within 5 % of the largest one. A joint that breaks brittly does 
 import math
 
 EQUAL, CLOSE = 1e-8, 0.05
+NOTHING = 1e-100  # N, of bodies that nothing touches yet: no force but its rounding
 PLACE = 1e-8  # m, of bodies of about a metre
 SLOPE = math.hypot(1.0, 0.5)  # a pair may be aside by half of what it is apart (docs/methods/11_matching.md)
 
@@ -37,7 +38,7 @@ def worst(one, other, strict):
         largest = max([largest, *sizes(increment)])
         time = increment["step"], increment["increment"]
         twin = by_time.get(time) if strict else ends.get(increment["step"]) if increment["end"] else None
-        if twin is None or largest == 0:
+        if twin is None or largest <= NOTHING:
             continue
         found += list(of_increment(one, other, increment, twin, limit * largest, largest))
         if strict:

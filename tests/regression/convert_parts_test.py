@@ -1,4 +1,5 @@
 """Decks in several files (*INCLUDE) and of several parts (*INSTANCE): they mean the same as a deck written out."""
+import os
 import re
 
 import support
@@ -65,6 +66,13 @@ class Included(Converting):
         run = self.convert(SQUARE + HELD + STATIC + "*DLOAD\n*INCLUDE, INPUT=none.dlo\n" + END)
         self.assertIn("the included file 'none.dlo' cannot be read", run.stderr)
         self.assertEqual(run.returncode, 1)
+        self.assertIn("put it beside this file", run.stderr)
+        (self.directory / "folder.inc").mkdir()
+        os.mkfifo(self.directory / "pipe.inc")
+        for name, why in (("folder.inc", "it is a directory; name a file"), ("pipe.inc", "it is a pipe or a device")):
+            run = self.convert(SQUARE + HELD + STATIC + f"*DLOAD\n*INCLUDE, INPUT={name}\n" + END)
+            self.assertIn(f"the included file '{name}' cannot be read; {why}", run.stderr)
+            self.assertEqual(run.returncode, 1)
         (self.directory / "round.inc").write_text("*INCLUDE, INPUT=round.inc\n")
         run = self.convert(SQUARE + HELD + STATIC + "*DLOAD\n*INCLUDE, INPUT=round.inc\n" + END)
         self.assertIn("round.inc:1:1: 'round.inc' is included within itself", run.stderr)
@@ -219,8 +227,8 @@ class Parts(Converting):
         ("PART=Punch", "PART=Press"): "there is no part 'Press'",
         ("*INSTANCE, NAME=Punch-1", "*INSTANCE, NAME=block-1"): "there are two instances 'block-1'",
         ("*PART, NAME=Punch", "*PART, NAME=BLOCK"): "there are two parts 'BLOCK'",
-        ("Punch-1.ALL_TOP", "Punch-1.ALL_NONE"): "the pressure acts on no side",
-        ("Punch-1.ALL_TOP", "Punch-2.ALL_TOP"): "the pressure acts on no side",
+        ("Punch-1.ALL_TOP", "Punch-1.ALL_NONE"): "there is no surface 'Punch-1.ALL_NONE' with sides of plane elements",
+        ("Punch-1.ALL_TOP", "Punch-2.ALL_TOP"): "there is no surface 'Punch-2.ALL_TOP' with sides of plane elements",
         ("*DSLOAD\nPunch-1.ALL_TOP, P, 1e6", "*CLOAD\nPunch-1.25, 2, 1."): "node Punch-1.25, which belongs to no plane element",
         ("*DSLOAD\nPunch-1.ALL_TOP, P, 1e6", "*CLOAD\n24, 2, 1."): "node 24, which belongs to no plane element",
         ("INSTANCE=Punch-1, GENERATE", "INSTANCE=Punch-9, GENERATE"): "there is no instance 'Punch-9'",

@@ -230,6 +230,21 @@ LOST = {
     "*AMPLITUDE, NAME=a, DEFINITION=PERIODIC\n1, 2\n": "only an *AMPLITUDE with a name and a table",
     "*SOLID SECTION, ELSET=BODY, MATERIAL=brass\n": "there is no material 'brass'",
     "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n1.\n*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n2.\n": "a model has one thickness",
+    "*SOLID SECTION, ELSET=BODY, MATERIAL=steel, ORIENTATION=O\n": "there is no usable *ORIENTATION 'O'",
+    "*MATERIAL, NAME=Steel\n*ELASTIC\n1e9, 0.3\n": "there is another *MATERIAL 'Steel' before this one",
+    "*ELASTIC\n1e9, 0.3\n": "*ELASTIC of material 'steel' stands before this one too",
+    "*DENSITY\n1000.\n": "*DENSITY of material 'steel' stands before this one too",
+}
+
+TWICE = {
+    "*MATERIAL, NAME=brass\n*ELASTIC\n1e9, 0.3\n*SOLID SECTION, ELSET=BODY, MATERIAL=brass\n":
+        "element 1 has material 'steel' by a *SOLID SECTION before this one",
+    "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*AMPLITUDE, NAME=a\n0., 0., 1., 2.\n": "there is another *AMPLITUDE 'a' before this one",
+    "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n*ORIENTATION, NAME=o\n0., 1., 0., -1., 0., 0.\n":
+        "there is another *ORIENTATION 'o' before this one",
+    "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.3\n*SURFACE INTERACTION, NAME=i\n*FRICTION\n0.2\n":
+        "there is another *SURFACE INTERACTION 'i' before this one",
+    "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.3\n*FRICTION\n0.2\n": "*FRICTION of this *SURFACE INTERACTION stands before this one too",
 }
 
 LOST_IN_STEP = {
@@ -288,6 +303,34 @@ class Messages(Converting):
                 begin = self.line_of(deck, part)
                 self.assertTrue(begin <= first < begin + part.count("\n") + 1, run.stderr)
                 self.assertFalse((self.directory / "part.yaml").exists())
+
+    def test_what_is_given_twice(self):
+        """Programs differ in which of the two counts."""
+        for part, message in TWICE.items():
+            with self.subTest(part=part):
+                run = self.convert(SQUARE + part + HELD + PRESSED)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertRegex(run.stderr, rf"(?m)^part\.inp:\d+: (?!warning).*{re.escape(message)}")
+
+    def test_elements_and_sets_that_are_not_there(self):
+        """Messages name the line, and what stands in it."""
+        for line, message in (("*DLOAD\n77, P1, 5.\n", "*DLOAD: element 77 is not in the file"),
+                              ("*DLOAD\nNOWHERE, P1, 5.\n", "*DLOAD: there is no element set 'NOWHERE'"),
+                              ("*DLOAD\n, P1, 5.\n", "*DLOAD: the line names no element or element set"),
+                              ("*DLOAD\n77, BX, 5.\n", "element 77 is not in the file"),
+                              ("*DLOAD\nNOWHERE, GRAV, 9.81, 0., -1.\n", "there is no element set 'NOWHERE'"),
+                              ("*DSLOAD\nNOWHERE, P, 5.\n", "there is no surface 'NOWHERE' with sides of plane elements")):
+            with self.subTest(line=line):
+                deck = SQUARE + HELD + PRESSED.replace(END, line + END)
+                run = self.convert(deck)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertRegex(run.stderr, rf"(?m)^part\.inp:{self.line_of(deck, line) + 1}(:1)?: {re.escape(message)}")
+
+    def test_times_that_are_negative(self):
+        for times in ("0.1, -1.", "-0.1, 1.", "0.1, 1., -1e-5"):
+            run = self.convert(SQUARE + HELD + PRESSED.replace("*STATIC\n", f"*STATIC\n{times}\n"))
+            self.assertEqual(run.returncode, 1, run.stderr)
+            self.assertIn("an increment or the period of *STATIC is negative", run.stderr)
 
     def test_meshes_that_are_not_taken(self):
         for mesh, message in REFUSED_MESHES.items():

@@ -245,6 +245,8 @@ std::vector<GoalCase> goal_cases() {
   cases.push_back({"Ring_quadtree", ring("quadtree", 0.25, 2), "ring.vertex_1.ux", widening});
   cases.push_back({"Ring_polygons", ring("polygons", 0.25, 2), "ring.vertex_1.ux", widening});
   cases.push_back({"Ring_linear", ring("quadtree", 0.25, 1), "ring.vertex_1.ux", widening});
+  // At the outer arc, 2 p a^2 b / (E (b^2 - a^2)): cells of order 1 that arcs cut are divided for the bar.
+  cases.push_back({"Ring_linear_refined", ring("quadtree", 0.4, 1), "ring.vertex_2.ux", 4e-3 / 3.0, 1e-3});
   cases.push_back(
       {"Crack_fem", edge_crack("fem", 1, 0.4, 0.125, 2), "plate.flaw.end.K_I", 2.11276 * std::sqrt(0.4 * pi), 1e-3});
   cases.push_back(

@@ -341,8 +341,11 @@ class Converter {
     for (const DeckBodyLoad& load : content_.body_loads) {
       const auto cells = cells_named(deck_, load.set);
       if (!cells) {
-        remarks_.essential(load.x.at,
-                           fmt::format("there is no element set '{}'; correct its name", files::printable(load.set)));
+        const auto meaning = meaning_of(deck_, load.set, DeckNumbers::elements);
+        const std::string name = files::printable(load.set);
+        remarks_.essential(load.x.at, meaning && !meaning->number
+                                          ? fmt::format("there is no element set '{}'; correct its name", name)
+                                          : fmt::format("element {} is not in the file", name));
         continue;
       }
       std::vector<std::size_t> in_body(bodies_.bodies.size()), of_body(bodies_.bodies.size());

@@ -17,6 +17,10 @@ using files::upper;
 bool ContactReader::read(const DeckBlock& block, bool in_step) {
   if (block.name == "SURFACEINTERACTION") {
     interaction_ = upper(parameter(block, "NAME"));
+    laws_.clear();
+    if (content_.interactions.contains(interaction_))
+      remarks_.essential(block.at, fmt::format("there is another {} '{}' before this one; give each a name of its own",
+                                               block.written, files::printable(parameter(block, "NAME"))));
     content_.interactions[interaction_].name = parameter(block, "NAME");
   } else if (block.name == "SURFACEBEHAVIOR") {
     surface_behavior(block);
@@ -27,6 +31,10 @@ bool ContactReader::read(const DeckBlock& block, bool in_step) {
   } else {
     return false;
   }
+  if ((block.name == "SURFACEBEHAVIOR" || block.name == "FRICTION") && !laws_.insert(block.name).second)
+    remarks_.essential(block.at, fmt::format("{} of this *SURFACE INTERACTION stands before this one too; leave one "
+                                             "of them",
+                                             block.written));
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +32,8 @@ class ContactReader {
   DeckContent& content_;
   Remarks& remarks_;
   Nodes nodes_;
-  std::string interaction_;  ///< the last one, in upper case
+  std::string interaction_;     ///< the last one, in upper case
+  std::set<std::string> laws_;  ///< keywords of its laws that have been read
 };
 
 }  // namespace scabo::convert

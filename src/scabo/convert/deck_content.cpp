@@ -119,6 +119,8 @@ class ContentReader {
     step.period = number(remarks_, line, 1, "the period of *STATIC", 1.0).value_or(1.0);
     step.smallest = number(remarks_, line, 2, "the smallest increment of *STATIC", 0.0).value_or(0.0);
     step.largest = number(remarks_, line, 3, "the largest increment of *STATIC", 0.0).value_or(0.0);
+    if (std::min({step.first, step.period, step.smallest, step.largest}) < 0.0)
+      remarks_.essential(line.at, "an increment or the period of *STATIC is negative; correct it");
     if (!(step.period > 0.0)) step.period = 1.0;
     if (!(step.first > 0.0) || step.first > step.period) step.first = step.period;
   }
@@ -371,9 +373,9 @@ class ContentReader {
                                          "give a *SURFACE, TYPE=ELEMENT",
                                          files::printable(line.fields[0])));
         else if (!sides)
-          remarks_.essential(
-              line.at, fmt::format("the pressure acts on no side of a plane element ('{}') and is lost; correct it",
-                                   files::printable(line.fields[0])));
+          remarks_.essential(line.at, fmt::format("there is no surface '{}' with sides of plane elements, and the "
+                                                  "pressure on it is lost; correct its name",
+                                                  files::printable(line.fields[0])));
         else if (value)
           press(*sides, *value, *amplitude, line);
       } else if (label == "GRAV") {

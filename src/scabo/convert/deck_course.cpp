@@ -1,9 +1,12 @@
 #include "scabo/convert/deck_course.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/files/abaqus_lines.hpp"
+#include "scabo/files/text_cursor.hpp"
 
 namespace scabo::convert {
 
@@ -74,7 +77,10 @@ std::map<std::string, Amplitude> read_amplitudes(const files::AbaqusDeck& deck, 
       remarks.essential(block.at, "an *AMPLITUDE needs pairs of time and value, the times ascending; correct it");
       usable = false;
     }
-    if (usable) amplitudes[name] = std::move(amplitude);
+    if (usable && !amplitudes.emplace(name, std::move(amplitude)).second)
+      remarks.essential(block.at, fmt::format("there is another *AMPLITUDE '{}' before this one; give each a name of "
+                                              "its own",
+                                              files::printable(parameter(block, "NAME"))));
   }
   return amplitudes;
 }

@@ -81,6 +81,21 @@ std::string material_line(const DeckMaterial& material, double angle, const std:
   return fmt::format("  {}: {{{}}}\n", yaml_word(name), text);
 }
 
+/// Elements that an earlier section gives another material: programs differ in which of the two counts.
+void tell_of_two_materials(const files::AbaqusDeck& deck, const std::vector<std::string>& of_cell,
+                           const std::vector<int>& cells, const std::string& material, const files::DeckPlace& at,
+                           Remarks& remarks) {
+  const auto other = std::find_if(cells.begin(), cells.end(), [&](int c) {
+    const std::string& before = of_cell[static_cast<std::size_t>(c)];
+    return !before.empty() && before != material;
+  });
+  if (other == cells.end()) return;
+  const auto c = static_cast<std::size_t>(*other);
+  remarks.essential(
+      at, fmt::format("element {} has material '{}' by a *SOLID SECTION before this one; leave it in one of them",
+                      shown_number(deck, deck.mesh.cells[c].number, DeckNumbers::elements), of_cell[c]));
+}
+
 }  // namespace
 
 std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks) {
@@ -153,7 +168,7 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
     double angle = 0.0;
     if (!section.orientation.empty()) {
       const auto found = content.orientations.find(section.orientation);
-      if (found == content.orientations.end() && material->orthotropic)
+      if (found == content.orientations.end())
         remarks.essential(section.at, fmt::format("there is no usable *ORIENTATION '{}'; correct it",
                                                   files::printable(section.orientation)));
       if (found != content.orientations.end() && material->orthotropic) angle = found->second;
@@ -168,6 +183,7 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
       given.lines += material_line(*material, angle, entry->second, plane, remarks);
     }
     tell_incompressible(deck, *material, *cells, section.at, remarks);
+    tell_of_two_materials(deck, given.of_cell, *cells, entry->second, section.at, remarks);
     for (const int c : *cells) {
       given.of_cell[static_cast<std::size_t>(c)] = entry->second;
       given.young[static_cast<std::size_t>(c)] = least_young(*material);

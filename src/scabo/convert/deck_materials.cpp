@@ -30,8 +30,7 @@ class MaterialReader {
     } else if (name == "ELASTIC") {
       elastic(block);
     } else if (name == "DENSITY") {
-      if (DeckMaterial* material = material_of(block))
-        if (const auto n = numbers_of(remarks_, block, 1, "*DENSITY")) material->density = (*n)[0];
+      density(block);
     } else if (name == "EXPANSION") {
       expansion(block);
     } else if (name == "ORIENTATION") {
@@ -50,6 +49,13 @@ class MaterialReader {
     return name.ends_with("SECTION") && text_of_keyword(name).text.find("known to") != std::string::npos;
   }
 
+  void density(const DeckBlock& block) {
+    DeckMaterial* material = material_of(block);
+    if (!material) return;
+    tell_of_second(block, material->density.has_value());
+    if (const auto n = numbers_of(remarks_, block, 1, "*DENSITY")) material->density = (*n)[0];
+  }
+
   void expansion(const DeckBlock& block) {
     if (upper(parameter(block, "TYPE", "ISO")) != "ISO")
       remarks_.note(block.at, "thermal expansion by axes is left out; temperatures are not taken either");
@@ -62,7 +68,21 @@ class MaterialReader {
     read.name = parameter(block, "NAME");
     read.at = block.at;
     if (read.name.empty()) remarks_.essential(block.at, "*MATERIAL has no name; write *MATERIAL, NAME=name");
+    for (const DeckMaterial& other : content_.materials)
+      if (upper(other.name) == upper(read.name)) tell_of_two(block, "*MATERIAL", read.name);
     content_.materials.push_back(read);
+  }
+
+  void tell_of_two(const DeckBlock& block, const char* keyword, const std::string& name) {
+    remarks_.essential(block.at, fmt::format("there is another {} '{}' before this one; give each a name of its own",
+                                             keyword, files::printable(name)));
+  }
+
+  /// Tells of a property that the material has already.
+  void tell_of_second(const DeckBlock& block, bool has_one) {
+    if (has_one)
+      remarks_.essential(block.at, fmt::format("{} of material '{}' stands before this one too; leave one of them",
+                                               block.written, files::printable(content_.materials.back().name)));
   }
 
   DeckMaterial* material_of(const DeckBlock& block) {
@@ -75,6 +95,7 @@ class MaterialReader {
   void elastic(const DeckBlock& block) {
     DeckMaterial* material = material_of(block);
     if (!material) return;
+    tell_of_second(block, material->isotropic || material->orthotropic);
     const std::string type = upper(parameter(block, "TYPE", "ISO"));
     if (type == "ISO" || type == "ISOTROPIC") {
       if (const auto n = numbers_of(remarks_, block, 2, "*ELASTIC")) material->isotropic = {(*n)[0], (*n)[1]};
@@ -145,8 +166,9 @@ class MaterialReader {
     }
     if (!(third.norm() > 0.0) || std::abs(first.z()) > 1e-9 || third.head<2>().norm() > 1e-9)
       return remarks_.essential(block.at, "the axes of *ORIENTATION do not lie in the plane; turn them");
-    content_.orientations[upper(full_name(block, parameter(block, "NAME")))] =
-        std::atan2(first.y(), first.x()) * 180.0 / std::numbers::pi;
+    const std::string name = full_name(block, parameter(block, "NAME"));
+    const double angle = std::atan2(first.y(), first.x()) * 180.0 / std::numbers::pi;
+    if (!content_.orientations.emplace(upper(name), angle).second) tell_of_two(block, "*ORIENTATION", name);
   }
 
   void section(const DeckBlock& block) {

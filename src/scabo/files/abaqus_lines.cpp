@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "scabo/files/bytes_of_file.hpp"
+
 namespace scabo::files {
 
 namespace {
@@ -45,6 +49,13 @@ std::string with_single_blanks(std::string_view text) {
     if (!blank || made.back() != ' ') made += blank ? ' ' : c;
   }
   return made;
+}
+
+std::string why_not_included(const std::string& name, const std::string& deck) {
+  if (name.find('\\') != std::string::npos) return "write / between the names of folders, not \\";
+  const std::filesystem::path path = std::filesystem::path(deck).parent_path() / name;
+  std::error_code error;
+  return std::filesystem::exists(path, error) ? "it " + why_unreadable(path) : "put it beside this file";
 }
 
 }  // namespace
@@ -177,10 +188,8 @@ void AbaqusLines::insert(const AbaqusKeyword& keyword) {
   if (read_include_) file = read_include_(name, names_.front());
   if (read_include_ && !file) file = read_include_(name, names_[from]);
   if (!file)
-    builder_.fail(keyword.at,
-                  fmt::format("the included file '{}' cannot be read; {}", printable(name),
-                              name.find('\\') == std::string::npos ? "put it beside this file"
-                                                                   : "write / between the names of folders, not \\"));
+    builder_.fail(keyword.at, fmt::format("the included file '{}' cannot be read; {}", printable(name),
+                                          why_not_included(name, names_.front())));
   for (const Open& open : open_)
     if (!open.lines && names_[static_cast<std::size_t>(open.file)] == file->name)
       builder_.fail(keyword.at, fmt::format("'{}' is included within itself; take this line out", printable(name)));

@@ -77,9 +77,8 @@ void AbaqusReader::nodes_of_element(std::vector<std::string_view>& fields, std::
     for (std::size_t i = first; i < fields.size(); ++i) nodes.push_back(own(fields[i], "the number of a node"));
     if (nodes.size() >= wanted) break;
     if (!next_data(fields))
-      builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; the line is truncated, or the type is "
-                                    "another",
-                                    number, nodes.size(), type, wanted));
+      builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line", number,
+                                    nodes.size(), type, wanted));
   }
   if (nodes.size() > wanted)
     builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line", number,
@@ -148,7 +147,7 @@ DeckLine AbaqusReader::deck_line(const AbaqusKeyword& key, const std::vector<std
   const std::string label = fields.size() > 1 ? upper(fields[1]) : "";
   if (key.name == "DLOAD" && label.size() == 2 && label[0] == 'P' && label[1] >= '1' && label[1] <= '4') {
     line.sides = fmt::format("*DLOAD {}", surfaces_.size());
-    surfaces_.push_back({line.sides, {{line.fields[0], "S" + label.substr(1), instance_, lines_.at()}}});
+    surfaces_.push_back({line.sides, key.written, {{line.fields[0], "S" + label.substr(1), instance_, lines_.at()}}});
   }
   return line;
 }

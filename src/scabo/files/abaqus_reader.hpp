@@ -44,6 +44,7 @@ class AbaqusReader {
   };
   struct Surface {
     std::string name;
+    std::string written;  // in messages: surface 'Top', or the keyword whose line names sides
     std::vector<SurfaceEntry> entries;
   };
   struct Section {

@@ -76,22 +76,24 @@ void AbaqusReader::resolve_entry(int set, const Surface& surface, const SurfaceE
   const bool face = side == "SPOS" || side == "SNEG" || side == "SP" || side == "SN" || side == "NEG" || side == "POS";
   const bool numbered = side.size() == 2 && (side[0] == 'S' || side[0] == 'E') && side[1] >= '1' && side[1] <= '6';
   if (!side.empty() && !face && !numbered)
-    builder_.fail(entry.at, fmt::format("surface '{}': '{}' is no side of a plane element; sides are S1 to S4",
-                                        printable(surface.name), printable(side)));
+    builder_.fail(entry.at, fmt::format("{}: '{}' is no side of a plane element; sides are S1 to S4", surface.written,
+                                        printable(side)));
+  if (entry.of.empty())
+    builder_.fail(entry.at, fmt::format("{}: the line names no element or element set; add it", surface.written));
   std::vector<std::int64_t> numbers;
   if (const auto number = number_in(entry.of, entry.instance)) {
     numbers.push_back(*number);
   } else if (const AbaqusSet* of = set_in(element_sets_, entry.of, entry.instance)) {
     numbers = of->numbers;
   } else {
-    builder_.fail(entry.at, fmt::format("surface '{}': there is no element set '{}'; correct its name",
-                                        printable(surface.name), printable(entry.of)));
+    builder_.fail(entry.at, fmt::format("{}: there is no element set '{}'; correct its name", surface.written,
+                                        printable(entry.of)));
   }
   count_entries(static_cast<std::int64_t>(numbers.size()));
   for (const std::int64_t element : numbers) {
     const int at = elements.find(element);
     if (at < 0)
-      builder_.fail(entry.at, fmt::format("surface '{}': element {} is not in the file", printable(surface.name),
+      builder_.fail(entry.at, fmt::format("{}: element {} is not in the file", surface.written,
                                           element % AbaqusInstances::spacing));
     if (at >= static_cast<int>(cell_numbers_.size()) || face) continue;
     if (side.empty()) {
@@ -101,7 +103,7 @@ void AbaqusReader::resolve_entry(int set, const Surface& surface, const SurfaceE
     const bool shell = shell_[static_cast<std::size_t>(at)] && side[0] == 'S';
     const int position = side[1] - '1' - (shell ? 2 : 0);
     if (position >= 0 && !builder_.add_side(set, at, position))
-      builder_.fail(entry.at, fmt::format("surface '{}': element {} has no side {}", printable(surface.name),
+      builder_.fail(entry.at, fmt::format("{}: element {} has no side {}", surface.written,
                                           element % AbaqusInstances::spacing, side));
   }
 }

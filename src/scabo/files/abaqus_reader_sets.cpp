@@ -115,7 +115,7 @@ void AbaqusReader::surface(const AbaqusKeyword& key) {
     return;
   }
   if (!type.empty() && type != "ELEMENT") return;  // cutting, user and revolved surfaces have no sides of cells
-  surfaces_.push_back({name, {}});
+  surfaces_.push_back({name, fmt::format("surface '{}'", printable(name)), {}});
   while (next_data(fields))
     surfaces_.back().entries.push_back(
         {without_quotes(fields[0]), fields.size() > 1 ? upper(fields[1]) : std::string(), instance_, lines_.at()});

@@ -31,7 +31,7 @@ void refuse_truncated_brep(const std::string& path) {
   const std::size_t line = last == std::string::npos ? last : text.find_last_of('\n', last);
   const bool whole = shapes != std::string::npos && line != std::string::npos && line > shapes && line < last &&
                      (text[line + 1] == '+' || text[line + 1] == '-') && text[last] != '*';
-  if (!whole) fail_in_file(path, 0, 0, "the file is no BREP file of OpenCASCADE, or it is truncated; write it again");
+  if (!whole) fail_in_file(path, 0, 0, "the file does not end as a BREP file of OpenCASCADE does; write it again");
 }
 
 }  // namespace

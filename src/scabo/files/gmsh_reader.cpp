@@ -86,7 +86,7 @@ void GmshReader::end_section(std::string_view name, int count_line) {
   const int line = in_.line();
   const std::string_view found = in_.word();
   if (found == expected) return;
-  if (found.empty()) fail(fmt::format("the file ends in {}: it is truncated; write it again", name));
+  if (found.empty()) fail(fmt::format("the file ends in {}, which has no {}; write it again", name, expected));
   std::string lies = "; the counts of this section do not agree with its content: write the file again";
   if (!binary_ && count_line > 0) {
     lies = fmt::format("; the count in line {} does not agree with the content: write the file again", count_line);
@@ -103,7 +103,7 @@ void GmshReader::skip_section(std::string_view name) {
     in_.advance_to(in_.position() + at + end.size());
     return;
   }
-  fail(fmt::format("the file ends in {}: it is truncated; write it again", name.substr(0, 40)));
+  fail(fmt::format("the file ends in {}, which has no {}; write it again", name.substr(0, 40), end.substr(0, 43)));
 }
 
 void GmshReader::read_names() {

@@ -75,7 +75,7 @@ bool read_rows(png_structp png, png_bytepp rows) {
 
 }  // namespace
 
-Image read_png(const std::string& file) {
+PngImage read_png(const std::string& file) {
   const auto refuse = [&](const std::string& reason) -> InputError {
     return InputError(file, {{{}, "the image cannot be read: " + reason}});
   };
@@ -104,7 +104,10 @@ Image read_png(const std::string& file) {
   for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = bytes.data() + y * header.row_bytes;
   if (!read_rows(reader.png, rows.data())) throw refuse(message.text);
 
-  Image image{int(header.width), int(header.height), {}};
+  PngImage image;
+  image.width = int(header.width);
+  image.height = int(header.height);
+  image.largest_label = header.bytes == 2 ? 65535 : 255;
   image.labels.resize(std::size_t(header.width) * header.height);
   const unsigned char* at = bytes.data();
   const auto sample = [&]() {

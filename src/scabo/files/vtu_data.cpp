@@ -165,7 +165,8 @@ class VtuDecoder {
     }
     inflateEnd(&stream);
     if (status != Z_STREAM_END || done != size) {
-      fail("cannot be decompressed by zlib: the file is damaged; write it again");
+      fail(fmt::format("zlib gives {}{} bytes with status {}, and the file says {}; write it again",
+                       done > size ? "more than " : "", std::min(done, size), status, size));
     }
   }
 

@@ -37,14 +37,13 @@ void VtuReader::cut_appended() {
   const auto tag_end = bytes_.find('>', start);
   const auto mark = tag_end == std::string_view::npos ? tag_end : bytes_.find('_', tag_end);
   if (mark == std::string_view::npos) {
-    fail_in_file(file_, line_at(start), 1,
-                 "AppendedData has no `_` that marks its start: the file is truncated; write it again");
+    fail_in_file(file_, line_at(start), 1, "AppendedData has no `_` that marks its start; write the file again");
   }
   const std::string_view tag = bytes_.substr(start, tag_end - start);
   appended_base64_ = tag.find("base64") != std::string_view::npos;
   const auto end = bytes_.rfind("</AppendedData>");
   if (end == std::string_view::npos || end < mark) {
-    fail_in_file(file_, line_at(start), 1, "AppendedData does not end: the file is truncated; write it again");
+    fail_in_file(file_, line_at(start), 1, "AppendedData has no end tag; write the file again");
   }
   appended_ = bytes_.substr(mark + 1, end - mark - 1);
   has_appended_ = true;
@@ -58,7 +57,7 @@ void VtuReader::open() {
       document_.load_buffer(xml_.data(), xml_.size(), pugi::parse_minimal | pugi::parse_escapes, pugi::encoding_utf8);
   if (!parsed) {
     fail_in_file(file_, line_at(static_cast<std::size_t>(parsed.offset)), 1,
-                 fmt::format("this is no complete XML ({}): the file is truncated or damaged; write it again",
+                 fmt::format("the XML ends here or is wrong, as the parser says ({}); write the file again",
                              parsed.description()));
   }
   const pugi::xml_node root = document_.child("VTKFile");
@@ -119,9 +118,8 @@ VtuValues VtuReader::values(const pugi::xml_node& array, std::size_t most) const
     if (!parse_number(array.attribute("offset").value(), start) || start < 0 ||
         static_cast<std::size_t>(start) > appended_.size()) {
       fail(array,
-           fmt::format("{} has the offset '{}', which is outside the appended data: the file is truncated; write "
-                       "it again",
-                       source.what, printable(array.attribute("offset").value())));
+           fmt::format("{} has the offset '{}', which is outside the {} bytes of appended data; write the file again",
+                       source.what, printable(array.attribute("offset").value()), appended_.size()));
     }
     source.form = appended_base64_ ? VtuSource::Form::base64 : VtuSource::Form::raw;
     source.data = appended_.substr(static_cast<std::size_t>(start));

@@ -1,9 +1,12 @@
 // `shape: {image: {file: core.png, pixel: 1e-4, materials: {0: matrix, 255: aggregate}}}`: a body that an image shows.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "scabo/files/png.hpp"
 #include "scabo/input/reading.hpp"
@@ -51,15 +54,17 @@ std::optional<Levels> levels_of(std::string_view key) {
   const std::size_t dash = key.find('-');
   const auto first = level_of(key.substr(0, dash));
   const auto last = dash == std::string_view::npos ? first : level_of(key.substr(dash + 1));
-  if (!first || !last || *last < *first) return {};
+  if (!first || !last) return {};
   return Levels{*first, *last};
 }
 
 /// The materials of the levels that the image has, and the levels that are named.
 class LevelReader {
  public:
-  LevelReader(Reading& reading, const files::Image* image) : reading_(reading) {
-    if (image != nullptr) present_ = levels_of(*image);
+  LevelReader(Reading& reading, const files::PngImage* image) : reading_(reading) {
+    if (image == nullptr) return;
+    present_ = levels_of(*image);
+    largest_ = image->largest_label;
   }
 
   std::map<int, int> read(const Value& value) {
@@ -82,17 +87,34 @@ class LevelReader {
       return reading_.report.error(named, fmt::format("'{}' is not a level of grey: write a whole number, 0 to 255, or "
                                                       "a range as in 0-127",
                                                       key));
+    if (const std::string wrong = why_wrong(*levels); !wrong.empty()) return reading_.report.error(named, wrong);
+    named_.emplace_back(*levels, key);
     const bool empty = stands_for_empty(named);
     const auto material = empty ? std::nullopt : read_material_name(reading_, named);
     const auto first = present_.lower_bound(levels->first), last = present_.upper_bound(levels->last);
     if (first == last) tell_of_absence(key, *levels, named);
-    for (auto level = first; level != last; ++level) {
-      const auto [before, is_new] = named_in_.emplace(level->first, key);
-      if (!is_new)
-        return reading_.report.error(named, fmt::format("the level {} is also one of '{}': give every level once",
-                                                        level->first, before->second));
+    for (auto level = first; level != last; ++level)
       if (material) materials_[level->first] = *material;
+  }
+
+  std::string why_wrong(const Levels& levels) const {
+    if (levels.last < levels.first)
+      return fmt::format("a range begins with its lowest level: write {}-{}", levels.last, levels.first);
+    if (largest_ && levels.last > *largest_)
+      return fmt::format("no pixel can have the level {}, because those of this image are from 0 to {}: leave it out",
+                         levels.last, *largest_);
+    for (const auto& [other, key] : named_) {
+      const int first = std::max(levels.first, other.first), last = std::min(levels.last, other.last);
+      if (first == last) return fmt::format("the level {} is also one of '{}': give every level once", first, key);
+      if (first < last)
+        return fmt::format("the levels {} to {} are also of '{}': give every level once", first, last, key);
     }
+    return "";
+  }
+
+  bool is_named(int level) const {
+    return std::any_of(named_.begin(), named_.end(),
+                       [&](const auto& named) { return named.first.first <= level && level <= named.first.last; });
   }
 
   /// Pixels that are meant to be empty, unless a material has this name.
@@ -117,7 +139,7 @@ class LevelReader {
     long pixels = 0, all = 0;
     for (const auto& [level, count] : present_) {
       all += count;
-      if (named_in_.contains(level)) continue;
+      if (is_named(level)) continue;
       left.emplace(level, count);
       pixels += count;
     }
@@ -132,8 +154,9 @@ class LevelReader {
   }
 
   Reading& reading_;
-  std::map<int, long> present_;          // levels of the image; empty if it could not be read
-  std::map<int, std::string> named_in_;  // the key with a level
+  std::map<int, long> present_;                        // levels of the image; empty if it could not be read
+  std::optional<int> largest_;                         // that a pixel of the image can have
+  std::vector<std::pair<Levels, std::string>> named_;  // with their keys
   std::map<int, int> materials_;
 };
 
@@ -144,13 +167,13 @@ std::optional<Outline> read_image(Reading& reading, const Value& value, Body& bo
   const std::size_t before = report.count();
   const MapReader map(report, value, {"file", "pixel", "materials", "corner"}, image_example);
   ImageShape shape;
-  std::shared_ptr<files::Image> image;
+  std::shared_ptr<files::PngImage> image;
   const auto file_value = map.need("file");
   if (const auto name = file_value ? read_text(report, *file_value) : std::nullopt) {
     const std::filesystem::path beside = std::filesystem::path(reading.model.file).parent_path();
     reading.model.files.push_back((beside / *name).string());
     try {
-      image = std::make_shared<files::Image>(files::read_png((beside / *name).string()));
+      image = std::make_shared<files::PngImage>(files::read_png((beside / *name).string()));
     } catch (const InputError& error) {
       report.error(*file_value, fmt::format("{}: {}", *name, error.diagnostics().front().message));
     }

@@ -57,9 +57,9 @@ bool check_near(Checking& checking, const std::string& path, const Place& place)
   for (const Edge& edge : body.outline.edges) distance = std::min(distance, (edge.at(0.5) - place.near).norm());
   if (distance <= 2.0 * geometry::outline_size(body.outline)) return true;
   checking.error(path, "near",
-                 fmt::format("{} is not near '{}': its distance is greater than the size of the body; check the "
-                             "coordinates",
-                             point_text(place.near), body.name));
+                 fmt::format("{} is not near '{}': its distance is {:.3g}, and the size of the body {:.3g}; correct "
+                             "the coordinates",
+                             point_text(place.near), body.name, distance, geometry::outline_size(body.outline)));
   return false;
 }
 

@@ -124,7 +124,9 @@ std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to,
     if (apart > held.apart * allowed) held.apart = apart / allowed;
     if (wrong > held.wrong * allowed) held.wrong = wrong / allowed, worst = pair;
   }
-  if (held.wrong > SoftlyHeld::allowed) held.body = softer_body(prepared, worst);
+  if (!(held.wrong > SoftlyHeld::allowed)) return held;
+  held.body = softer_body(prepared, worst);
+  held.softer = flexibility.segment<2>(2 * worst).maxCoeff() * resisting_at(prepared, flexibility, stiffness, worst);
   return held;
 }
 
@@ -146,17 +148,18 @@ double flexibility_in_contact(const Prepared& prepared, int body) {
 
 std::string lost_where_softly_held(const Prepared& prepared, const SoftlyHeld& held) {
   const model::Body& body = prepared.model.bodies[static_cast<std::size_t>(held.body)];
-  const char* lost = "its contact forces are lost in the rounding of how far the loads would move it without contact";
+  const std::string lost = fmt::format(
+      "the motions that follow from its contact forces are wrong by {:.1g} of the displacements, and {:.0e} is allowed",
+      held.wrong, SoftlyHeld::allowed);
   if (part_of(prepared, held.body).has_springs())
     return fmt::format(
-        "the springs of body '{}' are so soft that {}: leave these springs out, if contact holds the body, or make "
-        "them stiffer",
-        body.name, lost);
+        "the springs of body '{}' give way {:.0e} times as far under a force at its contact as a node there would, so "
+        "that {}: leave these springs out, if contact holds the body, or make them stiffer",
+        body.name, held.softer, lost);
   return fmt::format(
       "body '{}' gives way {:.0e} times as far under a force at its contact as its elements do, so that {}: hold it "
-      "more "
-      "stiffly (leave out soft parts that are tied to it, if contact holds it, or make them stiffer), or use larger "
-      "elements",
+      "more stiffly (leave out soft parts that are tied to it, if contact holds it, or make them stiffer), or use "
+      "larger elements",
       body.name, flexibility_in_contact(prepared, held.body), lost);
 }
 

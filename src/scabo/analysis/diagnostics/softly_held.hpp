@@ -25,8 +25,10 @@ struct SoftlyHeld {
   /// displacement, or over what the largest force would displace one node of the less stiff body, or springs that hold
   /// rigid ones, if that is more.
   double wrong = 0.0;
-  double apart = 0.0;  ///< the same of the difference alone
-  int body = -1;       ///< the body where it is, if it is above `allowed`
+  double apart = 0.0;   ///< the same of the difference alone
+  int body = -1;        ///< the body where it is, if it is above `allowed`
+  double softer = 0.0;  ///< how far a force there moves the pair, over how far it displaces one node of the less stiff
+                        ///< body; 1 where both are rigid
 
   static constexpr double good = 1e-6;     ///< of `apart`: not worth another solve
   static constexpr double allowed = 3e-5;  ///< of `wrong`: forces are lost beyond

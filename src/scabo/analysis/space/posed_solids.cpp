@@ -53,10 +53,11 @@ void Posing::add_body(const model::SpaceBody& of) {
   }
   SolidBody body{std::move(shaped.mesh), material.young, material.poisson, {}};
   for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
-    if (!(element::least_jacobian(mesh::nodes_of(body.mesh, body.mesh.cells[c])) > 0.0)) {
+    if (const double least = element::least_jacobian(mesh::nodes_of(body.mesh, body.mesh.cells[c])); !(least > 0.0)) {
       mistakes_.push_back(
-          {of.source, of.mesh ? fmt::format("element {} of its mesh file is folded or flat: correct its nodes",
-                                            of.mesh->cells[c].number)
+          {of.source, of.mesh ? fmt::format("element {} of its mesh file has a Jacobian of {:.3g}, which must be "
+                                            "positive everywhere: correct its nodes",
+                                            of.mesh->cells[c].number, least)
                               : "its curved face folds elements of this size: give it a smaller 'size'"});
       break;
     }

@@ -83,10 +83,8 @@ Sparse read_matrix(const Hdf5Reader& file, const std::string& group) {
   for (std::size_t k = 0; k < entries.row.size(); ++k) {
     const std::int64_t row = entries.row[k], column = entries.column[k];
     if (row < 0 || row >= m || column < 0 || column >= n)
-      file.fail(
-          group,
-          fmt::format("entry {} is in row {} and column {} (counted from 0) of a matrix of {} x {}: i or p is wrong", k,
-                      row, column, m, n));
+      file.fail(group, fmt::format("entry {} is in row {} and column {} (counted from 0) of a matrix of {} x {}", k,
+                                   row, column, m, n));
     const double value = x[static_cast<Index>(k)];
     if (!std::isfinite(value))
       file.fail(group + "/x", fmt::format("entry {} is {}: must be a finite number", k, value));

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <stdexcept>
@@ -38,6 +39,19 @@ class Quiet {
   H5E_auto2_t print_ = nullptr;
   void* data_ = nullptr;
 };
+
+/// What HDF5 says of the call that failed last, nearest to the cause.
+std::string what_hdf5_says() {
+  std::string text;
+  const auto first = [](unsigned at, const H5E_error2_t* error, void* to) -> herr_t {
+    if (at == 0 && error->desc) *static_cast<std::string*>(to) = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first, &text);
+  for (char& c : text)
+    if (c < 0x20 || c > 0x7e) c = '?';
+  return text.empty() ? "HDF5 gives no reason" : fmt::format("HDF5 says '{}'", text.substr(0, 200));
+}
 
 /// An identifier of HDF5 and the function that closes it.
 class Handle {
@@ -81,7 +95,7 @@ struct Dataset {
   Dataset(const Hdf5Reader& reader, hid_t file, const std::string& path)
       : id(open(reader, file, path), H5Dclose), type(H5Dget_type(id), H5Tclose), space(H5Dget_space(id), H5Sclose) {
     count = type.valid() && space.valid() ? H5Sget_simple_extent_npoints(space) : -1;
-    if (count < 0) reader.fail(path, "cannot be read: the file is damaged or incomplete; use a complete copy");
+    if (count < 0) fail_to_read(reader, path);
     if (count > most_values)
       reader.fail(path, fmt::format("has {} values, more than the {} that a problem may have",
                                     static_cast<long long>(count), static_cast<long long>(most_values)));
@@ -90,8 +104,11 @@ struct Dataset {
     if (!exists(file, path))
       reader.fail(path, "is missing, but FCLIB's layout requires it (docs/methods/13_problem_files.md)");
     const hid_t id = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
-    if (id < 0) reader.fail(path, "must be a dataset that can be read: it is a group, or the file is damaged");
+    if (id < 0) fail_to_read(reader, path);
     return id;
+  }
+  [[noreturn]] static void fail_to_read(const Hdf5Reader& reader, const std::string& path) {
+    reader.fail(path, fmt::format("cannot be read as a dataset: {}; use a copy that h5dump reads", what_hdf5_says()));
   }
   H5T_class_t kind() const { return H5Tget_class(type); }
 
@@ -109,12 +126,12 @@ bool is_hdf5(const std::string& file) {
 Hdf5Reader::Hdf5Reader(std::string file) : file_(std::move(file)) {
   const Quiet quiet;
   id_ = H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id_ < 0)
-    throw InputError(
-        file_, {{{},
-                 is_hdf5(file_)
-                     ? "the HDF5 file cannot be opened: it is damaged, incomplete or being written; use a complete copy"
-                     : "is not an HDF5 file"}});
+  if (id_ >= 0) return;
+  const std::string why = what_hdf5_says();
+  throw InputError(
+      file_, {{{},
+               is_hdf5(file_) ? fmt::format("the HDF5 file cannot be opened: {}; use a copy that h5dump reads", why)
+                              : "is not an HDF5 file"}});
 }
 
 Hdf5Reader::~Hdf5Reader() {
@@ -151,7 +168,7 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
     fail(path, fmt::format("must hold whole numbers, not {}", kind_of(dataset.kind())));
   std::vector<std::int64_t> values(static_cast<std::size_t>(dataset.count));
   if (!values.empty() && H5Dread(dataset.id, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(path, "cannot be read: the file is damaged or incomplete; use a complete copy");
+    Dataset::fail_to_read(*this, path);
   return values;
 }
 
@@ -168,7 +185,7 @@ Vector Hdf5Reader::numbers(const std::string& path) const {
     fail(path, fmt::format("must hold numbers, not {}", kind_of(dataset.kind())));
   Vector values(static_cast<Eigen::Index>(dataset.count));
   if (values.size() > 0 && H5Dread(dataset.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(path, "cannot be read: the file is damaged or incomplete; use a complete copy");
+    Dataset::fail_to_read(*this, path);
   return values;
 }
 
@@ -196,16 +213,17 @@ std::string Hdf5Reader::text(const std::string& path) const {
 
 Hdf5Writer::Hdf5Writer(std::string file) : file_(std::move(file)), part_(file_ + ".part") {
   out_ = std::fopen(part_.c_str(), "wb");
-  if (!out_) fail("the file cannot be created: check that its directory exists and that you may write there");
+  if (!out_) fail(std::strerror(errno));
   const Quiet quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth = std::size_t{1} << 20;  // of the memory, bytes
   H5Pset_fapl_core(access, growth, false);
   id_ = H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (id_ >= 0) return;
+  const std::string why = what_hdf5_says();
   std::fclose(out_);
   std::remove(part_.c_str());
-  fail("there is not enough memory for its content");
+  fail(why);
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -227,8 +245,7 @@ void Hdf5Writer::dataset(const std::string& path, std::int64_t type, std::int64_
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties, false);  // no dates: the same content, the same bytes
   const Handle id(H5Dcreate2(id_, path.c_str(), type, space, links, properties, H5P_DEFAULT), H5Dclose);
-  if (!id.valid() || write(static_cast<hid_t>(id)) < 0)
-    fail(fmt::format("there is not enough memory for dataset {}", path));
+  if (!id.valid() || write(static_cast<hid_t>(id)) < 0) fail(fmt::format("dataset {}: {}", path, what_hdf5_says()));
 }
 
 void Hdf5Writer::integers(const std::string& path, const std::vector<int>& values) {
@@ -265,7 +282,7 @@ void Hdf5Writer::finish() {
   const bool flushed = H5Fflush(id_, H5F_SCOPE_GLOBAL) >= 0 &&
                        H5Fget_vfd_handle(id_, H5P_DEFAULT, reinterpret_cast<void**>(&memory)) >= 0;
   const ssize_t size = flushed ? H5Fget_file_image(id_, nullptr, 0) : -1;
-  if (size <= 0) fail("there is not enough memory for its content");
+  if (size <= 0) fail(what_hdf5_says());
   std::error_code error;
   const auto failed = [&] { error = {errno, std::generic_category()}; };
   if (std::fwrite(*memory, 1, static_cast<std::size_t>(size), out_) != static_cast<std::size_t>(size)) failed();

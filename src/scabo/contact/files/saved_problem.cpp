@@ -39,13 +39,13 @@ SavedProblem read_problem_file(const std::string& file) {
   if (!fs::exists(status)) refuse("no such file");
   if (fs::is_directory(status)) refuse("is a directory: name a problem file");
   if (!fs::is_regular_file(status)) refuse("is not a regular file");
+  if (fs::file_size(file, error) == 0) refuse("is empty");
   const bool hdf5 = is_hdf5(file);
   // The name is that of an HDF5 file but the content is not. Reading it as text would fail at the first byte with a
   // misleading message.
   const std::string ending = fs::path(file).extension().string();
   if (!hdf5 && (ending == ".hdf5" || ending == ".h5" || ending == ".hdf"))
-    refuse("is not an HDF5 file: it is empty, damaged or of another format; use a complete copy");
-  if (fs::file_size(file, error) == 0) refuse("is empty");
+    refuse("is not an HDF5 file: the signature with which one begins is missing");
   SavedProblem saved = hdf5 ? read_fclib(file) : read_text_problem(file);
   check_magnitudes(file, saved.problem);
   return saved;

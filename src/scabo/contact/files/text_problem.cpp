@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -282,7 +284,7 @@ SavedProblem parse_text_problem(std::string_view text, const std::string& file) 
 
 SavedProblem read_text_problem(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file, {{{}, "cannot be read: check its permissions"}});
+  if (!stream) throw InputError(file, {{{}, std::string("cannot be read: ") + std::strerror(errno)}});
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   return parse_text_problem(text, file);
 }
