@@ -15,8 +15,7 @@ struct Delassus::Data {
   Matrix dense;
   Eigen::SparseMatrix<double> sparse;
   std::shared_ptr<const PairOperator> products;
-  mutable Matrix columns_of_pairs;  // of products: their diagonal blocks
-  mutable std::mutex guard;
+  Matrix diagonal_blocks;  // of products
 };
 
 /// Entries that are computed when they are first asked for, and the bodies.
@@ -55,6 +54,7 @@ Delassus::Delassus(std::shared_ptr<const PairOperator> products) {
   auto data = std::make_shared<Data>();
   data->kind = Data::Kind::products;
   data->size = products->size();
+  data->diagonal_blocks = products->diagonal_blocks();
   data->products = std::move(products);
   data_ = std::move(data);
   formed_ = std::make_shared<const Formed>();
@@ -106,7 +106,10 @@ void Delassus::apply(const Eigen::Ref<const Vector>& p, Vector& result) const {
       result.noalias() = data_->dense * p;
       break;
     case Data::Kind::sparse:
-      result.noalias() = data_->sparse * p;
+      if (const Eigen::SparseMatrix<double>* const Y = bodies())
+        result.noalias() = Y->transpose() * Vector(*Y * p);
+      else
+        result.noalias() = data_->sparse * p;
       return;
     case Data::Kind::products:
       result = data_->products->times(p);
@@ -129,9 +132,7 @@ Matrix Delassus::diagonal_blocks(int d) const {
         if (it.row() / d == column / d) blocks(it.row() % d, column) += it.value();
     return blocks;
   }
-  const std::scoped_lock lock(data_->guard);
-  Matrix& kept = data_->columns_of_pairs;
-  if (kept.size() == 0) kept = data_->products->diagonal_blocks();
+  const Matrix& kept = data_->diagonal_blocks;
   if (d == kept.rows()) return factor_ * kept;
   ensure(d == 1, "blocks of pairs have as many components as the pairs");
   for (Eigen::Index k = 0; k < size(); ++k) blocks(0, k) = factor_ * kept(k % kept.rows(), k);

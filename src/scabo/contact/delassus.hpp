@@ -40,7 +40,8 @@ class Delassus {
 
   Vector times(const Vector& p) const;  // dN
   Matrix times(const Matrix& p) const;  // dN x k
-  /// result = W p; allocates no memory if W is dense or sparse and `result` has the right size.
+  /// result = W p, by the bodies of a sparse W where they are known; else it allocates no memory if W is dense or
+  /// sparse and `result` has the right size.
   void apply(const Eigen::Ref<const Vector>& p, Vector& result) const;
   friend Vector operator*(const Delassus& W, const Vector& p) { return W.times(p); }
   /// d x dN: the diagonal block of pair i in columns d i .. d i + d - 1.

@@ -52,10 +52,7 @@ Vector absolute_product(const Problem& problem, const Vector& p, const Vector& m
       if (p[j] != 0.0) sums += std::abs(p[j]) * dense.col(j).cwiseAbs();
     sums *= std::abs(W.factor());
   } else if (W.is_sparse()) {
-    const Eigen::SparseMatrix<double>& sparse = W.sparse();
-    for (Index j = 0; j < p.size(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator at(sparse, j); at && p[j] != 0.0; ++at)
-        sums[at.row()] += std::abs(at.value() * p[j]);
+    sums = W.sparse().cwiseAbs() * p.cwiseAbs();
   } else {
     sums = W.diagonal().cwiseProduct(p).cwiseAbs() + (motion - problem.q).cwiseAbs();
   }

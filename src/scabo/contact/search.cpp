@@ -18,8 +18,6 @@ Problem scaled_by(const Problem& problem, double stiffness) {
 
 }  // namespace
 
-Problem in_unit_stiffness(const Problem& problem) { return scaled_by(problem, stiffness_of(problem)); }
-
 Search::Search(const Problem& problem, const Start& start, const SolverOptions& options)
     : options_(options),
       stiffness_(stiffness_of(problem)),

@@ -15,9 +15,6 @@
 
 namespace scabo::contact {
 
-/// The problem with W and q multiplied by its stiffness (judge.hpp): W_ii is 1 in the mean, motions are forces.
-Problem in_unit_stiffness(const Problem& problem);
-
 /// What a stage ended with, and why, as the end of a sentence: "Newton's method found no direction".
 struct StageEnd {
   bool solved = false;

@@ -197,38 +197,46 @@ void add_cells(Estimate& estimate, std::size_t b, double n, double k, Plan& plan
   plan.contact += 2.0 * estimate.solutions * costs.solve_seconds * n * log2_of(n);
 }
 
-/// Whether the stages of the contact solver that follow Newton's method may have to take over: some body has neither
-/// support nor spring nor tie.
-bool may_need_interior_points(const model::Model& model) {
+/// Which bodies have a support, a spring or a tie; contact alone holds the others.
+std::vector<char> held_bodies(const model::Model& model) {
   std::vector<char> held(model.bodies.size(), 0);
   const auto hold = [&](const model::Place& on) { held[static_cast<std::size_t>(on.body)] = 1; };
   for (const model::Support& support : model.supports) hold(support.on);
   for (const model::Spring& spring : model.springs) hold(spring.on);
   for (const model::Tie& tie : model.ties) hold(tie.a), hold(tie.b);
-  return std::find(held.begin(), held.end(), 0) != held.end();
+  return held;
 }
 
-/// The contact problems. W has a block for each body, dense within it; the systems of Newton's method are as sparse.
+/// The contact problems. W has a block for each body, dense within it; the systems of Newton's method are as sparse,
+/// those of rigid bodies as small as their motions. Where contact alone holds a body, the stages of the contact solver
+/// that follow Newton's method may have to take over.
 void add_contact(const Estimate& estimate, Plan& plan) {
   const CostConstants& costs = estimate.costs;
   const double components = 2.0 * plan.sizes.contact_pairs;
-  double blocks = 0.0;
-  for (std::size_t b = 0; b < estimate.model.bodies.size(); ++b)
-    if (!estimate.model.bodies[b].rigid) blocks += 4.0 * estimate.pairs[b] * estimate.pairs[b];
+  const std::vector<char> held = held_bodies(estimate.model);
+  double blocks = 0.0, of_rigid = 0.0;
+  for (std::size_t b = 0; b < estimate.model.bodies.size(); ++b) {
+    const double block = 4.0 * estimate.pairs[b] * estimate.pairs[b];
+    if (!estimate.model.bodies[b].rigid)
+      blocks += block;
+    else if (!held[b])
+      of_rigid += block;
+  }
   if (components > system::most_formed && blocks > system::most_filled * components * components) {
     plan.bytes += estimate.joined_bytes;
     plan.contact += costs.joined_iterations * estimate.solutions * estimate.joined_seconds;
     return;
   }
-  plan.bytes += costs.contact_bytes * std::min(blocks, components * components);
+  plan.bytes += costs.contact_bytes * std::min(blocks + of_rigid, components * components);
   const double width = components > 0.0 ? blocks / (2.0 * components) : 0.0;  // of two bodies: all components
   const bool many_bodies = width < 0.5 * components;                          // W and the systems are sparse
   if (many_bodies) plan.bytes += costs.wall_bytes * components * width;
   const double iterations = costs.wall_first_iterations + costs.wall_iterations * (estimate.solutions - 1.0);
   plan.contact += many_bodies ? iterations * costs.wall_seconds * components * width
                               : estimate.solutions * costs.contact_seconds * components * components;
-  if (!may_need_interior_points(estimate.model)) return;
-  const double step = many_bodies ? costs.wall_seconds * components * width
+  if (of_rigid > 0.0) plan.contact += iterations * costs.rigid_seconds * components;
+  if (std::find(held.begin(), held.end(), 0) == held.end()) return;
+  const double step = many_bodies ? costs.wall_seconds * 0.5 * (blocks + of_rigid)
                                   : costs.interior_seconds * components * components * components;
   plan.interior = costs.interior_steps * estimate.solutions * step;
 }

@@ -18,8 +18,9 @@
 //                         nested dissection, wall_bytes 2N k besides and wall_seconds 2N k for each iteration, k
 //                         averaged. Where bodies are held by contact alone an increment may besides take
 //                         interior_steps of interior points, each interior_seconds (2N)^3 or wall_seconds 2N k: which
-//                         ones do is not known before. Of more than 6,000 pairs of few bodies a factor of all bodies,
-//                         joined_iterations times in an increment
+//                         ones do is not known before. Rigid bodies take rigid_seconds 2N for each iteration, by
+//                         their motions; their interior points go by pairs, as those of others. Of more than 6,000
+//                         pairs of few bodies a factor of all bodies, joined_iterations times in an increment
 //
 // Estimates within a factor of two are enough to decide (benchmarks/README.md compares them with measurements).
 #pragma once
@@ -68,6 +69,7 @@ struct CostConstants {
   double wall_seconds = 1e-6;               ///< for 2N k of many bodies and one iteration, k of an average body
   double wall_first_iterations = 8.0;       ///< of the first increment: 2 to 10
   double wall_iterations = 6.0;             ///< of each one after it: 4 under small loads, 10 near the collapse load
+  double rigid_seconds = 2e-6;              ///< for 2N of rigid bodies and one iteration, by their motions
   double wall_bytes = 300.0;                ///< for 2N k of many bodies: their saddle matrix and its factor
   double joined_iterations = 15.0;          ///< of Newton, each with twice the time of a factorisation
   double field_seconds = 1.8e-6;            ///< for n and one increment with fields

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "scabo/contact/kkt/gmres.hpp"
-#include "scabo/contact/kkt/line_preconditioner.hpp"
+#include "scabo/contact/kkt/preconditioners.hpp"
 #include "scabo/contact/pair_operator.hpp"
 #include "scabo/contact/solve.hpp"
 #include "unit/contact/layer.hpp"

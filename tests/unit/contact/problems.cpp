@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
+
 namespace scabo::test {
 
 Matrix elastic_flexibility(std::mt19937& random, int pairs, double size, int d) {
@@ -96,6 +98,20 @@ double violation(const contact::Problem& problem, const Vector& p, const Vector&
   }
   if (a.size() > 0) worst = std::max(worst, (problem.G.transpose() * p + problem.f).cwiseAbs().maxCoeff());
   return worst / scale;
+}
+
+Vector swept_forces(const contact::Problem& problem, int sweeps) {
+  Vector p = Vector::Zero(problem.q.size());
+  const auto sweep_with = [&](auto pairs) {
+    pairs.start(p);
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+      if (pairs.sweep(p) <= 1e-12 * p.lpNorm<Eigen::Infinity>()) break;
+  };
+  if (problem.dimension == 2)
+    sweep_with(contact::PairSweeps<2>(problem));
+  else
+    sweep_with(contact::PairSweeps<3>(problem));
+  return p;
 }
 
 }  // namespace scabo::test

@@ -27,6 +27,9 @@ Matrix block_motions(int pairs, double width, double height);
 /// down.
 contact::Problem floating_problem(std::mt19937& random, int pairs, double most_friction);
 
+/// Forces of plain Gauss-Seidel, pair by pair from none, after `sweeps` sweeps or fewer if they no longer change.
+Vector swept_forces(const contact::Problem& problem, int sweeps);
+
 /// Largest violation of Signorini's and Coulomb's conditions and of the balance of rigid motions, written out
 /// case by case, with W scaled so that its diagonal is about 1.
 double violation(const contact::Problem& problem, const Vector& p, const Vector& a);

@@ -98,5 +98,33 @@ contacts: {bed: {between: [below.top, above.bottom], friction: 1.5}}
   EXPECT_EQ(describe(held).find("interior points"), std::string::npos);
 }
 
+// 200 blocks that are rigid, at rest and in 50 steps of time: 2 s by Newton's method, minutes if every step took
+// interior points.
+TEST(Plan, SaysHowLongWallsOfRigidBlocksMayTake) {
+  std::string courses;
+  for (int k = 0; k < 10; ++k)
+    courses += "  row" + std::to_string(k) + ": {rigid: true, density: 2000, shape: {rectangle: {corner: [" +
+               (k % 2 == 0 ? "0" : "0.2") + ", " + std::to_string(0.2 * k) +
+               "], size: [0.4, 0.2]}}, repeat: {count: 20, step: [0.4, 0]}}\n";
+  const model::Model model = input::parse_model(R"(
+scabo: 1
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -0.5], size: [10, 0.5]}}}
+)" + courses + R"(supports: [{on: floor, fix: [x, y]}]
+loads: {weight: {gravity: [0, -9.81]}}
+contacts: {joint: {between: all, friction: 0.6}}
+curves: {quake: {sine: {amplitude: 3, periods: 1}}}
+steps:
+  - {name: weight, loads: {weight: 1}}
+  - {name: shake, dynamic: {duration: 0.1, step: 0.002, ground: {x: quake}}, increments: 10}
+)",
+                                                "wall.yaml");
+  const Plan plan = plan_of(model, analysis::check(model));
+  EXPECT_GT(plan.contact, 0.7);
+  EXPECT_LT(plan.contact, 4.0);
+  EXPECT_GT(plan.interior, 10.0 * plan.contact);
+  EXPECT_NE(describe(plan).find("where contact takes interior points"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace scabo::run

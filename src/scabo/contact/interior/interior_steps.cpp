@@ -29,10 +29,8 @@ Vector scales_of_pairs(const Problem& problem) {
 Problem in_scales(const Problem& problem, const Vector& S) {
   Problem scaled = problem;
   if (problem.W.is_sparse()) {
-    SparseMatrix W = problem.W.sparse();
-    for (Index k = 0; k < W.outerSize(); ++k)
-      for (SparseMatrix::InnerIterator at(W, k); at; ++at) at.valueRef() /= S[at.row()] * S[k];
-    scaled.W = Delassus(std::move(W));
+    scaled.W =
+        Delassus(SparseMatrix(S.cwiseInverse().asDiagonal() * problem.W.sparse() * S.cwiseInverse().asDiagonal()));
   } else {
     scaled.W = Delassus(Matrix(S.cwiseInverse().asDiagonal() * problem.W.dense() * S.cwiseInverse().asDiagonal()));
   }
@@ -48,15 +46,14 @@ Problem in_scales(const Problem& problem, const Vector& S) {
 void scale_motions(Problem& problem, const Vector& S, Vector& length) {
   const Index m = problem.G.cols();
   length.setOnes(m);
-  SparseMatrix G = m > 0 ? problem.G.sparse() : SparseMatrix(problem.q.size(), 0);
+  if (m == 0) return;
+  SparseMatrix G = S.cwiseInverse().asDiagonal() * problem.G.sparse();
   for (Index k = 0; k < m; ++k) {
-    for (SparseMatrix::InnerIterator at(G, k); at; ++at) at.valueRef() /= S[at.row()];
-    const double size = G.col(k).norm();
-    if (size > 0.0) length[k] = 1.0 / size;
+    if (const double size = G.col(k).norm(); size > 0.0) length[k] = 1.0 / size;
     G.col(k) *= length[k];
   }
   problem.G = RigidMap(std::move(G));
-  if (m > 0) problem.f = problem.f.cwiseProduct(length);
+  problem.f = problem.f.cwiseProduct(length);
 }
 
 }  // namespace

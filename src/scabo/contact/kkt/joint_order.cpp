@@ -13,18 +13,7 @@ void make_set(std::vector<int>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-}  // namespace
-
-std::vector<int> pairs_beside(const Problem& problem, Eigen::Index pair, std::vector<int> with) {
-  const Eigen::Index d = problem.dimension;
-  for (Eigen::Index row = d * pair; row < d * (pair + 1); ++row)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(problem.W.sparse(), row); it; ++it)
-      if (const auto other = static_cast<int>(it.row() / d); with.empty() || with.back() != other)
-        with.push_back(other);
-  make_set(with);
-  return with;
-}
-
+/// The rigid motions that each pair measures, ascending; the same for all pairs of a joint.
 std::vector<std::vector<int>> motions_of_pairs(const Problem& problem) {
   std::vector<std::vector<int>> motions(static_cast<std::size_t>(problem.pairs()));
   if (problem.G.cols() == 0) return motions;
@@ -35,6 +24,18 @@ std::vector<std::vector<int>> motions_of_pairs(const Problem& problem) {
       if (of_pair.empty() || of_pair.back() != k) of_pair.push_back(static_cast<int>(k));
     }
   return motions;
+}
+
+}  // namespace
+
+std::vector<int> pairs_beside(const Problem& problem, Eigen::Index pair, std::vector<int> with) {
+  const Eigen::Index d = problem.dimension;
+  for (Eigen::Index row = d * pair; row < d * (pair + 1); ++row)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(problem.W.sparse(), row); it; ++it)
+      if (const auto other = static_cast<int>(it.row() / d); with.empty() || with.back() != other)
+        with.push_back(other);
+  make_set(with);
+  return with;
 }
 
 JointOrder::JointOrder(const Problem& problem) {

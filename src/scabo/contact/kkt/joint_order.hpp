@@ -17,9 +17,6 @@ namespace scabo::contact {
 /// Pairs that the motion of this one depends on by a sparse W, and those in `with`, ascending.
 std::vector<int> pairs_beside(const Problem& problem, Eigen::Index pair, std::vector<int> with = {});
 
-/// The rigid motions that each pair measures, ascending; the same for all pairs of a joint.
-std::vector<std::vector<int>> motions_of_pairs(const Problem& problem);
-
 class JointOrder {
  public:
   /// W sparse.

@@ -115,21 +115,6 @@ void JointSystem<d>::solve(const Vector& b, Vector& z) const {
   }
 }
 
-template <int d>
-void JointSystem<d>::apply(const Vector& z, Vector& result) const {
-  Vector s = Vector::Zero(R * joints_.count());
-  for (std::size_t j = 0; j < pair.size(); ++j) {
-    const auto row = static_cast<Index>(j);
-    s.segment<R>(R * static_cast<Index>(joint_of(j))) += C.row(row).transpose() * z[row];
-  }
-  s = spread(s);
-  result.resize(z.size());
-  for (std::size_t j = 0; j < pair.size(); ++j) {
-    const auto row = static_cast<Index>(j);
-    result[row] = D[row] * z[row] + L.row(row).dot(s.segment<R>(R * static_cast<Index>(joint_of(j))));
-  }
-}
-
 template class JointSystem<2>;
 template class JointSystem<3>;
 

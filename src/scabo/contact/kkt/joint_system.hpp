@@ -43,8 +43,6 @@ class JointSystem {
   [[nodiscard]] bool factorise();
   /// Of what was factorised last, without refinement.
   void solve(const Vector& b, Vector& z) const;
-  /// result = (D + L K C') z with the D of now.
-  void apply(const Vector& z, Vector& result) const;
 
  private:
   Vector spread(const Vector& s) const;  // K s

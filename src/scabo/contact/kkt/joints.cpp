@@ -15,13 +15,6 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-double entry(const Sparse& W, int row, int column) {
-  const int *const begin = W.innerIndexPtr() + W.outerIndexPtr()[column], *const end = W.innerIndexPtr() +
-                                                                                       W.outerIndexPtr()[column + 1];
-  const int* const at = std::lower_bound(begin, end, row);
-  return at != end && *at == row ? W.valuePtr()[at - W.innerIndexPtr()] : 0.0;
-}
-
 /// Pairs that each pair is coupled with, itself included, in order.
 struct Pattern {
   std::vector<int> first, pairs;
@@ -64,7 +57,7 @@ struct Pivots {
     const auto r = static_cast<int>(rows.size());
     for (int a = 0; a < r; ++a)
       for (int k = 0; k < d; ++k) {
-        double sum = entry(W, rows[static_cast<std::size_t>(a)], d * i + k);
+        double sum = W.coeff(rows[static_cast<std::size_t>(a)], d * i + k);
         for (int b = 0; b < a; ++b) sum -= L(a, b) * Y(b, k);
         Y(a, k) = sum / L(a, a);
       }
@@ -88,7 +81,7 @@ struct Pivots {
     Eigen::Matrix<double, d, d> left;
     Eigen::Matrix<double, d, 1> whole;
     for (int k = 0; k < d; ++k) {
-      for (int j = 0; j < d; ++j) left(j, k) = entry(W, d * i + j, d * i + k);
+      for (int j = 0; j < d; ++j) left(j, k) = W.coeff(d * i + j, d * i + k);
       whole[k] = left(k, k);
     }
     left -= Y.transpose() * Y;
@@ -172,7 +165,7 @@ bool couple(const Sparse& W, const Pattern& pattern, const Groups<d>& groups, Jo
       const std::vector<int>&rows = groups.pivots[e].rows, &columns = groups.pivots[f].rows;
       for (std::size_t a = 0; a < rows.size(); ++a)
         for (std::size_t b = 0; b < columns.size(); ++b)
-          K(static_cast<int>(a), static_cast<int>(b)) = entry(W, rows[a], columns[b]);
+          K(static_cast<int>(a), static_cast<int>(b)) = W.coeff(rows[a], columns[b]);
       joints.K.push_back(K);
     }
     joints.first.push_back(static_cast<int>(joints.neighbour.size()));
@@ -196,7 +189,7 @@ bool are_those_of(const Sparse& W, const Pattern& pattern, const Joints<d>& join
       const double size = std::sqrt(diagonal.segment<d>(d * *at).maxCoeff() * diagonal.segment<d>(d * j).maxCoeff());
       for (int k = 0; k < d; ++k)
         for (int c = 0; c < d; ++c)
-          if (!(std::abs(entry(W, d * *at + c, d * j + k) - block(c, k)) <= system_constants.equal_within * size))
+          if (!(std::abs(W.coeff(d * *at + c, d * j + k) - block(c, k)) <= system_constants.equal_within * size))
             return false;
     }
   }

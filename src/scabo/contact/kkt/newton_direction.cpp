@@ -60,8 +60,9 @@ NewtonDirection::~NewtonDirection() = default;
 
 bool NewtonDirection::find(Residual& at, double regularisation, Vector& d) {
   // Of many bodies the branch that holds least is followed (open, slip): of redundant pairs that just slip, stick would
-  // make the matrix nearly singular and the direction huge.
-  if (equations_.problem().G.cols() > system_constants.motions_of_one_body) {
+  // make the matrix nearly singular and the direction huge. In time rigid bodies have no rigid motions, but W knows
+  // them.
+  if (work_->bodies || equations_.problem().G.cols() > system_constants.motions_of_one_body) {
     release_ties(at);
     return solve(at, regularisation, d);
   }
@@ -185,80 +186,23 @@ bool NewtonDirection::solve_by_holding() {
     result.head(size) = p;
     result.tail(m) = factor * a;
   };
-  const double left = solve_preconditioned(precondition, system_constants.holding_gmres);
-  work_->holding_fails = !(left <= system_constants.exact);
+  work_->holding_fails = !solve_preconditioned(precondition, system_constants.holding_gmres, system_constants.exact);
   return !work_->holding_fails;
 }
 
-double NewtonDirection::solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
-                                             const GmresOptions& options) {
+bool NewtonDirection::solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
+                                           const GmresOptions& options, double most) {
   const Vector right = right_.head(rows_.size() + equations_.problem().G.cols());
   const auto multiply = [&](const Vector& x, Vector& result) { result = rows_.times(equations_.problem(), x); };
   y_.setZero(right.size());
   const double left = gmres(multiply, precondition, right, y_, options);
-  return y_.allFinite() ? left : HUGE_VAL;
-}
-
-NewtonDirection::PairBlocks NewtonDirection::pair_blocks() {
-  const Problem& problem = equations_.problem();
-  const Eigen::Index d = problem.dimension, N = problem.pairs(), size = rows_.size(), m = problem.G.cols();
-  if (work_->blocks.size() == 0) work_->blocks = problem.W.diagonal_blocks(problem.dimension);
-  PairBlocks blocks;
-  for (Eigen::Index i = 0, j = 0; i <= N; ++i) {
-    while (j < size && rows_.pair[static_cast<std::size_t>(j)] < i) ++j;
-    blocks.first.push_back(static_cast<int>(j));
-  }
-  blocks.motion.setZero(size, m);
-  blocks.force.setZero(m, size);
-  for (Eigen::Index i = 0; i < N; ++i) {
-    const Eigen::Index first = blocks.first[static_cast<std::size_t>(i)],
-                       count = blocks.first[static_cast<std::size_t>(i) + 1] - first;
-    const Matrix L = rows_.L.block(0, first, d, count), C = rows_.C.block(0, first, d, count);
-    Eigen::Matrix3d block = Eigen::Matrix3d::Identity();
-    block.topLeftCorner(count, count) = L.transpose() * work_->blocks.middleCols(d * i, d) * C;
-    block.topLeftCorner(count, count) += Matrix(rows_.D.segment(first, count).asDiagonal());
-    blocks.inverse.push_back(block.inverse());
-    if (!blocks.inverse.back().allFinite()) blocks.inverse.back().setIdentity();
-    if (m == 0) continue;
-    blocks.motion.middleRows(first, count) = L.transpose() * problem.G.dense().middleRows(d * i, d);
-    blocks.force.middleCols(first, count) = problem.G.dense().middleRows(d * i, d).transpose() * C;
-  }
-  if (m == 0) return blocks;
-  Matrix solved(size, m);
-  Vector column;
-  for (Eigen::Index g = 0; g < m; ++g) {
-    blocks.solve(blocks.motion.col(g), column);
-    solved.col(g) = column;
-  }
-  blocks.balance.compute(blocks.force * solved + rows_.E * Matrix::Identity(m, m));
-  return blocks;
-}
-
-void NewtonDirection::PairBlocks::solve(const Eigen::Ref<const Vector>& x, Vector& y) const {
-  y.resize(x.size());
-  for (std::size_t i = 0; i < inverse.size(); ++i) {
-    const int from = first[i], count = first[i + 1] - from;
-    y.segment(from, count).noalias() = inverse[i].topLeftCorner(count, count) * x.segment(from, count);
-  }
+  return y_.allFinite() && left <= most;
 }
 
 bool NewtonDirection::solve_iteratively() {
-  const SystemConstants& c = system_constants;
-  const Eigen::Index size = rows_.size(), m = equations_.problem().G.cols();
-  const PairBlocks blocks = pair_blocks();
-  if (m > 0 && !(blocks.balance.rcond() > c.least_of_balance)) return false;  // too few pairs hold the bodies
-  Vector y, da;
-  const auto precondition = [&](const Vector& x, Vector& result) {
-    blocks.solve(x.head(size), y);
-    result.resize(size + m);
-    if (m > 0) {
-      da = blocks.balance.solve(Vector(blocks.force * y - x.tail(m)));
-      blocks.solve(x.head(size) - blocks.motion * da, y);
-      result.tail(m) = da;
-    }
-    result.head(size) = y;
-  };
-  return solve_preconditioned(precondition, c.pairs_gmres) <= c.as_good_as_lu;
+  return work_->by_pairs.factorise(equations_.problem(), rows_) &&
+         solve_preconditioned([&](const Vector& x, Vector& y) { work_->by_pairs.solve(x, y); },
+                              system_constants.pairs_gmres, system_constants.as_good_as_lu);
 }
 
 }  // namespace scabo::contact

@@ -14,10 +14,9 @@
 //
 // Which factorisation, size and structure decide (docs/methods/12_contact_solver.md, one saddle system). Joined bodies
 // (pair_operator.hpp) are the preconditioner of the matrix above but with n for n + mu e in C. Without any LU it is the
-// matrix with the diagonal blocks D of the pairs for W: da from (G'C) D^-1 (L'R G) da = ..., then y from D.
+// matrix with the diagonal blocks of the pairs for W (preconditioners.hpp).
 #pragma once
 
-#include <Eigen/LU>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -53,25 +52,15 @@ class NewtonDirection {
   bool solve_singular(Eigen::Index n);
   bool solve_along_joints();
   bool solve_by_single_precision();
-  /// y_ by GMRES, with products with the matrix itself. The residual, over that of y_ = 0.
-  double solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
-                              const GmresOptions& options);
+  /// y_ by GMRES, with products with the matrix itself. Whether the residual is at most `most` of that of y_ = 0.
+  bool solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
+                            const GmresOptions& options, double most);
   bool solve_sparse();
   bool solve_by_bodies();
   template <int d>
   bool solve_by_joints();
   bool solve_by_holding();
   bool solve_iteratively();
-  /// The preconditioner of GMRES.
-  struct PairBlocks {
-    std::vector<int> first;                // N + 1, of the unknowns
-    std::vector<Eigen::Matrix3d> inverse;  // of D, for each pair
-    Matrix motion, force;                  // L'R G, G'C
-    Eigen::PartialPivLU<Matrix> balance;   // of G'C D^-1 L'R G
-
-    void solve(const Eigen::Ref<const Vector>& x, Vector& y) const;
-  };
-  PairBlocks pair_blocks();
 
   const BDifferentiableEquations& equations_;
   SaddleRows rows_;     // with L R for L; E: alpha

@@ -71,8 +71,8 @@ bool NewtonDirection::solve_along_joints() {
   work_->line_fails = true;
   if (!work_->along_joints.factorise(equations_.problem(), rows_)) return false;
   const auto precondition = [&](const Vector& x, Vector& result) { work_->along_joints.solve(x, result); };
-  const double left = solve_preconditioned(precondition, system_constants.line_gmres);
-  work_->line_fails = !(left <= system_constants.as_good_as_double);
+  work_->line_fails =
+      !solve_preconditioned(precondition, system_constants.line_gmres, system_constants.as_good_as_double);
   return !work_->line_fails;
 }
 
@@ -83,8 +83,8 @@ bool NewtonDirection::solve_by_single_precision() {
   assemble_dense(problem, rows_, work_->full, work_->single);
   if (!work_->single_solver.factorise(work_->single)) return false;
   const auto precondition = [&](const Vector& x, Vector& result) { work_->single_solver.solve(x, result); };
-  const double left = solve_preconditioned(precondition, system_constants.refining_gmres);
-  work_->single_fails = !(left <= system_constants.as_good_as_double);
+  work_->single_fails =
+      !solve_preconditioned(precondition, system_constants.refining_gmres, system_constants.as_good_as_double);
   return !work_->single_fails;
 }
 

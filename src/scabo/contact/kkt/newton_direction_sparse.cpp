@@ -38,7 +38,7 @@ bool NewtonDirection::solve_by_bodies() {
   BodySystem& bodies = *work_->bodies;
   if (!bodies.factorise(rows_, std::max(rows_.E, system_constants.raise) * (1.0 - own) + own)) return false;
   const auto precondition = [&](const Vector& x, Vector& result) { bodies.solve(x, result); };
-  return solve_preconditioned(precondition, system_constants.singular_gmres) <= system_constants.descending;
+  return solve_preconditioned(precondition, system_constants.singular_gmres, system_constants.descending);
 }
 
 /// The same by their joints, where W alone is known and these have many pairs.
@@ -63,13 +63,8 @@ bool NewtonDirection::solve_by_joints() {
   const auto own = own_.head(size).array();
   joints->D = std::max(rows_.E, system_constants.raise) * (1.0 - own) + own;
   if (!joints->factorise()) return false;
-  joints->D = rows_.D.head(size);
-  const auto multiply = [&](const Vector& x, Vector& result) { joints->apply(x, result); };
   const auto precondition = [&](const Vector& x, Vector& result) { joints->solve(x, result); };
-  const Vector right = right_.head(size);
-  y_.setZero(size);
-  const double left = gmres(multiply, precondition, right, y_, system_constants.singular_gmres);
-  return y_.allFinite() && left <= system_constants.descending;
+  return solve_preconditioned(precondition, system_constants.singular_gmres, system_constants.descending);
 }
 
 template bool NewtonDirection::solve_by_joints<2>();

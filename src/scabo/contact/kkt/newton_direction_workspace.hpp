@@ -7,8 +7,8 @@
 #include "scabo/contact/constants.hpp"
 #include "scabo/contact/kkt/body_system.hpp"
 #include "scabo/contact/kkt/joint_system.hpp"
-#include "scabo/contact/kkt/line_preconditioner.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
+#include "scabo/contact/kkt/preconditioners.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/linalg/single_precision_solver.hpp"
 
@@ -27,6 +27,7 @@ struct NewtonDirection::Workspace {
   Eigen::MatrixXf single;
   linalg::SinglePrecisionSolver single_solver;
   LinePreconditioner along_joints;
+  PairPreconditioner by_pairs;
   bool line_fails = false;     // pairs do not follow each other along joints, or W is too ill-conditioned
   bool single_fails = false;   // W is too ill-conditioned: of slender bodies
   bool holding_fails = false;  // it takes too many iterations, or none hold the bodies
@@ -37,7 +38,6 @@ struct NewtonDirection::Workspace {
   bool joints_sought = false;
   std::tuple<std::optional<JointSystem<2>>, std::optional<JointSystem<3>>> joints;  // in the plane, in space
   bool redundant = false;  // a sparse system was singular before: pairs of three bodies that meet in a point
-  Matrix blocks;           // of W on its diagonal, for the preconditioner
 };
 
 }  // namespace scabo::contact

@@ -217,12 +217,6 @@ Residual BDifferentiableEquations::residual(const Vector& p, const Vector& a) co
   return at;
 }
 
-Vector BDifferentiableEquations::motion_along(const Vector& d) const {
-  Vector change;
-  motion_along(d, change);
-  return change;
-}
-
 void BDifferentiableEquations::motion_along(const Vector& d, Vector& change) const {
   const Eigen::Index size = problem_.q.size();
   problem_.W.apply(d.head(size), change);
@@ -231,7 +225,8 @@ void BDifferentiableEquations::motion_along(const Vector& d, Vector& change) con
 
 Vector BDifferentiableEquations::derivative(const Residual& at, const Vector& direction) const {
   const Eigen::Index N = problem_.pairs(), d = problem_.dimension, m = direction.size() - d * N;
-  const Vector du = motion_along(direction);
+  Vector du;
+  motion_along(direction, du);
   Vector slope(direction.size());
   for (Eigen::Index i = 0; i < N; ++i) {
     const Branch& branch = at.branches[static_cast<std::size_t>(i)];

@@ -80,7 +80,6 @@ class BDifferentiableEquations {
   void evaluate_at_motion(const Vector& p, Residual& at) const;
 
   /// Change of the motions along d = [dp; da]: W dp + G da.
-  Vector motion_along(const Vector& d) const;
   void motion_along(const Vector& d, Vector& change) const;
 
   /// H'(z; d), exact also at ties: it does not depend on the branches followed there.

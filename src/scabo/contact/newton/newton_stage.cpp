@@ -1,3 +1,4 @@
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -38,15 +39,10 @@ Point counted(Search& search, Point start) {
 }
 
 /// From the last increment: of a body that contact alone holds first with the states as they were (kept_states.hpp).
-/// Whether that ends the search.
-bool from_history(Search& search, NewtonEnd& end) {
+/// Whether that ends the search, as `done` says of each start.
+bool from_history(Search& search, const std::function<bool(Point, const char*)>& done) {
   const bool floats = search.problem().G.cols() > 0;
-  const int patience = patience_of(search.problem());
   const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
-  const auto done = [&](Point from, const char* stage) {
-    end = newton_until_settled(search, std::move(from), {stage, 0, patience});
-    return end.converged || search.late();
-  };
   std::optional<Point> kept;
   if (floats) kept = with_states_kept(equations, search.start());
   if (kept && done(counted(search, *std::move(kept)), "newton from states kept")) return true;
@@ -75,7 +71,7 @@ StageEnd newton_stage(Search& search) {
     end = newton_until_settled(search, std::move(from), {stage, 0, patience});
     return end.converged || search.late();
   };
-  if (search.has_history() && from_history(search, end)) return {end.converged, why_of(end, search)};
+  if (search.has_history() && from_history(search, done)) return {end.converged, why_of(end, search)};
   if (problem.G.cols() > 0 || problem.W.bodies() != nullptr)
     if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
       if (done(counted(search, *std::move(bonded)), "newton from bonded pairs"))

@@ -62,19 +62,16 @@ double PairSweeps<d>::sweep(Vector& p) {
 template class PairSweeps<2>;
 template class PairSweeps<3>;
 
-GaussSeidel::Sweeps GaussSeidel::sweeps_of(const Problem& problem, Form form) {
-  if (form == Form::of_joints) {
-    if (problem.dimension == 2) {
-      if (auto joints = find_joints<2>(problem)) return JointSweeps<2>(problem, std::move(*joints));
-    } else if (auto joints = find_joints<3>(problem)) {
-      return JointSweeps<3>(problem, std::move(*joints));
-    }
+GaussSeidel::Sweeps GaussSeidel::sweeps_of(const Problem& problem) {
+  if (problem.dimension == 2) {
+    if (auto joints = find_joints<2>(problem)) return JointSweeps<2>(problem, std::move(*joints));
+    return PairSweeps<2>(problem);
   }
-  if (problem.dimension == 2) return PairSweeps<2>(problem);
+  if (auto joints = find_joints<3>(problem)) return JointSweeps<3>(problem, std::move(*joints));
   return PairSweeps<3>(problem);
 }
 
-GaussSeidel::GaussSeidel(const Problem& problem, Form form) : sweeps_(sweeps_of(problem, form)) {}
+GaussSeidel::GaussSeidel(const Problem& problem) : sweeps_(sweeps_of(problem)) {}
 
 void GaussSeidel::start(const Vector& p) {
   std::visit([&](auto& sweeps) { sweeps.start(p); }, sweeps_);
@@ -86,14 +83,6 @@ double GaussSeidel::sweep(Vector& p) {
 
 Vector GaussSeidel::motion() const {
   return std::visit([](const auto& sweeps) { return sweeps.motion(); }, sweeps_);
-}
-
-Vector gauss_seidel(const Problem& problem, Vector p, int sweeps) {
-  GaussSeidel iteration(problem, GaussSeidel::Form::of_pairs);
-  iteration.start(p);
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    if (iteration.sweep(p) <= 1e-12 * p.lpNorm<Eigen::Infinity>()) break;
-  return p;
 }
 
 }  // namespace scabo::contact

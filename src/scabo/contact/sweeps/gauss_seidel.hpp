@@ -38,12 +38,11 @@ class PairSweeps {
 extern template class PairSweeps<2>;
 extern template class PairSweeps<3>;
 
-/// The same for two or three components.
+/// The same for two or three components; by the joints of rigid bodies where there are any (joints.hpp), whose search
+/// costs as much as some tens of sweeps.
 class GaussSeidel {
  public:
-  /// of_joints: joints of rigid bodies are looked for (joints.hpp), which costs as much as some tens of sweeps.
-  enum class Form { of_pairs, of_joints };
-  explicit GaussSeidel(const Problem& problem, Form form = Form::of_joints);
+  explicit GaussSeidel(const Problem& problem);
   void start(const Vector& p);
   double sweep(Vector& p);
   Vector motion() const;
@@ -51,12 +50,9 @@ class GaussSeidel {
 
  private:
   using Sweeps = std::variant<PairSweeps<2>, PairSweeps<3>, JointSweeps<2>, JointSweeps<3>>;
-  static Sweeps sweeps_of(const Problem& problem, Form form);
+  static Sweeps sweeps_of(const Problem& problem);
 
   Sweeps sweeps_;
 };
-
-/// Forces after `sweeps` sweeps from `p`, or fewer if they no longer change.
-Vector gauss_seidel(const Problem& problem, Vector p, int sweeps);
 
 }  // namespace scabo::contact

@@ -42,9 +42,6 @@ class PairProblem {
   /// adds nothing.
   [[gnu::hot]] bool step(const double* motion, double* force, double* change, double& largest);
 
-  const double* W() const { return W_; }
-  double inverse() const { return inverse_; }  ///< 1 / W_nn; 0 if no force moves the pair along its normal
-
  private:
   using Tangential = double[2][2];
 
@@ -55,7 +52,7 @@ class PairProblem {
   [[gnu::hot]] double normal(double a_n, const double* p_t) const;
 
   double W_[d * d];
-  double inverse_;
+  double inverse_;  // 1 / W_nn; 0 if no force moves the pair along its normal
   Friction mu_;
   double cohesion_, tension_;
   double nt_[2] = {0.0, 0.0}, tn_[2] = {0.0, 0.0};  // W_nt, W_tn / W_nn; in the plane the second tangent does not exist
