@@ -77,6 +77,16 @@ class EndFromOutside {
   std::jthread watch_;
 };
 
+/// In one sentence; after an interruption also how it goes on.
+std::string why_not_solved(const analysis::StaticSolution& solution, ExitStatus status,
+                           const std::filesystem::path& directory) {
+  const bool interrupted = status != ExitStatus::not_converged;
+  std::string why = run::why_not_solved(solution, interrupted);
+  if (interrupted && analysis::has_checkpoint(directory))
+    why += fmt::format(": go on with `scabo resume {}`", directory.string());
+  return why;
+}
+
 }  // namespace
 
 void use(Cluster& cluster, const std::string& file, const std::vector<std::string>& settings, double divide_from,
@@ -139,10 +149,7 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
     print_warning(warning);
   }
   if (status != ExitStatus::solved) {
-    const bool interrupted = status != ExitStatus::not_converged;
-    std::string why = run::why_not_solved(solution, interrupted);
-    if (interrupted && analysis::has_checkpoint(run.directory->path()))
-      why += fmt::format(": go on with `scabo resume {}`", run.directory->path().string());
+    const std::string why = why_not_solved(solution, status, run.directory->path());
     events.not_solved(solution);
     events.error(why);
     print_error(why);

@@ -263,7 +263,7 @@ def asked_for(results):
     table = results.table("history.csv")
     if table is None:
         return []
-    names = [name for name in table if name not in ("step", "increment", "time")]
+    names = [name for name in table if name not in ("step", "increment", "time", "forces_of_radians")]
     count = f" ({MOST_COLUMNS} of {len(names)} columns)" if len(names) > MOST_COLUMNS else ""
     return [Panel(short_name(name) + count, (results.time_axis, "number"), ("in units of the model", "number"),
                   [Curve("", table["time"][:results.count], table[name][:results.count])]) for name in names[:MOST_COLUMNS]]
