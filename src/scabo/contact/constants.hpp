@@ -69,8 +69,8 @@ struct SystemConstants {
   Eigen::Index most_of_single = 24000;  ///< ... which then takes 2.3 GB
   Eigen::Index most_of_dense = 8000;    ///< unknowns of a dense LU of W itself; GMRES takes hundreds of products
   Eigen::Index most_of_formed = 2500;   ///< unknowns of a dense LU of a W that is formed first
-  double dearer = 10.0;                 ///< operations of a sparse factor, whose order and iterations are not counted
-  int many_motions = 60;                ///< with `many_pairs`: of walls in which some pairs are always redundant
+  double joining = 10.0;  ///< so many times the operations of a sparse factor: its order and iterations are not counted
+  int many_motions = 60;  ///< with `many_pairs`: of walls in which some pairs are always redundant
   int many_pairs = 1000;
   double least_of_dense = 1e-15;    ///< reciprocal condition: beside soft springs a regular matrix has 1e-13 and less
   double least_of_sparse = 1e-13;   ///< the same as sparse LU estimates it, without equilibration

@@ -55,7 +55,7 @@ NewtonEnd Search::newton_from(Point from, const NewtonRun& run) {
   options.patience = run.patience;
   options.stage = run.stage;
   options.deadline = options_.deadline;
-  options.content = accepts_;
+  options.accepts = accepts_;
   options.ask_when_stuck = !by_natural_map();
   if (options_.on_iteration)
     options.on_iteration = [this, before = iterations_ + coarse_iterations_](Iteration iteration) {

@@ -52,7 +52,7 @@ TEST(Allocation, NewtonTakesNoMemoryAfterItsFirstIteration) {
       int points = 0;
       NewtonOptions options;
       options.small = 1e-12;
-      options.content = [&](const Vector&, const Vector&, const Vector&) {  // asked once at every point
+      options.accepts = [&](const Vector&, const Vector&, const Vector&) {  // asked once at every point
         if (points < 64) at_point[points++] = calls;
         return false;
       };

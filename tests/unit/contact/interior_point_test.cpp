@@ -174,15 +174,15 @@ TEST(InteriorPoints, BalanceTheRigidMotionsOfElasticBodies) {
     if (by_newton.status != Status::solved) continue;
     ++asked;
     const Measure measure(problem);
-    const auto content = [&](const Vector& p, const Vector& a, const Vector& motion) {
+    const auto accepts = [&](const Vector& p, const Vector& a, const Vector& motion) {
       // As in a run: the certificate takes complementarity as a product, of which either factor may be 1e-5.
       return measure.natural_map(problem, p, motion) <= 1e-9 &&
              judge(problem, p, a, motion, measure, Judge::certificate).solved(1e-10);
     };
     InteriorPointEnd end;
     for (const double start : {1.0, 10.0, 1000.0})
-      if (!end.content) end = interior_points(problem, content, {}, start);
-    if (!end.content) continue;  // the problem is not convex
+      if (!end.accepted) end = interior_points(problem, accepts, {}, start);
+    if (!end.accepted) continue;  // the problem is not convex
     ++reached;
     EXPECT_LT(test::violation(problem, end.p, end.a), 1e-6) << sample;
     EXPECT_LT((problem.G.transpose() * end.p + problem.f).norm(), 1e-9 * problem.f.norm()) << sample;

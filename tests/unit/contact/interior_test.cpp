@@ -106,7 +106,7 @@ Problem with_known_solution(std::mt19937& random, int dimension, Laws laws) {
   return problem;
 }
 
-/// A content judge as increments have it.
+/// A judge as increments have it.
 IsSolution certified(const Problem& problem, double tolerance = 1e-10) {
   return [&problem, tolerance, measure = Measure(problem)](const Vector& p, const Vector& a, const Vector& motion) {
     return measure.natural_map(problem, p, motion) <= 100.0 * tolerance &&
@@ -121,16 +121,16 @@ struct Found {
 
 /// Newton's method on the same problem from where interior points end.
 Found followed_by_newton(const Problem& problem, const InteriorPointEnd& end) {
-  const IsSolution content = certified(problem);
-  if (end.p.size() == 0 || end.content) return {end.p, end.a, end.content};
+  const IsSolution accepts = certified(problem);
+  if (end.p.size() == 0 || end.accepted) return {end.p, end.a, end.accepted};
   const BDifferentiableEquations equations(problem, 1.0);
   NewtonOptions options;
   options.relative = 1e-12;
-  options.content = content;
+  options.accepts = accepts;
   options.ask_when_stuck = true;
   const NewtonEnd newton_end = newton(equations, end.p, end.a, options);
   return {newton_end.p, newton_end.a,
-          content(newton_end.p, newton_end.a, motion_of(problem, newton_end.p, newton_end.a))};
+          accepts(newton_end.p, newton_end.a, motion_of(problem, newton_end.p, newton_end.a))};
 }
 
 Found solved_inside(const Problem& problem) {
@@ -323,7 +323,7 @@ TEST_P(InteriorPointsOfTowers, ReachTheLaw) {
       for (Eigen::Index i = 0; i < problem.mu.size(); ++i) problem.mu[i] = i % 3 == 0 ? 0.2 : 0.7;
     const InteriorPointEnd end = interior_points(problem, {});
     ASSERT_EQ(end.p.size(), problem.q.size());
-    EXPECT_FALSE(end.content);  // nobody was asked
+    EXPECT_FALSE(end.accepted);  // nobody was asked
     expect_the_law(problem, end.p, 1e-6);
   }
 }
@@ -345,7 +345,7 @@ TEST_P(InteriorPointsOfTowers, EndAtTheBoundaryOfTheCones) {
   const InteriorPointEnd end = interior_points(problem, [&](const Vector& p, const Vector&, const Vector& motion) {
     return Measure(problem).natural_map(problem, p, motion) <= 1e-5;
   });
-  ASSERT_TRUE(end.content);
+  ASSERT_TRUE(end.accepted);
   int at_the_boundary = 0;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const double bound = problem.mu[i] * end.p[d * i], friction = end.p.segment(d * i + 1, d - 1).norm();
@@ -362,7 +362,7 @@ TEST(InteriorPointsOfAllLaws, TheJudgeEndsThem) {
   int asked = 0;
   const InteriorPointEnd end =
       interior_points(problem, [&](const Vector&, const Vector&, const Vector&) { return ++asked == 3; });
-  EXPECT_TRUE(end.content);
+  EXPECT_TRUE(end.accepted);
   EXPECT_EQ(end.iterations, 2);
   EXPECT_LE(interior_points(problem, {}, Deadline::in(0.0)).iterations, 0);
 }

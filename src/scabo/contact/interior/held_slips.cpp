@@ -57,13 +57,13 @@ class FixedPoint {
     steps_.start(1.0);
   }
 
-  void run(const IsSolution& content, const Deadline& deadline,
+  void run(const IsSolution& accepts, const Deadline& deadline,
            const std::function<bool(InteriorPointEnd)>& cross_over) {
     InteriorPointEnd end;
     double aim = held_constants.first_aim;
     for (int round = 1;; ++round) {
-      const double map = solve(content, deadline, end);
-      const bool last = end.content || !std::isfinite(map) || deadline.passed() || round == held_constants.rounds;
+      const double map = solve(accepts, deadline, end);
+      const bool last = end.accepted || !std::isfinite(map) || deadline.passed() || round == held_constants.rounds;
       if (!last) hold_next();
       if (!last && map > aim) continue;
       aim = held_constants.next_aim * end.residual;
@@ -79,7 +79,7 @@ class FixedPoint {
   };
 
   /// The convex problem of the slips held; the natural map of the last point.
-  double solve(const IsSolution& content, const Deadline& deadline, InteriorPointEnd& end) {
+  double solve(const IsSolution& accepts, const Deadline& deadline, InteriorPointEnd& end) {
     const HeldConstants& c = held_constants;
     const double enough = std::max(c.aim * change_ * change_, c.least * scale_ * scale_);
     steps_.hold(held_);
@@ -89,8 +89,8 @@ class FixedPoint {
       deadline.spend(operations_of_system(*problem_));
       steps_.evaluate();
       if (step == 0) steps_.measure_from_here();
-      const double map = judge_iterate(steps_, *problem_, measure_, content, "slips held", end);
-      if (!std::isfinite(map) || end.content) return map;
+      const double map = judge_iterate(steps_, *problem_, measure_, accepts, "slips held", end);
+      if (!std::isfinite(map) || end.accepted) return map;
       const double gap = steps_.gap();
       passed_.push_back({gap, steps_.point()});
       since = gap <= interior_constants.gain * least_gap ? 0 : since + 1;
@@ -144,12 +144,12 @@ class FixedPoint {
 
 }  // namespace
 
-void hold_slips(const Problem& problem, const IsSolution& content, const Deadline& deadline,
+void hold_slips(const Problem& problem, const IsSolution& accepts, const Deadline& deadline,
                 const std::function<bool(InteriorPointEnd)>& cross_over) {
   if (problem.dimension == 3)
-    FixedPoint<3>(problem).run(content, deadline, cross_over);
+    FixedPoint<3>(problem).run(accepts, deadline, cross_over);
   else
-    FixedPoint<2>(problem).run(content, deadline, cross_over);
+    FixedPoint<2>(problem).run(accepts, deadline, cross_over);
 }
 
 }  // namespace scabo::contact

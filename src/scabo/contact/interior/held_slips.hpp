@@ -28,10 +28,11 @@
 
 namespace scabo::contact {
 
-/// Of a problem that may_take_interior_points(), until `content` accepts forces and motions, the most rounds are done
-/// or the deadline has passed. After each round whose natural map is at most an aim, the best point since is handed to
-/// `cross_over`, and at the end; that returns true where the search is over, else the aim is a part of that map.
-void hold_slips(const Problem& problem, const IsSolution& content, const Deadline& deadline,
+/// Of a problem that may_take_interior_points(), until `accepts` says yes to forces and motions, the most rounds are
+/// done or the deadline has passed. After each round whose natural map is at most an aim, the best point since is
+/// handed to `cross_over`, and at the end; that returns true where the search is over, else the aim is a part of that
+/// map.
+void hold_slips(const Problem& problem, const IsSolution& accepts, const Deadline& deadline,
                 const std::function<bool(InteriorPointEnd)>& cross_over);
 
 }  // namespace scabo::contact

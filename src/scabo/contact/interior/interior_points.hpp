@@ -14,8 +14,8 @@
 namespace scabo::contact {
 
 struct InteriorPointEnd {
-  Vector p, a;  ///< where the judge is content; otherwise of the least residual; empty: no point is finite
-  bool content = false;
+  Vector p, a;  ///< that the judge accepts; otherwise of the least residual; empty: no point is finite
+  bool accepted = false;
   int iterations = 0;
   double residual = HUGE_VAL;    ///< least natural map met, of forces in the units of W p, over |q|
   std::vector<Iteration> trace;  ///< its residual, its step length; merit is m / 2
@@ -24,9 +24,9 @@ struct InteriorPointEnd {
 /// W sparse, or dense with few enough rows to be factorised in each step; some load.
 bool may_take_interior_points(const Problem& problem);
 
-/// From all pairs with the same normal force, `start` times what the loads suggest, until `content`, which may be
+/// From all pairs with the same normal force, `start` times what the loads suggest, until `accepts`, which may be
 /// empty, accepts forces and motions, the natural map is at most `aim`, or steps no longer lead on.
-InteriorPointEnd interior_points(const Problem& problem, const IsSolution& content, const Deadline& deadline = {},
+InteriorPointEnd interior_points(const Problem& problem, const IsSolution& accepts, const Deadline& deadline = {},
                                  double start = 1.0, double aim = 0.0);
 
 }  // namespace scabo::contact

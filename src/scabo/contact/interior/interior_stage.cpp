@@ -22,8 +22,8 @@ bool crossed_over(Search& search, InteriorPointEnd end) {
   if (std::optional<Point> stuck = with_undecided_stuck(equations, {end.p, end.a}))
     if (search.newton_from(*std::move(stuck), run).converged) return true;
   if (search.newton_from({end.p, end.a}, run).converged) return true;
-  if (end.content) search.offer(end.p, end.a, residual, true);
-  return end.content;
+  if (end.accepted) search.offer(end.p, end.a, residual, true);
+  return end.accepted;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ bool holding_pays(const Problem& problem, Eigen::Index unknowns) {
   if (!problem.W.is_dense()) return true;
   const SystemConstants& c = system_constants;
   const auto n = static_cast<double>(unknowns);
-  return unknowns > c.least_of_single && c.dearer * holder->operations() < 2.0 / 3.0 * n * n * n;
+  return unknowns > c.least_of_single && c.joining * holder->operations() < 2.0 / 3.0 * n * n * n;
 }
 
 NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)

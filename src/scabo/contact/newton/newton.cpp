@@ -106,15 +106,15 @@ class Newton {
   void keep_best() {
     const double merit = at_.merit();
     const bool asked =
-        options_.content && (!options_.ask_when_stuck || no_longer_falls(merit) || at_.largest() <= aim());
-    const bool content = asked && options_.content(at_point_.p, at_point_.a, at_.motion);
-    if (merit < progress_.best || content) {
+        options_.accepts && (!options_.ask_when_stuck || no_longer_falls(merit) || at_.largest() <= aim());
+    const bool accepted = asked && options_.accepts(at_point_.p, at_point_.a, at_.motion);
+    if (merit < progress_.best || accepted) {
       progress_.best = merit;
       end_.p = at_point_.p;
       end_.a = at_point_.a;
       end_.residual = at_.largest();
     }
-    end_.converged = content || (!options_.content && end_.residual <= aim());
+    end_.converged = accepted || (!options_.accepts && end_.residual <= aim());
     if (end_.iterations == 0) progress_.merits.fill(merit);
     progress_.merits[static_cast<std::size_t>(end_.iterations % newton_constants.memory)] = merit;
   }

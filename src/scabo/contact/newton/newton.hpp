@@ -27,8 +27,8 @@ struct NewtonOptions {
   std::function<void(const Iteration&)> on_iteration = {};  ///< may be empty; what it throws ends the solve
   /// Converged when this says so of forces and motions, or, where it does not, when |H| is small enough and falls no
   /// longer. May be empty.
-  IsSolution content = {};
-  bool ask_when_stuck = false;  ///< `content` is asked only where |H| is small enough, or near it and no longer falls
+  IsSolution accepts = {};
+  bool ask_when_stuck = false;  ///< `accepts` is asked only where |H| is small enough, or near it and no longer falls
 };
 
 struct NewtonEnd {

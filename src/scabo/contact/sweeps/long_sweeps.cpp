@@ -24,7 +24,7 @@ LongSweeps::LongSweeps(const Problem& problem, Vector p)
   iteration_.start(p_);
 }
 
-bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadline) {
+bool LongSweeps::run(int most, const IsSolution& accepts, const Deadline& deadline) {
   const auto go_on = [&] {
     return sweeps_ < most ||
            (sweeps_ < 4 * most && sweeps_ - gained_ <= std::max(sweep_constants.least_patience, sweeps_ / 2));
@@ -53,7 +53,7 @@ bool LongSweeps::run(int most, const IsSolution& content, const Deadline& deadli
       least_ = map;
       best_ = p_;
     }
-    if (content && content(p_, Vector(), motion) && content(p_, Vector(), motion_of(problem_, p_, Vector()))) {
+    if (accepts && accepts(p_, Vector(), motion) && accepts(p_, Vector(), motion_of(problem_, p_, Vector()))) {
       best_ = p_;
       return true;
     }

@@ -21,10 +21,10 @@ class LongSweeps {
   /// Keeps a reference to `problem`: as for GaussSeidel. From the forces `p`.
   LongSweeps(const Problem& problem, Vector p);
 
-  /// Goes on where it ended before, until `content` accepts forces and motions (true), the deadline has passed, or
+  /// Goes on where it ended before, until `accepts` says yes to forces and motions (true), the deadline has passed, or
   /// `most` sweeps are done in all; up to four times as many where the second half of them, or the last 500, halved the
   /// least natural map.
-  bool run(int most, const IsSolution& content, const Deadline& deadline = {});
+  bool run(int most, const IsSolution& accepts, const Deadline& deadline = {});
 
   const Vector& p() const { return best_; }      ///< accepted, or of the least natural map
   double natural_map() const { return least_; }  ///< the least one met after a round
