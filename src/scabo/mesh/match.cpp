@@ -1,8 +1,11 @@
 #include "scabo/mesh/match.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "scabo/mesh/contact_side.hpp"
 #include "scabo/mesh/edge_ends.hpp"
@@ -81,6 +84,23 @@ bool matches(const model::Model& model, const SidesToMatch& sides, const std::ve
   return true;
 }
 
+/// Sides are united one pair after the other, and an edge of several contacts is divided by all of them: in an order
+/// that follows from the lengths of the edges and their elements, so that the order of the contacts, or the unit and
+/// the place of the model, make no difference; only where all this is equal that of the contacts decides.
+void order_by_size(const model::Model& model, const std::vector<BodyMesh>& bodies, std::vector<SidesToMatch>& sides) {
+  const auto length = [&](const model::Place& place) { return edge_of(model, place).length(); };
+  const auto elements = [&](const model::Place& place) {
+    return bodies[static_cast<std::size_t>(place.body)].edges[static_cast<std::size_t>(place.index)].size();
+  };
+  std::stable_sort(sides.begin(), sides.end(), [&](const SidesToMatch& a, const SidesToMatch& b) {
+    for (const auto& [x, y] : {std::pair(&a.first, &b.first), std::pair(&a.second, &b.second)}) {
+      if (std::abs(length(*x) - length(*y)) > 1e-9 * length(*x)) return length(*x) < length(*y);
+      if (elements(*x) != elements(*y)) return elements(*x) < elements(*y);
+    }
+    return false;
+  });
+}
+
 using EndsOnEdges = std::map<std::array<int, 2>, std::vector<FacedEnd>>;  // by body and edge
 
 void add_ends(const model::Place& place, std::vector<FacedEnd> ends, EndsOnEdges& all) {
@@ -139,6 +159,7 @@ std::optional<std::vector<BodyMesh>> match_sides(const model::Model& model, cons
       apart.push_back(*sides);
       find_ends(model, *sides, matched, ends);
     }
+    order_by_size(model, matched, apart);
     bool any = false;
     for (auto& [edge, of_others] : ends) {
       const auto& [body, index] = edge;

@@ -18,7 +18,7 @@
 //
 // A finite element of which a side is divided or raised becomes a super-element with its scaling centre at the
 // centroid. Nodes of one contact may lie in the overlap of another one; contacts are therefore treated in rounds until
-// all match.
+// all match, in an order that follows from the sizes of the sides: nothing depends on the order of contacts or bodies.
 #pragma once
 
 #include <optional>

@@ -104,6 +104,42 @@ TEST(ListingOrder, OfBodiesChangesNoPair) {
   }
 }
 
+/// Two rollers of one size, divided otherwise, whose sides face the same edge of the floor: 95 and 82 pairs, or 99
+/// and 81.
+TEST(ListingOrder, OfContactsChangesNoPair) {
+  const std::string bodies = R"(
+scabo: 1
+materials: {m: {young: 1e9, poisson: 0.3}}
+bodies:
+  floor:
+    material: m
+    shape: {rectangle: {corner: [-1, -0.4], size: [3.78, 0.4]}}
+    mesh: {size: 0.54, order: 3, refine: [{near: [0, 0], size: 0.041}, {near: [1.14, 0], size: 0.041}]}
+  d1:
+    material: m
+    shape: {outline: [{line: {to: [-0.3, 0.7]}}, {arc: {to: [0.3, 0.7], centre: [0, 0.4]}, name: below}]}
+    mesh: {size: 0.14, order: 4, refine: [{near: [0, 0], size: 0.041}]}
+  d2:
+    material: m
+    shape: {outline: [{line: {to: [0.84, 0.7]}}, {arc: {to: [1.44, 0.7], centre: [1.14, 0.4]}, name: below}]}
+    mesh: {size: 0.072, order: 2, refine: [{near: [1.14, 0], size: 0.025}]}
+supports: [{on: floor.bottom, fix: [x, y]}]
+loads: {p: {on: floor.left, pressure: 1}}
+contacts:
+)";
+  const std::string first = "  c1: {between: [floor.top, d1.below], gap: -0.01, fit_in: step_1}\n",
+                    second = "  c2: {between: [floor.top, d2.below], gap: -0.01, fit_in: step_1}\n";
+  std::vector<std::map<std::string, std::size_t>> pairs;
+  for (const std::string& contacts : {first + second, second + first}) {
+    const model::Model model = input::parse_model(bodies + contacts, "test.yaml");
+    for (const Interface& interface : make_mesh(model).interfaces) {
+      if (pairs.empty() || pairs.back().size() == 2) pairs.emplace_back();
+      pairs.back()[model.contacts[static_cast<std::size_t>(interface.contact)].name] = interface.pairs.size();
+    }
+  }
+  EXPECT_EQ(pairs[0], pairs[1]);
+}
+
 TEST(ListingOrder, UnitsAndAnglesChangeNoPair) {
   const Layout layout{{0.1, 0.35, 0.2, 0.2}, {1, 4, 1, 2}};
   for (const double unit : {1e3, 1e-3})
