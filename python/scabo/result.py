@@ -100,12 +100,15 @@ class Contact:
     def table(self, increment: int = -1) -> dict[str, np.ndarray]:
         """The columns of contact.csv (docs/results.md) after an increment, arrays over the pairs: pair, x, y, normal_x,
         normal_y, gap, slip, normal_force, tangential_force, pressure, shear, state ("open", "stick" or "slip"),
-        displacements of both sides along n and t.
+        displacements of both sides along n and t; of bodies of revolution also forces_of_radians.
 
         All but ``state`` show the memory of the solver and cannot be written: use ``.copy()`` to change one.
         """
         columns = self._result._core.pairs(self._result._with_fields(increment), self._index)
         columns["state"] = _STATES[columns["state"]]
+        of = self._result.summary["model"].get("forces_of")
+        if of is not None:
+            columns["forces_of_radians"] = np.full(len(columns["pair"]), 2 * math.pi if of == "the whole circumference" else 1.0)
         return columns
 
     def frame(self, increment: int = -1) -> pandas.DataFrame:

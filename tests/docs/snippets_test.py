@@ -152,7 +152,7 @@ class Page:
 
 def quick(words: list[str], file: pathlib.Path) -> list[str]:
     """All pictures of a result take seconds: they are drawn for the tutorial, one of them elsewhere (tests/plot draws all)."""
-    everything = words[1] == "plot" and not words[2].endswith(".sweep") and "--what" not in words and file.stem != "first_ten_minutes"
+    everything = words[1] == "plot" and not words[2].endswith((".sweep", ".yaml")) and "--what" not in words and file.stem != "first_ten_minutes"
     return [*words, "--what", "mesh"] if everything else words
 
 

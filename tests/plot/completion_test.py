@@ -21,7 +21,7 @@ def commands():
 def options_of(*command):
     """Flags at the beginning of lines of the help."""
     lines = re.findall(r"^  (-.*?)(?:  |$)", help_of(*command), re.MULTILINE)
-    return sorted(flag for line in lines for flag in re.findall(r"(?<![\w-])--?[a-z][a-z-]*", line))
+    return sorted(flag for line in lines for flag in re.findall(r"(?<![\w-])--?[A-Za-z][a-z-]*", line))
 
 
 def has(program):
@@ -111,7 +111,7 @@ class Manual(support.InTemporaryDirectory):
         for command in commands():
             section = text.split(f".SS scabo {command}\n")[1].split("\n.S")[0]
             listed = sorted(flag for line in re.findall(r"^\.TP\n(-.*)$", section, re.MULTILINE)
-                            for flag in re.findall(r"(?<![\w-])--?[a-z][a-z-]*", line))
+                            for flag in re.findall(r"(?<![\w-])--?[A-Za-z][a-z-]*", line))
             self.assertEqual(listed, options_of(command), command)
         for status in ("0 ", "130"):
             self.assertIn(f"\n  {status}", text)

@@ -1,4 +1,5 @@
 """`scabo plot`: pictures of real results, and how the program finds what draws them."""
+import argparse
 import os
 import pathlib
 import re
@@ -164,7 +165,7 @@ class Program(support.InTemporaryDirectory):
     def test_both_command_lines_have_the_same_options(self):
         of_program = set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", support.scabo("plot", "--help").stdout.split("Example:")[0].replace(
             "--units m,N", "")))
-        of_pictures = {flag for action in command.parser()._actions for flag in action.option_strings}
+        of_pictures = {flag for action in command.parser()._actions for flag in action.option_strings if action.help != argparse.SUPPRESS}
         self.assertEqual(of_program, of_pictures)
         kinds = re.search(r"--what KIND", support.scabo("plot", "--help").stdout)
         self.assertTrue(kinds)

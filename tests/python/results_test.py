@@ -147,6 +147,20 @@ class Points(InTemporaryDirectory):
         drawn = result.plot("stress", component="zz", mirrored=True)
         self.assertAlmostEqual(drawn.axes[0].dataLim.x0, -drawn.axes[0].dataLim.x1)
 
+    def test_whose_forces_a_table_has(self):
+        """A cylinder under pressure on a floor: the force on it is that of the angle that the table names."""
+        for forces, angle in (("whole", 2 * np.pi), ("per_radian", 1.0)):
+            result = scabo.Model({
+                "scabo": 1, "analysis": {"plane": "axisymmetric", "forces": forces}, "materials": {"m": {"young": 400.0, "poisson": 0.25}},
+                "bodies": {"floor": {"rigid": True, "shape": {"rectangle": {"corner": [0, -1], "size": [4, 1]}}},
+                           "shaft": {"material": "m", "shape": {"rectangle": {"corner": [0, 0], "size": [2, 1]}}, "mesh": {"size": 0.5}}},
+                "supports": [{"on": "floor", "fix": "y"}], "loads": {"press": {"on": "shaft.top", "pressure": 3.0}},
+                "contacts": {"base": {"between": ["floor.top", "shaft.bottom"], "friction": 0}}}).run()
+            table = result.contact["base"].table()
+            self.assertEqual(set(table["forces_of_radians"]), {angle})
+            self.assertAlmostEqual(table["normal_force"].sum(), angle * 3.0 * 2.0**2 / 2, delta=1e-9)
+        self.assertNotIn("forces_of_radians", scabo.Model(block()).run().contact["base"].table())
+
     def test_uniform_stress(self):
         """A bar under a traction on smooth supports: sigma = t, u = sigma x / E and -nu sigma y / E."""
         model = scabo.Model({

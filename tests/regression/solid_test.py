@@ -413,7 +413,7 @@ class BlocksInSpace(support.InTemporaryDirectory):
         model.write_bytes((EXAMPLE / "model.yaml").read_bytes())
         done = scabo("check", model)
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertRegex(done.stderr, r"model.yaml:\d+:\d+: bodies.block: element \d+ of its mesh file is folded")
+        self.assertRegex(done.stderr, r"model.yaml:\d+:\d+: bodies.block: element \d+ of its mesh file has a Jacobian of -[0-9.e-]+, which must be positive")
 
     def test_check_tells_the_sizes_and_other_commands_refuse(self):
         done = scabo("check", EXAMPLE / "model.yaml")

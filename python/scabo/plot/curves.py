@@ -53,6 +53,8 @@ def history(results, component=None, units=None):
         "one increment only: its values are marked"
     if results.increments[-1]["step"] == 1:
         subtitle = subtitle.replace("1 steps", "one step")
+    if results.revolved:
+        subtitle += f"\u00a0\u00b7 forces and energies of {results.summary['model']['forces_of']}"
     figure = style.new_figure(style.WIDTH if columns == 2 else 4.6, 2.55 * rows if columns == 2 else 3.2, results.title, subtitle)
     axes = figure.subplots(rows, columns, squeeze=False).reshape(-1)
     for axis, panel in zip(axes, panels):

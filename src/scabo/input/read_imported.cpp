@@ -20,12 +20,6 @@ namespace {
 
 using Mesh = std::shared_ptr<const files::ImportedMesh>;
 
-/// `text` with the name of a file as the model file spells it.
-std::string as_given(std::string text, const std::string& path, const std::string& name) {
-  if (text.compare(0, path.size(), path) == 0) text.replace(0, path.size(), name);
-  return text;
-}
-
 /// Elements of the plane in bodies of revolution, or the other way round: the type in the file says how they were
 /// meant.
 void compare_types(Reading& reading, const Value& value, const std::string& path, const std::string& name,

@@ -134,6 +134,11 @@ std::optional<bool> read_flag(Report& report, const Value& value) {
   return {};
 }
 
+std::string as_given(std::string text, const std::string& path, const std::string& name) {
+  if (text.compare(0, path.size(), path) == 0) text.replace(0, path.size(), name);
+  return text;
+}
+
 std::optional<std::string> read_text(Report& report, const Value& value) {
   if (value.node->unreadable) return {};
   if (value.node->kind == Node::Kind::scalar) return value.node->text;

@@ -73,6 +73,8 @@ std::optional<long> read_integer(Report& report, const Value& value, const model
 std::optional<bool> read_flag(Report& report, const Value& value);
 /// The text of any scalar.
 std::optional<std::string> read_text(Report& report, const Value& value);
+/// `text` with the path of a file at its begin as the model file spells it.
+std::string as_given(std::string text, const std::string& path, const std::string& name);
 /// `[x, y]`.
 std::optional<Vec2> read_vector(Report& report, const Value& value);
 /// One of `known`. Choices in `later` are not available in this version and are reported with their remedy.

@@ -109,11 +109,12 @@ std::shared_ptr<const files::ImportedSolidMesh> SpaceReader::mesh_of_file(const 
   }
   try {
     files::ImportedSolidMesh mesh = files::read_solid_mesh_file(path);
-    for (const std::string& remark : mesh.remarks) model_.warnings.push_back({WarningKind::input, path, remark});
+    for (const std::string& remark : mesh.remarks)
+      model_.warnings.push_back({WarningKind::input, path, as_given(remark, path, *name)});
     found->second = std::make_shared<const files::ImportedSolidMesh>(std::move(mesh));
     model_.files.push_back(path);
   } catch (const InputError& error) {
-    report_.error(value, format_diagnostic(error.file(), error.diagnostics().front()));
+    report_.error(value, as_given(format_diagnostic(error.file(), error.diagnostics().front()), path, *name));
   }
   return found->second;
 }
