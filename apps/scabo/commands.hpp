@@ -94,6 +94,8 @@ struct NewOptions {
 ExitStatus run(const RunOptions& options, Cluster* cluster);
 /// Continues a run from its checkpoint (analysis/state/checkpoint.hpp).
 ExitStatus resume(const ResumeOptions& options, Cluster* cluster);
+/// The end of a sentence on a run that was interrupted: the command that goes on, if it left a checkpoint.
+std::string how_to_resume(const std::filesystem::path& directory);
 /// `run` for a model with `type: modal` whose reading took `reading` seconds.
 ExitStatus run_modal(const model::Model& model, const std::filesystem::path& directory, const RunOptions& options,
                      double reading, Events& events);

@@ -125,4 +125,8 @@ ExitStatus resume(const ResumeOptions& options, Cluster* cluster) {
   return events.around("resume", [&] { return resume(options, cluster, events); });
 }
 
+std::string how_to_resume(const std::filesystem::path& directory) {
+  return analysis::has_checkpoint(directory) ? fmt::format(": go on with `scabo resume {}`", directory.string()) : "";
+}
+
 }  // namespace scabo::app

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "commands.hpp"
 #include "interrupt.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/model/wording.hpp"
@@ -54,8 +55,9 @@ ExitStatus solve_and_report(const run::SolidRun& run, bool quiet, Events& events
   const result::SolidEnd end = solve_until(interrupt, run);
   if (end.status == "interrupted") {
     const std::string why = fmt::format(
-        "{}: interrupted; {}", run.model.file,
-        end.finished > 0 ? model::counted(end.finished, "finished increment") + " kept" : "no increment was finished");
+        "{}: interrupted; {}{}", run.model.file,
+        end.finished > 0 ? model::counted(end.finished, "finished increment") + " kept" : "no increment was finished",
+        how_to_resume(run.directory));
     events.error(why);
     print_error(why);
     return static_cast<ExitStatus>(ExitStatus::signalled + interrupt.signal());

@@ -7,8 +7,8 @@
 #include <optional>
 #include <thread>
 
+#include "commands.hpp"
 #include "progress.hpp"
-#include "scabo/analysis/state/checkpoint.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
@@ -77,14 +77,17 @@ class EndFromOutside {
   std::jthread watch_;
 };
 
-/// In one sentence; after an interruption also how it goes on.
-std::string why_not_solved(const analysis::StaticSolution& solution, ExitStatus status,
-                           const std::filesystem::path& directory) {
-  const bool interrupted = status != ExitStatus::not_converged;
-  std::string why = run::why_not_solved(solution, interrupted);
-  if (interrupted && analysis::has_checkpoint(directory))
-    why += fmt::format(": go on with `scabo resume {}`", directory.string());
-  return why;
+/// Of the analysis and of its files.
+void tell_warnings(const analysis::StaticSolution& solution, const result::ResultsDirectory& directory,
+                   Events& events) {
+  for (const Warning& warning : solution.warnings) {
+    events.warning(warning);
+    print_warning(warning.text);
+  }
+  for (const std::string& warning : directory.warnings()) {
+    events.warning(warning);
+    print_warning(warning);
+  }
 }
 
 }  // namespace
@@ -140,16 +143,11 @@ ExitStatus solve_and_report(run::StaticRun run, const Interrupt& interrupt, Even
   progress.clear();
 
   const ExitStatus status = status_of(solution, interrupt.signal());
-  for (const Warning& warning : solution.warnings) {
-    events.warning(warning);
-    print_warning(warning.text);
-  }
-  for (const std::string& warning : run.directory->warnings()) {
-    events.warning(warning);
-    print_warning(warning);
-  }
+  tell_warnings(solution, *run.directory, events);
   if (status != ExitStatus::solved) {
-    const std::string why = why_not_solved(solution, status, run.directory->path());
+    const bool interrupted = status != ExitStatus::not_converged;
+    const std::string why = run::why_not_solved(solution, interrupted) +
+                            (interrupted ? how_to_resume(run.directory->path()) : std::string());
     events.not_solved(solution);
     events.error(why);
     print_error(why);

@@ -53,10 +53,11 @@ class Fields:
             import meshio
         except ImportError:
             raise ImportError("to_meshio() needs meshio (python3-meshio): install it") from None
-        blocks = [(_NAMES[kind], self.connectivity[self.offsets[cells][:, None] + np.arange(size)])
-                  for (kind, size), cells in self.cells().items()]
-        return meshio.Mesh(self.points, blocks, point_data=dict(self.values),
-                           cell_data={"body": [self.cell_body[cells] for cells in self.cells().values()]})
+        blocks = self.cells()
+        cells = [(_NAMES[kind], self.connectivity[self.offsets[of][:, None] + np.arange(size)])
+                 for (kind, size), of in blocks.items()]
+        return meshio.Mesh(self.points, cells, point_data=dict(self.values),
+                           cell_data={"body": [self.cell_body[of] for of in blocks.values()]})
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
         """A ``pyvista.UnstructuredGrid``; needs PyVista."""
