@@ -67,6 +67,8 @@ class Revolution(support.InTemporaryDirectory):
                 with open(table, newline="", encoding="utf-8") as file:
                     angles = {float(row["forces_of_radians"]) for row in csv.DictReader(file)}
                 self.assertEqual(angles, {angle}, table)
+            lines = meshio.read(results / "contact_0001.vtu")
+            self.assertEqual(lines.field_data["forces_of_radians"].tolist(), [angle])
             self.assertEqual(summary_of(results)["model"]["forces_of"], words)
             self.assertIn(f"forces are those of {words}", (results / "log.txt").read_text(encoding="utf-8"))
         self.solve("plane", TUBE.replace("axisymmetric", "strain").replace("fix: y", "fix: [x, y]"))

@@ -426,6 +426,7 @@ class BlocksInSpace(support.InTemporaryDirectory):
             self.assertIn("is a model in space", done.stderr)
 
 
+@unittest.skipIf(support.SANITIZED, "numbers")
 class BallOnBlock(support.InTemporaryDirectory):
     """Hertz: pressure, force and radius of the contact of a ball and a half space."""
     example = ROOT / "examples" / "35_ball_on_block"

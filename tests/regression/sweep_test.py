@@ -137,7 +137,7 @@ class Sweep(InTemporaryDirectory):
         self.assertGreater(len(summary_of(self.results / "point_001")["increments"]), 0)
 
     def test_an_interrupted_sweep_goes_on_to_the_same_table(self):
-        self.model.write_text(MODEL.replace("increments: 4", "increments: 200").replace("size: 0.5", "size: 0.05")
+        self.model.write_text(MODEL.replace("increments: 4", "increments: 80").replace("size: 0.5", "size: 0.05")
                               + "output: {history: {force: base.tangential_force, heat: friction_energy}}\n", encoding="utf-8")
         vary = ["--vary", "contacts.base.friction=0.3,0.4,0.5", "-j", "1"]
         self.assertEqual(self.sweep(*vary, "-o", self.directory / "unbroken").returncode, 0)

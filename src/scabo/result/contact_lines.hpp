@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scabo/analysis/state/solution.hpp"
@@ -25,8 +26,10 @@ struct ContactLines {
   std::vector<double> normal_force, tangential_force;  // on B
   std::vector<double> traction;                        // 3 per pair: pressure along n and shear along t, on B
   std::vector<double> displacement;                    // 3 per pair, of the point on A
+
+  std::optional<double> forces_of_radians;  // bodies of revolution: the angle whose forces these are
 };
 
-ContactLines contact_lines(const analysis::IncrementResult& increment);
+ContactLines contact_lines(const analysis::IncrementResult& increment, const model::Analysis& analysis);
 
 }  // namespace scabo::result

@@ -285,7 +285,7 @@ void ResultsDirectory::write_fields(const analysis::StaticSolution& solution,
   if (contact_collection_) {
     const Stopwatch writing(write_seconds_);
     const std::string file = fmt::format("contact_{:04d}.vtu", finished_);
-    replace_file(path_ / file, vtu_content(contact_lines(increment)));
+    replace_file(path_ / file, vtu_content(contact_lines(increment, solution.model.analysis)));
     not_synchronised_.push_back(path_ / file);
     contact_collection_->add(pseudo_time(increment), file);
   }

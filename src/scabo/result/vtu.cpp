@@ -218,14 +218,15 @@ std::string finish_piece(Document document, const Cells& cells) {
   return std::move(document).finish();
 }
 
+/// `field_data`: what belongs to the file as a whole, as XML.
 Document begin_piece(std::size_t points, std::size_t cells, Encoding encoding, int threads = 1,
-                     PackedGrid* grid = nullptr) {
+                     PackedGrid* grid = nullptr, std::string_view field_data = "") {
   Document document(opening("UnstructuredGrid", encoding == Encoding::compressed
                                                     ? " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""
                                                     : " header_type=\"UInt64\""),
                     encoding, threads, grid);
-  document.add(
-      fmt::format("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, cells));
+  document.add(fmt::format("  <UnstructuredGrid>\n{}    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                           field_data, points, cells));
   return document;
 }
 
@@ -267,7 +268,13 @@ std::string pvtu_content(const model::OutputFields& wanted, const std::vector<st
 }
 
 std::string vtu_content(const ContactLines& lines) {
-  Document document = begin_piece(lines.state.size(), lines.types.size(), Encoding::text);
+  std::string angle;
+  if (lines.forces_of_radians)
+    angle = fmt::format(
+        "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"forces_of_radians\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",
+        *lines.forces_of_radians);
+  Document document = begin_piece(lines.state.size(), lines.types.size(), Encoding::text, 1, nullptr, angle);
   document.add(point_data("pressure", true));
   document.add_array("state", 1, lines.state);
   document.add_array("pressure", 1, lines.pressure);
