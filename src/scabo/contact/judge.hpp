@@ -54,7 +54,6 @@ class Measure {
   Measure(const Problem& problem, double stiffness, const Vector& history, double applied);
 
   double stiffness() const { return stiffness_; }  ///< k
-  double at_work() const { return at_work_; }      ///< F; 0 if there are no forces
   /// The scale of forces before any are known: the applied forces; else those that would cancel the motions q; else
   /// those of the history; 1 if there are none.
   double reference() const { return reference_; }
@@ -67,7 +66,7 @@ class Measure {
   Measure of_forces() const;
 
  private:
-  double stiffness_ = 1.0, at_work_ = 0.0, reference_ = 1.0, norm_ = 0.0;
+  double stiffness_ = 1.0, at_work_ = 0.0, reference_ = 1.0, norm_ = 0.0;  // at_work_: F, 0 if there are no forces
 };
 
 /// For the motions u that the forces p and the rigid motions a cause.

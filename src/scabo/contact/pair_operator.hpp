@@ -41,8 +41,6 @@ class PairHolder {
   virtual double operations() const = 0;
   /// Block of W of some rows and the same columns; 0 x 0 where it is not known.
   virtual Matrix flexibility(const std::vector<int>& /*rows*/) const { return {}; }
-  /// Of each pair, the joint on which it lies; pairs of a joint follow each other along it. Empty where not known.
-  virtual std::vector<int> joints() const { return {}; }
 };
 
 }  // namespace scabo::contact

@@ -118,13 +118,6 @@ bool is_sparse(const std::vector<TouchedPart>& touched, const Structure& structu
   return rows >= least_sparse && entries <= most_filled * static_cast<double>(rows) * static_cast<double>(rows);
 }
 
-/// The contact of each pair.
-std::vector<int> joints_of(const std::vector<ContactSystem::Pair>& pairs) {
-  std::vector<int> joints;
-  for (const ContactSystem::Pair& pair : pairs) joints.push_back(pair.contact);
-  return joints;
-}
-
 // Below, a dense LU takes less than a second, and the joined bodies are not used.
 constexpr Eigen::Index least_joined = 2500;
 
@@ -378,7 +371,7 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   // Bodies are joined by the positions of their nodes, in the plane.
   const bool has_positions = components.dimension == 2 && structure.dofs.parts() == structure.parts.size();
   std::shared_ptr<const JoinedBodies> joined;
-  if (has_positions && !sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion, joints_of(all));
+  if (has_positions && !sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion);
   const bool by_products = joined && rows > most_formed;
   const auto products = by_products ? std::make_unique<const PairProducts>(structure, motion) : nullptr;
   Flexibilities flexibilities = flexibilities_of(touched, structure, motion, products.get(), components, threads);
@@ -399,7 +392,7 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   system.motion = held.empty() ? motion : motion_of(selected(points, moving), structure);
   if (!held.empty()) {
     system.held_motion = motion_of(selected(points, held), structure);
-    if (joined) joined = JoinedBodies::of(structure, system.motion, joints_of(system.pairs));
+    if (joined) joined = JoinedBodies::of(structure, system.motion);
     G = block_of(G, place, {}, kept, G.cols());
   }
   system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion))

@@ -97,16 +97,14 @@ Matrix PairProducts::diagonal_blocks() const {
 }
 
 std::shared_ptr<const JoinedBodies> JoinedBodies::of(const Structure& structure,
-                                                     std::vector<Eigen::SparseMatrix<double>> motion,
-                                                     std::vector<int> joints) {
+                                                     std::vector<Eigen::SparseMatrix<double>> motion) {
   for (const auto& part : structure.parts)
     if (part->is_divided()) return nullptr;
-  return std::make_shared<const JoinedBodies>(structure, std::move(motion), std::move(joints));
+  return std::make_shared<const JoinedBodies>(structure, std::move(motion));
 }
 
-JoinedBodies::JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion,
-                           std::vector<int> joints)
-    : motion_(std::move(motion)), joints_(std::move(joints)) {
+JoinedBodies::JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion)
+    : motion_(std::move(motion)) {
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
     parts_.push_back({structure.parts[p].get(), structure.dofs.nodes(p)});
     operations_ += 2.0 * parts_.back().body->operations();

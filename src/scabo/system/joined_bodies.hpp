@@ -54,16 +54,13 @@ class PairProducts final : public contact::PairOperator {
 /// Matrices of the joined bodies, made when pairs are first held. The parts must outlive this.
 class JoinedBodies final : public contact::PairHolder {
  public:
-  /// Null where the stiffness of a part is divided among processes. `motion`: per part, 2N x size of u. `joints`: N,
-  /// pairs of a joint follow each other along it, or empty.
+  /// Null where the stiffness of a part is divided among processes. `motion`: per part, 2N x size of u.
   static std::shared_ptr<const JoinedBodies> of(const Structure& structure,
-                                                std::vector<Eigen::SparseMatrix<double>> motion,
-                                                std::vector<int> joints = {});
-  JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion, std::vector<int> joints);
+                                                std::vector<Eigen::SparseMatrix<double>> motion);
+  JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion);
   std::unique_ptr<contact::HeldPairs> hold(const std::vector<int>& rows) const override;
   double operations() const override { return operations_; }
   Matrix flexibility(const std::vector<int>& rows) const override;
-  std::vector<int> joints() const override { return joints_; }
 
  private:
   friend class JoinedPairs;
@@ -89,7 +86,6 @@ class JoinedBodies final : public contact::PairHolder {
 
   std::vector<Part> parts_;
   std::vector<Eigen::SparseMatrix<double>> motion_;
-  std::vector<int> joints_;  // of each pair, or empty
   double operations_ = 0.0;
   mutable Matrices matrices_;
   mutable std::once_flag made_;

@@ -216,13 +216,10 @@ class ByDense final : public PairHolder {
     return std::make_unique<Held>(W_, G_, rows);
   }
   Matrix flexibility(const std::vector<int>& rows) const override { return W_(rows, rows); }
-  std::vector<int> joints() const override { return joints_; }
   int times() const { return times_; }
-  void lie_on(std::vector<int> joints) { joints_ = std::move(joints); }
 
  private:
   Matrix W_, G_;
-  std::vector<int> joints_;
   mutable int times_ = 0;
 };
 

@@ -44,11 +44,9 @@ struct Branch {
   Vec2 along = Vec2::Zero();  ///< slip, edge: e
 
   bool tied() const { return normal_tie || edge || tip || bound_tie; }
-  bool same_state(const Branch& other) const {
-    return contact == other.contact && tangent == other.tangent && slope == other.slope;
-  }
   bool same_branch(const Branch& other) const {
-    return same_state(other) && (tangent != Tangent::slip || along == other.along);
+    return contact == other.contact && tangent == other.tangent && slope == other.slope &&
+           (tangent != Tangent::slip || along == other.along);
   }
 };
 

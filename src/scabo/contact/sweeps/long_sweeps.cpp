@@ -2,7 +2,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "scabo/base/interruption.hpp"
@@ -12,15 +11,7 @@
 namespace scabo::contact {
 
 LongSweeps::LongSweeps(const Problem& problem, Vector p)
-    : problem_(problem),
-      measure_(problem),
-      iteration_(problem),
-      p_(std::move(p)),
-      best_(p_),
-      changes_f_(p_.size(), sweep_constants.depth),
-      changes_p_(p_.size(), sweep_constants.depth),
-      least_(HUGE_VAL),
-      halved_(HUGE_VAL) {
+    : problem_(problem), measure_(problem), iteration_(problem), changes_(p.size()), p_(std::move(p)), best_(p_) {
   iteration_.start(p_);
 }
 
@@ -42,13 +33,12 @@ bool LongSweeps::run(int most, const IsSolution& accepts, const Deadline& deadli
                    operations_of_sweep(problem_));
     const Vector& motion = iteration_.motion();
     const double map = measure_.natural_map(problem_, p_, motion);
-    if (extrapolated_ && !(map <= map_of_round_)) {
-      p_ = round_;
-      extrapolated_ = false;
-      forget();
+    if (round_ && !(map <= round_->map)) {
+      p_ = round_->p;
+      round_.reset();
+      changes_.forget();
       continue;
     }
-    extrapolations_ += extrapolated_;
     if (map < least_) {
       least_ = map;
       best_ = p_;
@@ -62,33 +52,33 @@ bool LongSweeps::run(int most, const IsSolution& accepts, const Deadline& deadli
       halved_ = least_;
       gained_ = sweeps_;
     }
-    remember(before);
-    round_ = p_;
-    map_of_round_ = map;
-    extrapolated_ = extrapolate();
+    changes_.remember(before, p_);
+    round_ = Round{p_, map};
+    if (!changes_.extrapolate(p_)) round_.reset();
   }
   return false;
 }
 
-void LongSweeps::remember(const Vector& before) {
-  Vector f = p_ - before;
-  if (has_last_) {
-    changes_f_.col(next_) = f - last_f_;
-    changes_p_.col(next_) = p_ - last_p_;
+LongSweeps::Changes::Changes(Eigen::Index n) : f_(n, sweep_constants.depth), p_(n, sweep_constants.depth) {}
+
+void LongSweeps::Changes::remember(const Vector& before, const Vector& p) {
+  Vector f = p - before;
+  if (last_p_.size() > 0) {
+    f_.col(next_) = f - last_f_;
+    p_.col(next_) = p - last_p_;
     next_ = (next_ + 1) % sweep_constants.depth;
     count_ = std::min(count_ + 1, sweep_constants.depth);
   }
   last_f_ = std::move(f);
-  last_p_ = p_;
-  has_last_ = true;
+  last_p_ = p;
 }
 
 /// False where there is too little to go by.
-bool LongSweeps::extrapolate() {
+bool LongSweeps::Changes::extrapolate(Vector& p) const {
   if (count_ < 2) return false;
-  const Vector gamma = Matrix(changes_f_.leftCols(count_)).colPivHouseholderQr().solve(last_f_);
+  const Vector gamma = Matrix(f_.leftCols(count_)).colPivHouseholderQr().solve(last_f_);
   if (!gamma.allFinite()) return false;
-  p_.noalias() -= changes_p_.leftCols(count_) * gamma;
+  p.noalias() -= p_.leftCols(count_) * gamma;
   return true;
 }
 

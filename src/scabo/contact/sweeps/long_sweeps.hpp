@@ -10,6 +10,9 @@
 // are forgotten. Rigid bodies are swept by their joints (joint_sweeps.hpp).
 #pragma once
 
+#include <cmath>
+#include <optional>
+
 #include "scabo/contact/deadline.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/sweeps/gauss_seidel.hpp"
@@ -29,22 +32,34 @@ class LongSweeps {
   const Vector& p() const { return best_; }      ///< accepted, or of the least natural map
   double natural_map() const { return least_; }  ///< the least one met after a round
   int sweeps() const { return sweeps_; }
-  int extrapolations() const { return extrapolations_; }  ///< that were kept
 
  private:
-  void remember(const Vector& before);
-  bool extrapolate();
-  void forget() { count_ = next_ = 0, has_last_ = false; }
+  struct Round {
+    Vector p;
+    double map;
+  };
+  /// Changes of p and of f over the last rounds.
+  class Changes {
+   public:
+    explicit Changes(Eigen::Index n);
+    void remember(const Vector& before, const Vector& p);
+    bool extrapolate(Vector& p) const;
+    void forget() { count_ = next_ = 0, last_p_.resize(0); }
+
+   private:
+    Matrix f_, p_;
+    Vector last_f_, last_p_;  // empty after forget()
+    int count_ = 0, next_ = 0;
+  };
 
   const Problem& problem_;
-  Measure measure_;
+  const Measure measure_;
   GaussSeidel iteration_;
-  Vector p_, round_, best_;  // round_: S(p), to go back to
-  Matrix changes_f_, changes_p_;
-  Vector last_f_, last_p_;
-  double map_of_round_ = 0.0, least_ = 0.0, halved_ = 0.0;
-  int sweeps_ = 0, gained_ = 0, extrapolations_ = 0, count_ = 0, next_ = 0;
-  bool has_last_ = false, extrapolated_ = false;
+  Changes changes_;
+  Vector p_, best_;
+  std::optional<Round> round_;  // S(p) where p_ is extrapolated, to go back to
+  double least_ = HUGE_VAL, halved_ = HUGE_VAL;
+  int sweeps_ = 0, gained_ = 0;
 };
 
 }  // namespace scabo::contact
