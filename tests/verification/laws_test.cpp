@@ -126,6 +126,58 @@ TEST(BrittleJoint, BreaksAtItsClosedFormLiftAndStaysBroken) {
   EXPECT_NEAR(contact_of(increment_at(breaks, 4)).normal_force, force * just_above, 1e-8 * force);
 }
 
+// Pressed, moved to and fro, lifted, moved and put down again: while it slides the joint carries c A + mu N in either
+// direction, however far it has slipped, and nothing while it is open.
+TEST(LastingCohesion, ActsOnClosedPairsAfterAnySlipAndLift) {
+  const double mu = 0.2, c = 1e5, area = 2.0, normal = 1e9 * 1e-3 * area, bound = mu * normal + c * area;
+  for (const int sense : {1, -1}) {
+    const auto solution = run(moved_block(1e-3, 5e-3 * sense, "friction: 0.2, cohesion: {lasting: 1e5}",
+                                          "[{name: press, loads: {lift: -1, push: 0}}, {name: forth, increments: 2, "
+                                          "loads: {push: 1}}, {name: back, loads: "
+                                          "{push: -1}}, {name: up, loads: {lift: 1}}, {name: along, loads: {push: "
+                                          "0.5}}, {name: down, loads: {lift: -1}}, "
+                                          "{name: again, loads: {push: -1}}]"));
+    last(solution);
+    ASSERT_EQ(solution.increments.size(), 8u);
+    const auto expect_at = [&](std::size_t increment, double tangential, double normal_force) {
+      const analysis::ContactResult& joint = contact_of(increment_at(solution, increment));
+      EXPECT_NEAR(joint.normal_force, normal_force, 1e-8 * normal) << increment;
+      EXPECT_NEAR(joint.tangential_force, sense * tangential, 1e-8 * bound) << increment;
+    };
+    expect_at(2, -bound, normal);
+    expect_at(3, bound, normal);
+    expect_at(4, 0.0, 0.0);
+    expect_at(5, 0.0, 0.0);
+    expect_at(7, bound, normal);
+    EXPECT_FALSE(contact_of(last(solution)).broken);
+  }
+}
+
+// So much shear that the block lifts at one end, in one increment and in ten, and back.
+TEST(LastingCohesion, BoundsTheShearOfEveryClosedPairOfAJointThatOpensPartly) {
+  const double mu = 0.3, c = 6e5;
+  const auto forces = [&](const std::string& steps, int sense) {
+    const auto solution = run(moved_block(3e-4, 2e-2 * sense, "friction: 0.3, cohesion: {lasting: 6e5}", steps));
+    const analysis::ContactResult& joint = contact_of(last(solution));
+    EXPECT_GT(joint.open, 0);
+    EXPECT_GT(joint.slip, 0);
+    for (const analysis::PairResult& pair : joint.pairs) {
+      if (pair.state == contact::ContactState::open)
+        EXPECT_EQ(std::max(std::abs(pair.normal_force), std::abs(pair.tangential_force)), 0.0) << pair.pair;
+      else
+        EXPECT_NEAR(std::abs(pair.shear), c + mu * pair.pressure, 1e-8 * c) << pair.pair;
+    }
+    return Vec2(joint.normal_force, sense * joint.tangential_force);
+  };
+  const std::string press = "[{name: press, loads: {lift: -1, push: 0}}, ";
+  const Vec2 once = forces(press + "{name: push, loads: {push: 1}}]", 1);
+  EXPECT_LT((forces(press + "{name: push, loads: {push: 1}}]", -1) - once).norm(), 1e-8 * once.norm());
+  EXPECT_LT((forces(press + "{name: push, increments: 10, loads: {push: 1}}]", 1) - once).norm(), 1e-6 * once.norm());
+  const Vec2 back =
+      forces(press + "{name: push, loads: {push: 1}}, {name: back, increments: 3, loads: {push: -1}}]", 1);
+  EXPECT_LT((back - Vec2(once[0], -once[1])).norm(), 1e-6 * once.norm());
+}
+
 // Once all pairs slide, the whole force falls from at most mu_s N to mu_d N.
 TEST(SlidingBlock, ForceFallsFromTheStaticToTheDynamicCoefficient) {
   for (const char* distance : {"0", "1e-6"}) {

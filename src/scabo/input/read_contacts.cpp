@@ -251,6 +251,7 @@ void read_law_or_property(Reading& reading, const MapReader& map, ContactPropert
   contact.slip_distance = law.slip_distance;
   contact.friction_along = law.friction_along;
   contact.cohesion = law.cohesion;
+  contact.lasting_cohesion = law.lasting_cohesion;
   contact.tension = law.tension;
   contact.bond = law.bond;
   contact.shear_strength = law.shear_strength;

@@ -80,6 +80,16 @@ void read_friction(Report& report, const Value& value, Contact& contact) {
   read_along(report, *along, contact);
 }
 
+/// One number, until the pair first opens or slips; or `{lasting: 50e3}`, while it is closed.
+void read_cohesion(Report& report, const Value& value, Contact& contact) {
+  if (value.node->kind != Node::Kind::map) {
+    contact.cohesion = read_number(report, value).value_or(0.0);
+    return;
+  }
+  const MapReader map(report, value, {"lasting"}, "{lasting: 50e3}");
+  if (const auto lasting = map.need("lasting")) contact.lasting_cohesion = read_number(report, *lasting).value_or(0.0);
+}
+
 }  // namespace
 
 std::optional<std::pair<double, double>> read_coefficients(Report& report, const Value& value) {
@@ -97,7 +107,7 @@ std::optional<std::pair<double, double>> read_coefficients(Report& report, const
 void read_law(Reading& reading, const MapReader& map, Contact& contact) {
   Report& report = reading.report;
   if (const auto friction = map.get("friction")) read_friction(report, *friction, contact);
-  if (const auto cohesion = map.get("cohesion")) contact.cohesion = read_number(report, *cohesion).value_or(0.0);
+  if (const auto cohesion = map.get("cohesion")) read_cohesion(report, *cohesion, contact);
   if (const auto tension = map.get("tension")) contact.tension = read_number(report, *tension).value_or(0.0);
   if (const auto bond = map.get("bond")) contact.bond = read_flag(report, *bond).value_or(false);
   if (const auto strength = map.get("shear_strength")) contact.shear_strength = read_number(report, *strength);

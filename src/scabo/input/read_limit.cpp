@@ -43,17 +43,18 @@ void grow_loads(Step& step) {
   for (std::size_t i = 0; i < step.load_factors.size(); ++i) step.load_factors[i] += step.limit->loads[i];
 }
 
-/// The coefficients of these contacts fall, to 0 at part 1.
-void reduce_friction(Reading& reading, const Value& value, Step& step) {
+/// Coefficients and cohesions of these contacts fall, to 0 at part 1.
+void reduce_strength(Reading& reading, const Value& value, Step& step) {
   const std::vector<Contact>& contacts = reading.model.contacts;
   if (step.friction.empty()) add_coefficients(contacts, step);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (!step.limit->contacts[c]) continue;
+    if (!step.limit->friction[c] && !step.limit->cohesion[c]) continue;
     if (!has_one_coefficient(contacts[c]))
       reading.report.error(
-          value,
-          fmt::format("contact '{}' has no single coefficient of friction that could be reduced", contacts[c].name));
-    step.friction[c] = step.backward_friction[c] = 0.0;
+          value, fmt::format("contact '{}' has no single coefficient of friction, whose strength could be reduced",
+                             contacts[c].name));
+    if (step.limit->friction[c]) step.friction[c] = step.backward_friction[c] = 0.0;
+    if (step.limit->cohesion[c]) step.cohesion[c] = 0.0;
   }
 }
 
@@ -62,19 +63,21 @@ void reduce_friction(Reading& reading, const Value& value, Step& step) {
 bool read_limit(Reading& reading, const MapReader& step_map, Step& step) {
   const auto limit = step_map.get("limit"), reduce = step_map.get("reduce");
   if (!limit && !reduce) return false;
-  if (limit && reduce) reading.report.error(*reduce, "does not go with 'limit': the loads grow, or the friction falls");
-  const char* const of = limit ? "of" : "friction";
-  const MapReader map(reading.report, limit ? *limit : *reduce, {of, "relative"},
-                      limit ? "{of: push, relative: 1e-3}" : "{friction: [base], relative: 1e-3}");
-  const auto named = map.need(of);
+  if (limit && reduce) reading.report.error(*reduce, "does not go with 'limit': the loads grow, or the strength falls");
+  const auto map = limit ? MapReader(reading.report, *limit, {"of", "relative"}, "{of: push, relative: 1e-3}")
+                         : MapReader(reading.report, *reduce, {"friction", "cohesion", "relative"},
+                                     "{friction: [base], cohesion: [base], relative: 1e-3}");
+  const auto cohesion = reduce ? map.get("cohesion") : std::nullopt;
+  const auto friction = !reduce ? std::nullopt : cohesion ? map.get("friction") : map.need("friction");
   LimitStep& found = step.limit.emplace();
-  found.loads = read_which(reading, limit ? named : std::nullopt, names_of(reading.model.loads), "load");
-  found.contacts = read_which(reading, limit ? std::nullopt : named, names_of(reading.model.contacts), "contact");
+  found.loads = read_which(reading, limit ? map.need("of") : std::nullopt, names_of(reading.model.loads), "load");
+  found.friction = read_which(reading, friction, names_of(reading.model.contacts), "contact");
+  found.cohesion = read_which(reading, cohesion, names_of(reading.model.contacts), "contact");
   if (const auto relative = map.get("relative")) found.relative = number_or_unread(reading, relative);
   if (limit)
     grow_loads(step);
   else
-    reduce_friction(reading, *reduce, step);
+    reduce_strength(reading, *reduce, step);
   for (const char* other : {"loads", "friction", "cycles", "increments"})
     if (const auto given = step_map.get(other))
       reading.report.error(*given,

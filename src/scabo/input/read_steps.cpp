@@ -387,6 +387,7 @@ void add_coefficients(const std::vector<Contact>& contacts, Step& step) {
   for (const Contact& contact : contacts) {
     step.friction.push_back(contact.friction);
     step.backward_friction.push_back(contact.backward_friction.value_or(contact.friction));
+    step.cohesion.push_back(contact.lasting_cohesion);
   }
 }
 

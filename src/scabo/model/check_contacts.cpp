@@ -134,6 +134,8 @@ void check_large_slip(Checking& checking, const std::string& path, const Contact
   refuse(contact.bond, "beside 'bond: true', which prevents slip: leave out one of the two");
   refuse(contact.cohesion > 0.0 || contact.tension > 0.0,
          "beside a strength that is lost, because the pairs change: leave out 'cohesion' and 'tension'");
+  refuse(contact.lasting_cohesion > 0.0,
+         "beside a cohesion that pairs have while they are closed, because the pairs change: leave out 'cohesion'");
   refuse(contact.dynamic_friction.has_value(),
          "beside a coefficient of friction that falls with slip, because the pairs change: give one coefficient");
   refuse(!contact.friction_along.empty(),
@@ -265,6 +267,7 @@ bool check_friction(Checking& checking, const std::string& path, const Contact& 
 void check_law(Checking& checking, const std::string& path, const Contact& contact) {
   bool good = check_friction(checking, path, contact);
   good = checking.not_negative(path, "cohesion", contact.cohesion) && good;
+  good = checking.not_negative(path, "cohesion.lasting", contact.lasting_cohesion) && good;
   good = checking.not_negative(path, "tension", contact.tension) && good;
   if (contact.shear_strength) good = checking.not_negative(path, "shear_strength", *contact.shear_strength) && good;
   good = checking.number(path, "gap", contact.gap) && good;
@@ -278,13 +281,16 @@ void check_law(Checking& checking, const std::string& path, const Contact& conta
   if (contact.bond || contact.shear_strength) {
     const char* why = contact.bond ? no_effect_beside_bond : replaced_by_shear_strength;
     refuse("friction", friction, why);
-    refuse("cohesion", contact.cohesion > 0.0, why);
+    refuse("cohesion", contact.cohesion > 0.0 || contact.lasting_cohesion > 0.0, why);
     refuse("tension", contact.tension > 0.0, why);
     if (!contact.bond) return;
     refuse("shear_strength", contact.shear_strength.has_value(), why);
     refuse("gap", contact.gap != 0.0, no_gap_beside_bond);
     return;
   }
+  if (contact.lasting_cohesion > 0.0)
+    return refuse("tension", contact.tension > 0.0,
+                  "is lost when a joint first opens or slips, and a lasting cohesion is not: leave out one of the two");
   refuse("tension", contact.tension > 0.0 && contact.cohesion == 0.0,
          "a joint that slips loses its tensile strength, and without 'cohesion' nothing prevents this one from "
          "slipping: give both");

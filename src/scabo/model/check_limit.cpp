@@ -15,10 +15,11 @@ bool any(const std::vector<char>& of) { return std::find(of.begin(), of.end(), 1
 void check_scaled(Checking& checking, const std::string& path, const Step& step, const Step& before) {
   const Model& model = checking.model;
   const LimitStep& limit = *step.limit;
-  if (limit.loads.size() != model.loads.size() || limit.contacts.size() != model.contacts.size())
+  if (limit.loads.size() != model.loads.size() || limit.friction.size() != model.contacts.size() ||
+      limit.cohesion.size() != model.contacts.size())
     return checking.error(path, "", "must say of every load and contact whether the factor is theirs");
-  if (any(limit.loads) == any(limit.contacts))
-    return checking.error(path, "", "needs loads whose factor grows, or contacts whose friction is divided by it");
+  if (any(limit.loads) == (any(limit.friction) || any(limit.cohesion)))
+    return checking.error(path, "", "needs loads whose factor grows, or contacts whose strength is divided by it");
   const double first = first_factor(step);
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     if (limit.loads[i] && before.load_factors[i] != first)
@@ -28,10 +29,11 @@ void check_scaled(Checking& checking, const std::string& path, const Step& step,
                                         model.loads[i].name, before.load_factors[i], first));
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (!limit.contacts[c]) continue;
     const double friction = before.friction.empty() ? contact.friction : before.friction[c];
-    if (!(friction > 0.0))
+    if (limit.friction[c] && !(friction > 0.0))
       checking.error(path, "friction", fmt::format("contact '{}' has no friction to be reduced", contact.name));
+    if (limit.cohesion[c] && !(contact.lasting_cohesion > 0.0))
+      checking.error(path, "cohesion", fmt::format("contact '{}' has no lasting cohesion to be reduced", contact.name));
   }
 }
 

@@ -227,7 +227,8 @@ void check_with_steps_in_time(Checking& checking) {
 /// Where some step changes coefficients of friction.
 void check_friction_of_step(Checking& checking, const std::string& path, const Step& step) {
   const Model& model = checking.model;
-  if (step.friction.size() != model.contacts.size() || step.backward_friction.size() != step.friction.size()) {
+  if (step.friction.size() != model.contacts.size() || step.backward_friction.size() != step.friction.size() ||
+      step.cohesion.size() != step.friction.size()) {
     checking.error(path, "friction", "must give a coefficient for every contact");
     return;
   }
@@ -270,6 +271,7 @@ bool has_one_coefficient(const Contact& contact) {
 std::vector<double> coefficients_of(const Step& step) {
   std::vector<double> coefficients = step.friction;
   coefficients.insert(coefficients.end(), step.backward_friction.begin(), step.backward_friction.end());
+  coefficients.insert(coefficients.end(), step.cohesion.begin(), step.cohesion.end());
   return coefficients;
 }
 

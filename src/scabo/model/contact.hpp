@@ -28,6 +28,7 @@ struct Contact {
   double slip_distance = 0.0;                 ///< slip over which friction falls to the dynamic value; 0: at once
   std::vector<FrictionPoint> friction_along;  ///< instead of one coefficient; in ascending order of position
   double cohesion = 0.0;                      ///< force / length^2, until first failure
+  double lasting_cohesion = 0.0;              ///< force / length^2, of pairs while they are closed
   double tension = 0.0;                       ///< tensile strength, force / length^2, until first failure
   bool bond = false;                          ///< neither opens nor slips
   std::optional<double> shear_strength;       ///< prescribed friction bound (Tresca), force / length^2

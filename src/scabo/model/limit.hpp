@@ -10,7 +10,8 @@ namespace scabo::model {
 /// of the contacts is divided by it.
 struct LimitStep {
   std::vector<char> loads;     ///< for each of the model: the factor is that of the load; all begin alike
-  std::vector<char> contacts;  ///< for each of the model: its friction is divided; none if there are loads
+  std::vector<char> friction;  ///< for each contact of the model: its friction is divided; none if there are loads
+  std::vector<char> cohesion;  ///< the same of its lasting cohesion
   double relative = 1e-3;      ///< width of the bracket beside the factor, 1e-9 to 0.5
 };
 

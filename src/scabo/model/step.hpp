@@ -47,6 +47,7 @@ struct Step {
   std::vector<int> load_curves, support_curves;
   std::vector<double> friction;  ///< coefficient of every contact at the end of the step; empty if no step changes one
   std::vector<double> backward_friction;  ///< the same against backward slip; as many as `friction`
+  std::vector<double> cohesion;           ///< lasting cohesion, force / length^2; as many as `friction`
   std::optional<DynamicStep> dynamic;     ///< empty: the step is quasi-static
   /// Cracks grow in this step, in as many increments as it takes: `increments` has no meaning.
   std::optional<GrowthStep> growth;
@@ -62,8 +63,8 @@ inline int load_curve(const Step& step, std::size_t index) {
 inline int support_curve(const Step& step, std::size_t index) {
   return step.support_curves.empty() ? -1 : step.support_curves[index];
 }
-/// Coefficients at the end of a step: against forward slip of every contact, then against backward slip; empty if no
-/// step changes one.
+/// At the end of a step: coefficients against forward slip of every contact, then against backward slip, then lasting
+/// cohesions; empty if no step changes one.
 std::vector<double> coefficients_of(const Step& step);
 
 /// Parts of a step, between 0 and 1, at which an increment ends so that no corner of a curve is passed over, ascending.

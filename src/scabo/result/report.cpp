@@ -215,6 +215,7 @@ std::string describe_law(const model::Contact& contact) {
     text = "frictionless";
   }
   if (contact.cohesion > 0.0) text += fmt::format(", cohesion {:g}", contact.cohesion);
+  if (contact.lasting_cohesion > 0.0) text += fmt::format(", cohesion {:g} while closed", contact.lasting_cohesion);
   if (contact.tension > 0.0) text += fmt::format(", tension {:g}", contact.tension);
   return contact.cohesion > 0.0 ? text + " until failure" : text;
 }

@@ -4,6 +4,7 @@
 #include "scabo/contact/laws/cohesive.hpp"
 #include "scabo/contact/laws/coulomb.hpp"
 #include "scabo/contact/laws/frictionless.hpp"
+#include "scabo/contact/laws/lasting.hpp"
 #include "scabo/contact/laws/slip_weakening.hpp"
 #include "scabo/contact/laws/tresca.hpp"
 #include "scabo/system/tributary_lengths.hpp"
@@ -41,6 +42,8 @@ LawPointer law_of(const model::Contact& contact, double s) {
   if (contact.bond) return std::make_shared<contact::Bonded>();
   if (contact.shear_strength) return std::make_shared<contact::Tresca>(*contact.shear_strength);
   LawPointer friction = friction_law(contact, s);
+  if (contact.lasting_cohesion > 0.0)
+    return std::make_shared<contact::LastingCohesion>(std::move(friction), contact.lasting_cohesion);
   if (contact.cohesion == 0.0 && contact.tension == 0.0) return friction;
   return std::make_shared<contact::Cohesive>(std::move(friction), contact.cohesion, contact.tension);
 }
@@ -91,13 +94,16 @@ contact::JointLaws with_coefficients(const contact::JointLaws& laws, const std::
     const auto c = static_cast<std::size_t>(pairs[k].contact);
     const model::Contact& given = model.contacts[c];
     const double forward = coefficients[c], backward = coefficients[contacts + c];
+    const double cohesion = coefficients[2 * contacts + c];
     if (!model::has_one_coefficient(given) ||
-        (forward == given.friction && backward == given.backward_friction.value_or(given.friction)))
+        (forward == given.friction && backward == given.backward_friction.value_or(given.friction) &&
+         cohesion == given.lasting_cohesion))
       continue;
     if (!of_contact[c]) {
       model::Contact contact = given;
       contact.friction = forward;
       contact.backward_friction = backward;
+      contact.lasting_cohesion = cohesion;
       of_contact[c] = law_of(contact, 0.0);
     }
     changed.of_pair[k] = of_contact[c];

@@ -12,8 +12,8 @@ std::vector<double> positions_along(const mesh::Interface& interface);
 contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, const model::Model& model,
                                 const mesh::Mesh& mesh);
 
-/// The same laws with other coefficients of friction (model::coefficients_of) for each contact that has one, or one for
-/// each direction; empty: as they are.
+/// The same laws with other coefficients of friction and lasting cohesions (model::coefficients_of) for each contact
+/// that has one coefficient, or one for each direction; empty: as they are.
 contact::JointLaws with_coefficients(const contact::JointLaws& laws, const std::vector<ContactSystem::Pair>& pairs,
                                      const model::Model& model, const std::vector<double>& coefficients);
 

@@ -20,7 +20,9 @@ constexpr double little_friction = 0.1;
 /// The least tangential force per normal force that pairs can carry; nothing if they carry some without a normal force.
 std::optional<double> least_friction(const model::Model& model, std::size_t c) {
   const model::Contact& contact = model.contacts[c];
-  if (contact.bond || contact.cohesion > 0.0 || contact.tension > 0.0 || contact.shear_strength) return std::nullopt;
+  if (contact.bond || contact.cohesion > 0.0 || contact.lasting_cohesion > 0.0 || contact.tension > 0.0 ||
+      contact.shear_strength)
+    return std::nullopt;
   double least = contact.friction_along.empty() ? contact.friction : contact.friction_along.front().friction;
   for (const std::optional<double>& other :
        {contact.backward_friction, contact.dynamic_friction, contact.backward_dynamic_friction})

@@ -10,6 +10,7 @@
 #include "scabo/contact/laws/coulomb.hpp"
 #include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/laws/frictionless.hpp"
+#include "scabo/contact/laws/lasting.hpp"
 #include "scabo/contact/laws/slip_weakening.hpp"
 #include "scabo/contact/laws/tresca.hpp"
 #include "unit/contact/problems.hpp"
@@ -337,6 +338,48 @@ TEST(RandomJoints, EndCertifiedWithoutOverload) {
   }
   EXPECT_GT(broken, 100);
   EXPECT_GT(whole, 100);
+}
+
+// Four increments with random motions: open pairs carry nothing, closed ones their cohesion, whatever they did before.
+// A pair that opens with its cohesion and closes without it has none; there are few.
+TEST(RandomJoints, WithLastingCohesionHaveItWhileTheyAreClosed) {
+  std::mt19937 random(10);
+  int open = 0, slipping = 0, closed_again = 0, without = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const int N = test::whole(random, 1, 12);
+    Problem problem = test::held_problem(random, N, 0.8);
+    const double mu = test::uniform(random, 0.0, 0.8), c = test::uniform(random, 0.05, 1.0);
+    const JointLaws laws = all(std::make_shared<LastingCohesion>(coulomb(mu), c), N);
+    History history(static_cast<std::size_t>(N));
+    for (int increment = 0; increment < 4; ++increment) {
+      problem.q = test::held_problem(random, N, 0.8).q;
+      const Evolution evolution = evolve(problem, laws, history, {}, {});
+      ASSERT_EQ(evolution.solution.status, Status::solved) << trial << ": " << evolution.solution.reason;
+      EXPECT_LE(evolution.solution.certificate.worst(), 1e-10);
+      for (int i = 0; i < N; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const Vec2 p = evolution.solution.p.segment<2>(2 * i);
+        const bool is_open = evolution.solution.gap[i] > 1e-8;
+        const bool has_cohesion = !evolution.history[k].broken;
+        if (is_open)
+          EXPECT_LT(p.norm(), 1e-9);
+        else if (!has_cohesion)
+          EXPECT_LE(std::abs(p[1]), mu * p[0] + 1e-8) << trial << " " << increment << " " << i;
+        else if (std::abs(evolution.solution.slip_increment[i]) > 1e-8)
+          EXPECT_NEAR(std::abs(p[1]), c + mu * p[0], 1e-8) << trial << " " << increment << " " << i;
+        EXPECT_FALSE(is_open && has_cohesion);
+        open += is_open;
+        without += !is_open && !has_cohesion;
+        slipping += evolution.solution.states[k] == ContactState::slip;
+        closed_again += history[k].broken && !is_open;
+      }
+      history = evolution.history;
+    }
+  }
+  EXPECT_GT(open, 100);
+  EXPECT_GT(slipping, 100);
+  EXPECT_GT(closed_again, 100);
+  EXPECT_LT(without, 40);
 }
 
 }  // namespace

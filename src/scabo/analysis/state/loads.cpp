@@ -60,6 +60,7 @@ std::vector<double> coefficients_at_start(const model::Model& model) {
   for (const model::Contact& contact : model.contacts) coefficients.push_back(contact.friction);
   for (const model::Contact& contact : model.contacts)
     coefficients.push_back(contact.backward_friction.value_or(contact.friction));
+  for (const model::Contact& contact : model.contacts) coefficients.push_back(contact.lasting_cohesion);
   return coefficients;
 }
 

@@ -64,13 +64,21 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
   return ends;
 }
 
-/// Updates the flags of the most overloaded pairs among those whose flags the solution changes. Returns whether there
-/// were any.
-bool let_fall(const JointLaws& laws, const Ends& ends, int dimension, Compliance& compliance, History& trial) {
+/// Updates the flags of the most overloaded pairs among those whose flags the solution changes, and of all whose
+/// strength comes and goes as they close and open: it comes back once in an increment. Returns whether there were any.
+bool let_fall(const JointLaws& laws, const Ends& ends, int dimension, Compliance& compliance, History& trial,
+              std::vector<char>& recovered) {
   History next = trial;
   std::vector<std::size_t> fallen;
+  bool changed = false;
   for (std::size_t i = 0; i < trial.size(); ++i) {
     next[i] = laws.of_pair[i]->after(trial[i], ends.of_pair[i]);
+    if (laws.of_pair[i]->recovers()) {
+      const bool was_broken = std::exchange(trial[i].broken, next[i].broken || (trial[i].broken && recovered[i]));
+      next[i].broken = trial[i].broken;
+      changed = changed || trial[i].broken != was_broken;
+      recovered[i] = recovered[i] || (was_broken && !trial[i].broken);
+    }
     if (next[i].broken != trial[i].broken || next[i].slipped != trial[i].slipped) fallen.push_back(i);
   }
   const double mean = mean_of(compliance.diagonal());
@@ -89,7 +97,7 @@ bool let_fall(const JointLaws& laws, const Ends& ends, int dimension, Compliance
       trial[fallen[k]].broken = next[fallen[k]].broken;
       trial[fallen[k]].slipped = next[fallen[k]].slipped;
     }
-  return !fallen.empty();
+  return changed || !fallen.empty();
 }
 
 /// Coefficients that depend on slip: Aitken's extrapolation of the slip of each pair from three rounds.
@@ -203,8 +211,9 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
   Evolution result;
   History trial = from;
   Following following;
+  std::vector<char> recovered(from.size(), 0);
   Start at = start;
-  const int most = 2 * static_cast<int>(from.size()) + gradual;
+  const int most = 4 * static_cast<int>(from.size()) + gradual;
   for (int quiet = 0; result.rounds < most && quiet < gradual;) {
     set_limits(laws, trial, problem);
     Solution solution = solve_within(problem, at, options, reference_force(problem, diagonal, at, options));
@@ -213,7 +222,7 @@ Evolution evolve(Problem problem, const JointLaws& laws, const History& from, co
     const bool solved = result.solution.status == Status::solved;
     const Ends ends = solved ? ends_of(problem, result.solution, diagonal) : Ends{};
     const bool again = solved && with_memory && [&] {
-      if (let_fall(laws, ends, problem.dimension, compliance, trial)) {
+      if (let_fall(laws, ends, problem.dimension, compliance, trial, recovered)) {
         following.forget();
         quiet = 0;
         return true;

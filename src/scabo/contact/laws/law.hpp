@@ -21,7 +21,7 @@ namespace scabo::contact {
 /// History of a pair up to an accepted state.
 struct PairHistory {
   double slip = 0.0;     ///< accumulated slip in contact, regardless of direction, length >= 0
-  bool broken = false;   ///< cohesion and tensile strength are lost
+  bool broken = false;   ///< cohesion and tensile strength are lost, for good or while the pair is open
   bool slipped = false;  ///< static friction has been overcome
   bool operator==(const PairHistory&) const = default;
 };
@@ -54,6 +54,8 @@ class Law {
   }
   /// Whether the limits depend on the history.
   virtual bool remembers() const { return false; }
+  /// Whether a strength that is lost where the pair opens comes back where it closes.
+  virtual bool recovers() const { return false; }
   /// Whether the pair keeps its initial gap, whatever it is (bonded).
   virtual bool keeps_gap() const { return false; }
 };
