@@ -265,9 +265,16 @@ void divide_at_corners(const Reading& reading, Step& step) {
   step.ends = std::move(ends);
 }
 
+/// Whether a body is put in place or taken away in the step of this name.
+bool has_stage(const Reading& reading, const std::string& step) {
+  const auto named = [&](const std::optional<Value>& value) { return value && value->node->text == step; };
+  return std::any_of(reading.bodies.begin(), reading.bodies.end(),
+                     [&](const auto& body) { return named(body.added) || named(body.removed); });
+}
+
 void read_loads_of_step(Reading& reading, const Index& supports, const MapReader& map, Step& step, std::size_t number) {
   const auto loads = map.get("loads");
-  if (!loads && !step.friction.empty() && map.has("friction") && number > 1) return;  // the loads stay as they are
+  if (!loads && number > 1 && (map.has("friction") || has_stage(reading, step.name))) return;  // they stay as they are
   if (!loads) {
     apply_everything(step);
     return;

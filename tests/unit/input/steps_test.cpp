@@ -51,6 +51,27 @@ TEST(Steps, NamedFactorsChangeAndOthersStay) {
   EXPECT_THAT(model.steps[3].support_factors, ElementsAre(1.0, 1.0, 1.0));
 }
 
+TEST(Steps, InWhichABodyComesOrGoesLeaveLoadsAsTheyAre) {
+  std::string text(pressed);
+  text.replace(
+      text.find("mesh: {size: 1}}}"), 17,
+      "mesh: {size: 1}},\n  new: {material: m, shape: {rectangle: {corner: [1, 0], size: [1, 1]}}, mesh: {size: 1}, "
+      "added: build, removed: dig}}");
+  const Model model = parse(text +
+                            "ties: [{between: [b.right, new.left]}]\n"
+                            "steps:\n"
+                            "  - {name: one, loads: {first: 0.5, second: 3}}\n"
+                            "  - {name: build}\n"
+                            "  - {name: all}\n"
+                            "  - {name: half, loads: {second: 0.5, stroke: 0.25}}\n"
+                            "  - {name: dig}\n");
+  ASSERT_EQ(model.steps.size(), 5u);
+  EXPECT_THAT(model.steps[1].load_factors, ElementsAre(0.5, 3.0));
+  EXPECT_THAT(model.steps[2].load_factors, ElementsAre(1.0, 1.0));
+  EXPECT_THAT(model.steps[4].load_factors, ElementsAre(1.0, 0.5));
+  EXPECT_THAT(model.steps[4].support_factors, ElementsAre(1.0, 1.0, 0.25));
+}
+
 TEST(Steps, WhatIsNeverAppliedIsAMistake) {
   const std::string mistakes = mistakes_in(std::string(pressed) + "steps: [{loads: {first: 1, second: 0}}]\n");
   EXPECT_THAT(mistakes, HasSubstr("load 'second' is never applied"));
