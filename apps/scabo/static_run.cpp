@@ -34,7 +34,6 @@ std::string summary_text(const analysis::StaticSolution& solution, const std::fi
     text = fmt::format("{} solved and certified in {:.3g} s; worst figure of the certificate {:.1e}\n",
                        model::counted(converged, "increment"), solution.timing.total, certificate);
     if (last->error) text += fmt::format("Estimated error {:.2g} of the energy norm\n", last->error->relative);
-    text += fmt::format("After step {}, increment {}:\n", last->step_name, last->increment);
     text += result::report_totals(solution.model, *last);
   }
   return text + result::report_growth(solution) + result::report_limit(solution) + result::report_mechanism(solution) +

@@ -38,6 +38,8 @@ struct Analysis {
   bool per_radian = false;  ///< bodies of revolution: forces are those of one radian, not of the whole circumference
 
   bool revolved() const { return plane == Plane::revolution; }
+  /// Of bodies of revolution, in words.
+  const char* forces_of() const { return per_radian ? "one radian" : "the whole circumference"; }
   Extent extent() const { return {thickness, revolved(), per_radian ? 1.0 : 2.0 * std::numbers::pi}; }
 };
 

@@ -47,7 +47,7 @@ nlohmann::ordered_json model_content(const model::Model& model, const mesh::Mesh
                                                                  : "strain";
   json["thickness"] = model.analysis.thickness;
   if (model.analysis.revolved())
-    json["forces_of"] = model.analysis.per_radian ? "one radian" : "the whole circumference";
+    json["forces_of"] = model.analysis.forces_of();
   json["materials"] = ModelJson::array();
   for (const model::Material& material : model.materials) json["materials"].push_back(content_of(material));
   json["bodies"] = ModelJson::array();

@@ -125,8 +125,7 @@ std::string report_header(const model::Model& model, const ModelSizes& sizes) {
   if (sizes.finite_elements > 0) text += ", " + count(sizes.finite_elements, "finite element");
   text += ", " + count(sizes.contact_pairs, "contact pair") + '\n';
   if (model.analysis.revolved())
-    text += fmt::format("bodies of revolution: forces are those of {}\n",
-                        model.analysis.per_radian ? "one radian" : "the whole circumference");
+    text += fmt::format("bodies of revolution: forces are those of {}\n", model.analysis.forces_of());
   text += report_ground(model);
   for (const model::Contact& contact : model.contacts)
     text +=
@@ -158,11 +157,12 @@ std::string report_state_of(const analysis::GrowthResult& growth) {
 
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment) {
   const model::Step& step = model.steps.at(static_cast<std::size_t>(increment.step - 1));
-  std::string text = step.growth      ? fmt::format("step {}, increment {}:", increment.step_name, increment.increment)
-                     : step.automatic ? fmt::format("step {}, increment {}, {:.4g} % of the step:", increment.step_name,
-                                                    increment.increment, 100.0 * increment.reached)
-                                      : fmt::format("step {}, increment {} of {}:", increment.step_name,
-                                                    increment.increment, step.increments);
+  std::string text =
+      step.growth || step.limit ? fmt::format("step {}, increment {}:", increment.step_name, increment.increment)
+      : step.automatic
+          ? fmt::format("step {}, increment {}, {:.4g} % of the step:", increment.step_name, increment.increment,
+                        100.0 * increment.reached)
+          : fmt::format("step {}, increment {} of {}:", increment.step_name, increment.increment, step.increments);
   for (const auto& [name, factor] : increment.factors) text += fmt::format(" {} = {:.6g},", name, factor);
   if (increment.factors.empty())
     text += ' ';
@@ -320,12 +320,15 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
 }
 
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
+  const std::string heading =
+      fmt::format("After step {}, increment {}{}:\n", increment.step_name, increment.increment,
+                  model.analysis.revolved() ? fmt::format(", forces of {}", model.analysis.forces_of()) : "");
   std::string text;
   for (const std::string& part :
        {report_contacts(model, increment), report_reactions(model, increment), report_springs(model, increment),
         report_cracks(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
-  return text;
+  return heading + text;
 }
 
 std::string report_warnings(const analysis::StaticSolution& solution) {
@@ -389,10 +392,8 @@ std::string report_end(const analysis::StaticSolution& solution, const analysis:
   }
   text += report_growth(solution) + report_limit(solution);
   if (solution.limit) text += report_mechanism(solution);
-  if (const analysis::IncrementResult* last = last_converged(solution)) {
-    text += fmt::format("\nAfter step {}, increment {}:\n", last->step_name, last->increment);
-    text += report_totals(solution.model, *last);
-  }
+  if (const analysis::IncrementResult* last = last_converged(solution))
+    text += '\n' + report_totals(solution.model, *last);
   if (!solution.warnings.empty()) text += '\n' + report_warnings(solution);
   return text + '\n' + report_timing(timing);
 }

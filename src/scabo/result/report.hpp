@@ -46,7 +46,7 @@ std::string report_springs(const model::Model& model, const analysis::IncrementR
 /// Table of stress intensity factors; empty without cracks.
 std::string report_cracks(const analysis::IncrementResult& increment);
 
-/// All of these, separated by empty lines.
+/// All of these, separated by empty lines, under a heading.
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment);
 
 /// One line for each warning.

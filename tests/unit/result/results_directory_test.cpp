@@ -495,6 +495,7 @@ TEST_F(Results, FiguresAtTheLevelOfRoundingAreShownAsZero) {
 TEST_F(Results, TotalsAreContactsAndReactions) {
   const analysis::StaticSolution solution = two_bodies();
   const std::string totals = report_totals(solution.model, increment_number(solution, 1));
+  EXPECT_THAT(totals, testing::StartsWith("After step "));
   EXPECT_THAT(totals, HasSubstr("normal force"));
   EXPECT_THAT(totals, HasSubstr("\n\n  support"));
 }
