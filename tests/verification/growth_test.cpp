@@ -255,6 +255,35 @@ TEST(Growth, ByPolygonsOrFinerOrWithHalfTheStepThePathIsTheSame) {
   EXPECT_NEAR((inclined_for_a_quarter("kind: quadtree, size: 0.125", 0.0625).back() - end).norm(), 0.0, 0.0125);
 }
 
+// Two cracks beside each other under tension: their inner tips first turn away from each other, and where they have
+// passed, towards the other crack. By symmetry one path is the other, turned by half a turn.
+TEST(Growth, TwoCracksPassEachOtherAndHook) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: stress}
+materials: {steel: {young: 200e9, poisson: 0.3}}
+bodies:
+  plate:
+    material: steel
+    shape: {rectangle: {corner: [-10, -10], size: [20, 20]}}
+    mesh: {kind: quadtree, size: 2}
+    cracks: [{path: [[-2.2, -0.2], [-0.4, -0.2]], name: left}, {path: [[0.4, 0.2], [2.2, 0.2]], name: right}]
+supports: [{on: plate.bottom_left, fix: [x, y]}, {on: plate.bottom_right, fix: [y]}]
+loads: {up: {on: plate.top, traction: [0, 1e6]}, down: {on: plate.bottom, traction: [0, -1e6]}}
+steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.2, cracks: [plate.left.end, plate.right.start], until: {steps: 8}}}]
+)");
+  last(solution);
+  const std::vector<Vec2>&left = solution.grown->paths.at(0).points, &right = solution.grown->paths.at(1).points;
+  ASSERT_EQ(left.size(), 10u);
+  ASSERT_EQ(right.size(), 10u);
+  double lowest = 0.0;
+  for (std::size_t k = 0; k < 10; ++k) {
+    EXPECT_NEAR((left[k] + right[9 - k]).norm(), 0.0, 1e-4);
+    if (left[k].x() < 0.0) lowest = std::min(lowest, left[k].y());
+  }
+  EXPECT_LT(lowest, -0.205);
+  EXPECT_GT(left.back().y(), -0.1);
+}
+
 // Loads that stay: under a tension that stays and one that is scaled, on the same edge, their sum is that of the scaled
 // one alone.
 TEST(Growth, LoadsThatStayCount) {
@@ -328,14 +357,14 @@ TEST(Growth, AClosedCrackGrowsWings) {
     const Vec2 along = path[k + 1] - path[k];
     return std::atan2(std::abs(along.x()), along.y());
   };
-  EXPECT_LT(from_load(4), 0.8 * from_load(3));
+  EXPECT_LT(from_load(4), 0.9 * from_load(3));
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((path[k] + path[5 - k]).norm(), 0.0, 1e-3);
   for (const std::size_t k : {1u, 2u}) {
     const analysis::GrowthResult& at = growth_at(solution, k);
-    for (const analysis::TipResult& tip : at.tips) EXPECT_GT(tip.K_I, 0.9);
+    for (const analysis::TipResult& tip : at.tips) EXPECT_LT(std::abs(tip.K_II), 0.05 * tip.K_I);
     ASSERT_TRUE(at.energy.has_value());
     expect_balance(*at.energy);
-    EXPECT_NEAR(at.energy->released / at.energy->integral, 1.0, k == 1 ? 0.08 : 0.02);  // over the kink, and beyond
+    EXPECT_NEAR(at.energy->released / at.energy->integral, 1.0, 0.015);
     const double friction = increment_at(solution, k).energy.friction - increment_at(solution, k - 1).energy.friction;
     EXPECT_GT(friction, 0.0);
     EXPECT_NEAR(at.energy->contact / friction, 1.0, 0.02);

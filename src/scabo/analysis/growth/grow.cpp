@@ -92,6 +92,13 @@ struct Growth {
   double rate = 0.0, rate_mid = 0.0;  // of all tips together
 };
 
+/// At the middle of a step.
+struct Middle {
+  std::vector<double> kinks;      // of every tip, that are left there
+  std::vector<Vec2> K_alone;      // of growth under a load: under the pair forces before
+  std::vector<CycledTip> cycled;  // of growth under cycles
+};
+
 /// What follows a state: longer cracks, the end, or a mesh or solution that there is not.
 struct Next {
   std::optional<model::Model> model;
@@ -129,6 +136,8 @@ class Growing {
   Sought known_again(const Prepared& prepared, const State& state) const;
   double cycles_until(const Sought& now) const;
   std::optional<GrowthEnergy> energy_until(const Prepared& prepared, const Sought& now, const State& state) const;
+  std::variant<Middle, std::string> middle(const Prepared& prepared, const Sought& now, const State& state,
+                                           const std::vector<Vec2>& directions, const std::vector<double>& lengths);
   std::string turn_at_middle(const Prepared& prepared, const Sought& now, const State& state,
                              std::vector<Vec2>& directions, Growth& by);
   Next next(const Prepared& prepared, const Sought& now, const State& state, int number);
@@ -264,38 +273,68 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
   return energy_of_growth(prepared, last_->before, longer, state, integral * model().analysis.thickness);
 }
 
-/// Turns the directions by the kinks that are left at the middle of the step, and shares the growth as the tips grow
+/// What tips are like where the cracks have gone half of a step in these directions, under the load before it.
+std::variant<Middle, std::string> Growing::middle(const Prepared& prepared, const Sought& now, const State& state,
+                                                  const std::vector<Vec2>& directions,
+                                                  const std::vector<double>& lengths) {
+  const Discretisation half = divided(longer(directions, now.at, lengths, 0.5));
+  const Prepared there(half);
+  Middle middle;
+  if (growth().cycles) {
+    auto found = cycled_tips(there, tips_, options_);
+    if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
+    middle.cycled = std::get<std::vector<CycledTip>>(std::move(found));
+    for (const CycledTip& tip : middle.cycled) middle.kinks.push_back(tip.kink);
+    return middle;
+  }
+  const State from = has_contacts() ? on_longer(there, prepared, state, tips_) : initial_state(there);
+  const Reached reached = reach_from(there, from, now.factors, options_);
+  if (!reached.reason.empty()) return reached.reason;
+  const auto found = factors_of_tips(there, tips_, reached.state),
+             alone = has_contacts() ? factors_of_tips(there, tips_, from) : found;
+  for (const auto* factors : {&found, &alone})
+    if (const auto* reason = std::get_if<std::string>(factors)) return *reason;
+  middle.K_alone = std::get<std::vector<Vec2>>(alone);
+  for (std::size_t t = 0; t < tips_.size(); ++t) {
+    const Vec2& K = std::get<std::vector<Vec2>>(found)[t];
+    const bool kinks = K[0] > 0.0 || has_contact(model(), tips_[t]);
+    middle.kinks.push_back(kinks ? kink_at(growth().criterion, K, now.materials[t].kappa) : 0.0);
+  }
+  return middle;
+}
+
+/// Turns the directions so that no kink is left at the middle of the step, and shares the growth as the tips grow
 /// there; a reason where there is no such state.
 std::string Growing::turn_at_middle(const Prepared& prepared, const Sought& now, const State& state,
                                     std::vector<Vec2>& directions, Growth& by) {
-  const Discretisation half = divided(longer(directions, now.at, by.lengths, 0.5));
-  const Prepared middle(half);
-  if (growth().cycles) {
-    auto found = cycled_tips(middle, tips_, options_);
+  constexpr double small = 0.05, most_left = 0.5;
+  auto found = middle(prepared, now, state, directions, by.lengths);
+  if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
+  Middle at = std::get<Middle>(std::move(found));
+  std::vector<double> turns = at.kinks;
+  double largest = 0.0;
+  for (std::size_t t = 0; t < tips_.size(); ++t)
+    if (now.at.tips[t].grows) largest = std::max(largest, std::abs(turns[t]));
+  if (largest > small) {
+    std::vector<Vec2> tried = directions;
+    for (std::size_t t = 0; t < tips_.size(); ++t) tried[t] = turned(directions[t], turns[t]);
+    found = middle(prepared, now, state, tried, by.lengths);
     if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
-    const auto& cycled = std::get<std::vector<CycledTip>>(found);
-    by.rate_mid = rate_of(now.at, cycled);
-    if (std::isfinite(by.rate_mid)) by.lengths = shares(now.at, cycled, growth_of_step(growth(), now.at));
+    at = std::get<Middle>(std::move(found));
     for (std::size_t t = 0; t < tips_.size(); ++t)
-      if (now.at.tips[t].grows) directions[t] = turned(directions[t], cycled[t].kink);
+      if (turns[t] != 0.0) turns[t] /= 1.0 - std::min(at.kinks[t] / turns[t], most_left);
+  }
+  for (std::size_t t = 0; t < tips_.size(); ++t)
+    if (now.at.tips[t].grows) directions[t] = turned(directions[t], turns[t]);
+  if (growth().cycles) {
+    by.rate_mid = rate_of(now.at, at.cycled);
+    if (std::isfinite(by.rate_mid)) by.lengths = shares(now.at, at.cycled, growth_of_step(growth(), now.at));
     return {};
   }
-  const State from = has_contacts() ? on_longer(middle, prepared, state, tips_) : initial_state(middle);
-  const Reached reached = reach_from(middle, from, now.factors, options_);
-  if (!reached.reason.empty()) return reached.reason;
-  const auto found = factors_of_tips(middle, tips_, reached.state),
-             alone = has_contacts() ? factors_of_tips(middle, tips_, from) : found;  // under the pair forces before
-  for (const auto* factors : {&found, &alone})
-    if (const auto* reason = std::get_if<std::string>(factors)) return *reason;
   for (std::size_t t = 0; t < tips_.size(); ++t) {
-    const Vec2& K = std::get<std::vector<Vec2>>(found)[t];
-    const TipResult& tip = now.at.tips[t];
-    if (tip.grows && (K[0] > 0.0 || has_contact(model(), tips_[t])))
-      directions[t] = turned(directions[t], kink_at(growth().criterion, K, now.materials[t].kappa));
-    const Vec2 first = factors_at_kink({tip.K_I, tip.K_II}, tip.kink);
-    by.integral += by.lengths[t] / 6.0 *
-                   (first.squaredNorm() + 4.0 * std::get<std::vector<Vec2>>(alone)[t].squaredNorm()) /
-                   now.materials[t].modulus;
+    const Vec2 first = factors_at_kink({now.at.tips[t].K_I, now.at.tips[t].K_II}, now.at.tips[t].kink);
+    by.integral +=
+        by.lengths[t] / 6.0 * (first.squaredNorm() + 4.0 * at.K_alone[t].squaredNorm()) / now.materials[t].modulus;
   }
   return {};
 }
