@@ -284,6 +284,25 @@ steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.2, cracks: [plate.left.end, pl
   EXPECT_GT(left.back().y(), -0.1);
 }
 
+// Two cracks that share every step reach the length that is wanted in whole steps.
+TEST(Growth, TwoCracksReachTheirLengthTogether) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: strain}
+materials: {stone: {young: 30e9, poisson: 0.2}}
+bodies:
+  strip:
+    material: stone
+    shape: {rectangle: {corner: [0, 0], size: [2, 2]}}
+    mesh: {kind: quadtree, size: 0.25}
+    cracks: [{path: [[0, 1], [0.25, 1]], name: left}, {path: [[2, 1], [1.75, 1]], name: right}]
+supports: [{on: strip.bottom, fix: [y]}, {on: strip.bottom_left, fix: [x]}]
+loads: {pull: {on: strip.top, traction: [0, 1e6]}}
+steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.2, until: {length: 0.5}}}]
+)");
+  ASSERT_EQ(last(solution).increment, 4);
+  for (const analysis::TipResult& tip : growth_at(solution, 3).tips) EXPECT_NEAR(tip.length, 0.5, 1e-9);
+}
+
 // Loads that stay: under a tension that stays and one that is scaled, on the same edge, their sum is that of the scaled
 // one alone.
 TEST(Growth, LoadsThatStayCount) {

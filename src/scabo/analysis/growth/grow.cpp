@@ -53,22 +53,23 @@ std::string end_wanted(const model::GrowthStep& growth, const GrowthResult& at, 
   return {};
 }
 
-/// Growth of all tips in a step.
-double growth_of_step(const model::GrowthStep& growth, const GrowthResult& at) {
-  double whole = growth.step;
-  if (growth.length)
-    for (const TipResult& tip : at.tips)
-      if (tip.grows) whole = std::min(whole, *growth.length - tip.length);
-  return whole;
-}
+std::string crack_of(const TipResult& tip) { return tip.name.substr(0, tip.name.rfind('.')); }
 
-/// How far each tip grows: in proportion to its rate, or by equal parts where growth follows the load.
-std::vector<double> shares(const GrowthResult& at, const std::vector<CycledTip>& cycled, double whole) {
+/// How far each tip grows in a step: in proportion to its rate, or by equal parts where growth follows the load; less
+/// where a crack would become longer than wanted.
+std::vector<double> shares(const model::GrowthStep& growth, const GrowthResult& at,
+                           const std::vector<CycledTip>& cycled) {
   std::vector<double> lengths;
-  double sum = 0.0;
+  double sum = 0.0, whole = growth.step;
   for (std::size_t t = 0; t < at.tips.size(); ++t) {
     lengths.push_back(!at.tips[t].grows ? 0.0 : cycled.empty() ? 1.0 : cycled[t].rate);
     sum += lengths.back();
+  }
+  for (std::size_t t = 0; growth.length && t < at.tips.size(); ++t) {
+    double of_crack = 0.0;
+    for (std::size_t other = 0; other < at.tips.size(); ++other)
+      if (crack_of(at.tips[other]) == crack_of(at.tips[t])) of_crack += lengths[other] / sum;
+    if (of_crack > 0.0) whole = std::min(whole, (*growth.length - at.tips[t].length) / of_crack);
   }
   for (double& length : lengths) length *= whole / sum;
   return lengths;
@@ -328,7 +329,7 @@ std::string Growing::turn_at_middle(const Prepared& prepared, const Sought& now,
     if (now.at.tips[t].grows) directions[t] = turned(directions[t], turns[t]);
   if (growth().cycles) {
     by.rate_mid = rate_of(now.at, at.cycled);
-    if (std::isfinite(by.rate_mid)) by.lengths = shares(now.at, at.cycled, growth_of_step(growth(), now.at));
+    if (std::isfinite(by.rate_mid)) by.lengths = shares(growth(), now.at, at.cycled);
     return {};
   }
   for (std::size_t t = 0; t < tips_.size(); ++t) {
@@ -342,8 +343,7 @@ std::string Growing::turn_at_middle(const Prepared& prepared, const Sought& now,
 Next Growing::next(const Prepared& prepared, const Sought& now, const State& state, int number) {
   if (std::string ended = end_wanted(growth(), now.at, number); !ended.empty())
     return {{}, cracks_of(model(), tips_, std::move(ended)), {}, {}};
-  Growth by{shares(now.at, now.cycled, growth_of_step(growth(), now.at)), now.factors, now.at.load_factor,
-            rest_energy(prepared, state)};
+  Growth by{shares(growth(), now.at, now.cycled), now.factors, now.at.load_factor, rest_energy(prepared, state)};
   by.cycles = now.at.cycles.value_or(0.0);
   if (growth().cycles) by.rate = rate_of(now.at, now.cycled);
   std::vector<Vec2> directions;

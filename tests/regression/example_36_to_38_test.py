@@ -1,4 +1,4 @@
-"""The checked numbers of examples/36_wing_cracks and examples/37_heel_crack."""
+"""The checked numbers of examples/36_wing_cracks, 37_heel_crack and 38_fatigue_at_a_hole."""
 import math
 
 import support
@@ -32,6 +32,17 @@ class HeelCrack(support.OfDrawnExample):
             self.assertAlmostEqual(states[0]["load_factor"], run["first"], delta=run["tolerance"])
             self.assertAlmostEqual(states[-1]["load_factor"], run["last"], delta=run["tolerance"])
             self.assertLess(math.dist(summary["growth"]["paths"]["dam.crack"][-1], run["tip"]), run["tolerance_of_tip"])
+
+
+class FatigueAtAHole(support.OfDrawnExample):
+    FOLDER = "38_fatigue_at_a_hole"
+
+    def test_cycles(self):
+        check = self.check()
+        last = support.summary_of(self.drawn_in / "fatigue.results")["increments"][-1]["growth"]
+        self.assertAlmostEqual(last["cycles"] / check["cycles"], 1, delta=check["relative_tolerance"])
+        for tip in last["tips"].values():
+            self.assertAlmostEqual(tip["length"], 0.008, delta=1e-9)
 
 
 if __name__ == "__main__":
