@@ -3,7 +3,7 @@ those of 04_error_control, a study of many meshes that takes as long as all othe
 import support
 from support import ROOT
 
-ELSEWHERE = ["04_error_control", "14_wall", "15_concrete_section", "22_ironing"]  # example_14_and_15_test.py, example_22_test.py
+ELSEWHERE = ["04_error_control", "14_wall", "15_concrete_section", "22_ironing", "36_wing_cracks", "37_heel_crack", "38_fatigue_at_a_hole"]  # example_14_and_15_test.py ...
 
 
 class Figures(support.InTemporaryDirectory):

@@ -209,6 +209,20 @@ class Resume(unittest.TestCase):
                     self.assertEqual(run.returncode, 0, run.stderr)
                     self.assert_same(whole)
 
+    def test_killed_while_a_closed_crack_grows(self):
+        closed = GROWTH.replace("steps: 12", "steps: 2").replace("traction: [0, 1e6]", "traction: [3e5, -1e6]").replace(
+            "supports:", "contacts: {faces: {between: [plate.flaw.left, plate.flaw.right], friction: 0.2}}\nsupports:")
+        self.model.write_text(closed.replace("LAW", "toughness: {K_Ic: 1e6}"), encoding="utf-8")
+        run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        whole = content(self.directory / "whole")
+        for checkpoints in (4, 2)[:1 if SANITIZED else 2]:  # of two increments before growth
+            shutil.rmtree(self.results, ignore_errors=True)
+            self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
+            run = scabo("resume", self.results, "--quiet")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assert_same(whole)
+
     def test_half_written_files_are_cut_off(self):
         whole, _ = self.unbroken()
         self.assertTrue(self.killed(), "the run was too fast")

@@ -130,6 +130,23 @@ TEST_P(CrackContact, PressureInAContact) {
   }
 }
 
+// A closed crack at 45 degrees under compression, friction 0.3, with open wings of length l at 70.529 degrees at both
+// ends: k_1 and k_2 of a crack that is closed everywhere, in an infinite plate (VERIFICATION, "Cracks that grow", to
+// 3e-4). Here it opens over a hundredth of its length beside the wings, which changes k_2.
+TEST_P(CrackContact, WingsOfAClosedCrack) {
+  for (const auto& [length, k] : {std::pair(0.1, Vec2(0.30960, -0.02579)), std::pair(0.5, Vec2(0.15240, 0.08259))}) {
+    const double turn = (45.0 + 70.529) * degrees;
+    const Vec2 end = Vec2::Constant(std::sqrt(0.5)), tip = end + length * Vec2(std::cos(turn), std::sin(turn));
+    CrackedPlate plate{.kind = kind(), .order = 2, .yy = -1};
+    plate.crack("flaw", {-tip, -end, end, tip}).refine_at({-tip, -end, end, tip}, 0.25 * length);
+    const auto solution = run(with_contact(plate, 0.3).text());
+    for (const char* name : {"plate.flaw.start", "plate.flaw.end"}) {
+      EXPECT_NEAR(factors_at(last(solution), name).K_I / root_pi, k[0], 5e-3 * k[0]) << length;
+      EXPECT_NEAR(factors_at(last(solution), name).K_II / root_pi, k[1], 6e-3) << length;
+    }
+  }
+}
+
 /// Beside the tips of a crack of half length 1, pressures were 3.5 times too large and zero by turns.
 void expect_uniform_pressure(const analysis::StaticSolution& solution, double pressure, double away = 0.01) {
   for (const analysis::PairResult& pair : contact_of(last(solution)).pairs) {

@@ -86,9 +86,16 @@ StaticSolution solve_with_growth(model::Model model, mesh::Mesh mesh, const Opti
                        [](Quasistatic& statics, StaticSolution& solution, const Options& with) {
                          Options before = with;
                          before.on_end = {};
+                         std::optional<State> reached;
+                         if (with.from && !continues_growth(solution.model, with))
+                           complete(statics.now(), reached.emplace(with.from->at.state));
+                         before.on_state = [&](const Prepared& prepared, const State& state, const StaticSolution& at) {
+                           reached = state;
+                           if (with.on_state) with.on_state(prepared, state, at);
+                         };
                          if (!continues_growth(solution.model, with))
                            march(statics, solution, before, solution.model.steps.size() - 1);
-                         if (solution.outcome == Outcome::solved) grow(solution, with);
+                         if (solution.outcome == Outcome::solved) grow(solution, with, std::move(reached));
                        });
 }
 

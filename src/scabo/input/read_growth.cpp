@@ -157,10 +157,12 @@ void read_growth(Reading& reading, const Value& value, const Index& supports, co
   growth.step = unread;
   if (!map.is_map()) return;
   if (const auto criterion = map.get("criterion")) {
-    const auto choice = read_choice(reading.report, *criterion,
-                                    {"hoop_stress", "energy_release", "strain_energy_density", "zero_K_II"}, {});
+    const auto choice =
+        read_choice(reading.report, *criterion,
+                    {"hoop_stress", "energy_release", "strain_energy_density", "zero_K_II", "straight"}, {});
     if (choice && *choice == "energy_release") growth.criterion = GrowthCriterion::energy_release;
     if (choice && *choice == "strain_energy_density") growth.criterion = GrowthCriterion::strain_energy_density;
+    if (choice && *choice == "straight") growth.criterion = GrowthCriterion::straight;
     if (choice && *choice == "zero_K_II") growth.criterion = GrowthCriterion::zero_K_II;
   }
   read_cycles(reading, map, supports, step, growth);

@@ -153,15 +153,27 @@ void check_shortest(Checking& checking, const std::string& path, const GrowthSte
 }
 
 /// What a model in which cracks grow cannot have.
-void check_beside_growth(Checking& checking) {
+void check_beside_growth(Checking& checking, const GrowthStep& growth) {
   const Model& model = checking.model;
   const auto refuse = [&](const Source& at, const std::string& path, std::string message) {
     checking.enter(at);
     checking.error(path, "", std::move(message));
   };
-  for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    refuse(model.contacts[c].source, path_of_joint("contacts", model.contacts[c].source, model.contacts[c].name, c),
-           "cracks grow without contacts in this version, as their history would have to follow: leave it out");
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    const std::string path = path_of_joint("contacts", contact.source, contact.name, c);
+    const bool grows = contact.a.kind == Place::Kind::face;
+    if (growth.cycles)
+      refuse(contact.source, path, "is not available under cycles of load in this version: leave it out");
+    else if (contact.large_slip)
+      refuse(contact.source, path, "has slip: large, which is not available where cracks grow: give slip: small");
+    else if (grows && (contact.bond || contact.gap != 0.0 || !contact.friction_along.empty()))
+      refuse(contact.source, path,
+             fmt::format("has {}, which new faces of a crack that grows do not have: leave it out",
+                         contact.bond         ? "a bond"
+                         : contact.gap != 0.0 ? "a gap"
+                                              : "friction along its length"));
+  }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const std::string path = path_of("bodies", model.bodies[b].name, b);
     if (model.bodies[b].is_staged())
@@ -177,9 +189,8 @@ void check_beside_growth(Checking& checking) {
         "an error bar needs finer meshes, on which growth is not repeated: leave it out, and halve 'size' and 'step' "
         "to compare");
   if (model.output.discrete_problems)
-    refuse({}, "output.discrete_problems", "is for contacts, and cracks grow without: leave it out");
-  if (model.solver.uniqueness)
-    refuse({}, "solver.uniqueness", "is a question to contacts, and cracks grow without: leave it out");
+    refuse({}, "output.discrete_problems", "is not available where cracks grow: leave it out");
+  if (model.solver.uniqueness) refuse({}, "solver.uniqueness", "is not available where cracks grow: leave it out");
 }
 
 }  // namespace
@@ -211,7 +222,7 @@ void check_growth_steps(Checking& checking) {
       check_scaled(checking, path, step);
     check_until(checking, path, growth);
     check_bodies_of(checking, growth);
-    check_beside_growth(checking);
+    check_beside_growth(checking, growth);
   }
 }
 

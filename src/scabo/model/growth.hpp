@@ -11,7 +11,7 @@
 namespace scabo::model {
 
 /// What decides the direction of growth and when it begins (analysis/growth/criteria.hpp).
-enum class GrowthCriterion { hoop_stress, energy_release, strain_energy_density, zero_K_II };
+enum class GrowthCriterion { hoop_stress, energy_release, strain_energy_density, zero_K_II, straight };
 
 /// A crack between cells that may grow, at one of its ends or at both. An end on the boundary or on another crack does
 /// not grow.

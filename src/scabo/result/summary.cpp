@@ -129,6 +129,7 @@ Json json_of(const analysis::GrowthResult& growth) {
   if (const auto& energy = growth.energy)
     json["energy"] = {{"external", number_or_null(energy->external)},
                       {"elastic", number_or_null(energy->elastic)},
+                      {"contact", number_or_null(energy->contact)},
                       {"released", number_or_null(energy->released)},
                       {"integral", number_or_null(energy->integral)}};
   for (const analysis::TipResult& tip : growth.tips) {
@@ -160,7 +161,8 @@ Json json_of(const analysis::Limit& limit, const model::Model& model) {
 }
 
 Json json_of(const analysis::GrownCracks& grown) {
-  Json json = {{"ended", grown.ended.empty() ? Json() : Json(grown.ended)}, {"paths", Json::object()}};
+  Json json = {
+      {"ended", grown.ended.empty() ? Json() : Json(grown.ended)}, {"broken", grown.broken}, {"paths", Json::object()}};
   for (const analysis::GrownCracks::Path& path : grown.paths) {
     json["paths"][path.crack] = Json::array();
     for (const Vec2& point : path.points) json["paths"][path.crack].push_back(json_of(point));

@@ -38,6 +38,17 @@ TEST(GrowthCriteria, KinkAnglesFromPureOpeningToPureShear) {
   }
 }
 
+TEST(GrowthCriteria, StraightByTheEnergyReleasedInAnyMode) {
+  const Kink kink = kink_of(GrowthCriterion::straight, {3.0, -4.0}, kappa);
+  EXPECT_EQ(kink.angle, 0.0);
+  EXPECT_NEAR(kink.equivalent, 5.0, 1e-14);
+}
+
+TEST(GrowthCriteria, AClosedTipCountsWithoutOpening) {
+  EXPECT_NEAR(kink_at(GrowthCriterion::hoop_stress, {-1e-6, -2.0}, kappa), 2.0 * std::atan(std::sqrt(0.5)), 1e-15);
+  EXPECT_EQ(kink_at(GrowthCriterion::hoop_stress, {-1.0, 0.0}, kappa), 0.0);
+}
+
 // Pure shear: hoop stress tan(a/2) = 2^-1/2, so that K* = 2/3^1/2 K_II; strain energy density cos a = (1 - 2 nu)/3.
 TEST(GrowthCriteria, PureShear) {
   const Vec2 K(0.0, -3.0);

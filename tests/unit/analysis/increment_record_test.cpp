@@ -16,7 +16,7 @@ IncrementResult with_growth() {
   GrowthResult growth;
   growth.load_factor = 1.25;
   growth.cycles = 1e5;
-  growth.energy = GrowthEnergy{1.0, 2.0, 3.0, 4.0};
+  growth.energy = GrowthEnergy{1.0, 2.0, 5.0, 3.0, 4.0};
   TipResult tip;
   tip.name = "plate.flaw.end";
   tip.position = Vec2(0.1, -0.2);
@@ -41,6 +41,7 @@ TEST(IncrementRecord, GrowthIsReadBackAsItWas) {
   ASSERT_TRUE(read.growth.has_value());
   EXPECT_EQ(read.growth->load_factor, 1.25);
   EXPECT_EQ(read.growth->cycles, 1e5);
+  EXPECT_EQ(read.growth->energy->contact, 5.0);
   EXPECT_EQ(read.growth->energy->integral, 4.0);
   ASSERT_EQ(read.growth->tips.size(), 2u);
   const TipResult& tip = read.growth->tips[0];

@@ -1,5 +1,6 @@
 #include "scabo/analysis/growth/criteria.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -123,11 +124,17 @@ Kink kink_of(model::GrowthCriterion criterion, const Vec2& factors, double kappa
   Kink kink = criterion == model::GrowthCriterion::hoop_stress      ? hoop_stress(K)
               : criterion == model::GrowthCriterion::energy_release ? energy_release(K)
               : criterion == model::GrowthCriterion::zero_K_II      ? zero_K_II(K)
+              : criterion == model::GrowthCriterion::straight       ? Kink{0.0, 1.0}  // eq. (6)
                                                                     : strain_energy_density(K, kappa);
   if (K[1] == 0.0) kink.angle = 0.0;
   if (factors[1] > 0.0) kink.angle = -kink.angle;
   kink.equivalent *= size;
   return kink;
+}
+
+double kink_at(model::GrowthCriterion criterion, const Vec2& factors, double kappa) {
+  const Vec2 open(std::max(factors[0], 0.0), factors[1]);
+  return open.norm() > 0.0 ? kink_of(criterion, open, kappa).angle : 0.0;
 }
 
 }  // namespace scabo::analysis

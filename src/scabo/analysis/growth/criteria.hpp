@@ -21,6 +21,8 @@
 //     C = (kappa + 1)(1 - c) + (1 + c)(3 c - 1),   c = cos a,  s = sin a                                            (5)
 //
 // up to a factor; a is its minimum that is next to 0, and K* = (S / (2 (kappa - 1)))^1/2.
+//
+// straight:         a = 0, K* = (K_I^2 + K_II^2)^1/2, so that G = K*^2 / E' whatever the mode (6)
 #pragma once
 
 #include "scabo/base/types.hpp"
@@ -35,6 +37,9 @@ struct Kink {
 
 /// `factors`: [K_I, K_II] with K_I >= 0, not both zero. `kappa` > 1.
 Kink kink_of(model::GrowthCriterion criterion, const Vec2& factors, double kappa);
+
+/// The angle; a tip that is closed counts with K_I = 0, and 0 is that of no load.
+double kink_at(model::GrowthCriterion criterion, const Vec2& factors, double kappa);
 
 /// Eq. (2): [k_1, k_2] at a kink of up to 90 degrees either way.
 Vec2 factors_at_kink(const Vec2& factors, double angle);

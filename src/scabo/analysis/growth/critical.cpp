@@ -52,9 +52,13 @@ Factors factors_at(const model::Model& model, double lambda) {
 }
 
 Reached reach_from_rest(const Prepared& prepared, const Factors& factors, const Options& options) {
+  return reach_from(prepared, initial_state(prepared), factors, options);
+}
+
+Reached reach_from(const Prepared& prepared, const State& from, const Factors& factors, const Options& options) {
   Reached reached;
-  reached.state = initial_state(prepared);
-  Attempt tried = attempt(prepared, reached.state, factors);
+  reached.state = from;
+  Attempt tried = attempt(prepared, from, factors);
   reached.iterations = tried.solution.iterations;
   record(prepared, tried, options, reached);
   if (tried.accepted)
@@ -106,18 +110,22 @@ std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& 
   std::vector<TipPattern> patterns;
   for (std::size_t t = 0; t < tips.size(); ++t) {
     const auto [kappa, modulus] = material_constants(prepared, tips[t]);
-    patterns.push_back({constant[t], whole[t] - constant[t], kappa, modulus,
-                        growth.K_Ic ? *growth.K_Ic : std::sqrt(modulus * *growth.G_c)});
+    patterns.push_back({constant[t], whole[t] - constant[t], kappa, modulus, toughness_of(growth, modulus)});
   }
   return patterns;
 }
 
+double equivalent_factor(model::GrowthCriterion criterion, const Vec2& K, double kappa) {
+  const Vec2 open(std::max(K[0], 0.0), K[1]);
+  return open.norm() > 0.0 ? kink_of(criterion, open, kappa).equivalent : 0.0;
+}
+
+double toughness_of(const model::GrowthStep& growth, double modulus) {
+  return growth.K_Ic ? *growth.K_Ic : std::sqrt(modulus * *growth.G_c);
+}
+
 double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip) {
-  const auto equivalent = [&](double lambda) {
-    const Vec2 K = tip.at(lambda);
-    const Vec2 open(std::max(K[0], 0.0), K[1]);
-    return open.norm() > 0.0 ? kink_of(criterion, open, tip.kappa).equivalent : 0.0;
-  };
+  const auto equivalent = [&](double lambda) { return equivalent_factor(criterion, tip.at(lambda), tip.kappa); };
   if (tip.constant == Vec2(0.0, 0.0)) {
     const double at_one = equivalent(1.0);
     return at_one > 0.0 ? tip.toughness / at_one : std::numeric_limits<double>::infinity();

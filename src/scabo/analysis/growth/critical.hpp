@@ -21,7 +21,9 @@ bool is_loaded(const Factors& factors);
 /// Of loads and supports in the last step.
 Factors factors_at(const model::Model& model, double lambda);
 
-/// The state at these factors, from rest.
+/// The state at these factors, from another one on the same mesh.
+Reached reach_from(const Prepared& prepared, const State& from, const Factors& factors, const Options& options);
+/// The same from rest.
 Reached reach_from_rest(const Prepared& prepared, const Factors& factors, const Options& options);
 
 /// Constants of the material around a tip.
@@ -53,5 +55,10 @@ std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& 
 /// The smallest lambda > 0 at which a tip is critical; infinite if there is none, 0 if it is critical without any load
 /// that is scaled.
 double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip);
+
+/// K* by which a tip is compared with its toughness; a tip that its load closes counts with K_I = 0.
+double equivalent_factor(model::GrowthCriterion criterion, const Vec2& K, double kappa);
+/// Toughness as a factor K_Ic.
+double toughness_of(const model::GrowthStep& growth, double modulus);
 
 }  // namespace scabo::analysis

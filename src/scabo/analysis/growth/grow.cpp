@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "scabo/analysis/growth/criteria.hpp"
-#include "scabo/analysis/growth/critical.hpp"
-#include "scabo/analysis/growth/fatigue.hpp"
 #include "scabo/analysis/growth/growth_energy.hpp"
+#include "scabo/analysis/growth/longer_pairs.hpp"
 #include "scabo/analysis/growth/overlap.hpp"
-#include "scabo/analysis/growth/tips.hpp"
+#include "scabo/analysis/growth/sought.hpp"
+#include "scabo/analysis/growth/split.hpp"
 #include "scabo/analysis/march/increment_warnings.hpp"
 #include "scabo/analysis/march/reports.hpp"
 #include "scabo/analysis/state/continuation.hpp"
@@ -24,87 +24,6 @@ namespace {
 
 /// A crack meets what lies within so many steps ahead of it.
 constexpr double reach_of_tip = 1.5;
-
-/// Where the tips are.
-GrowthResult tips_of(const model::Model& model, const std::vector<Tip>& tips) {
-  GrowthResult result;
-  for (const Tip& at : tips) {
-    TipResult tip;
-    tip.name = name_of(model, at);
-    tip.position = position_of(model, at);
-    tip.length = length_of(crack_of(model, at));
-    result.tips.push_back(std::move(tip));
-  }
-  return result;
-}
-
-/// The tips in the state of a load factor.
-GrowthResult critical_tips(const model::Model& model, const std::vector<Tip>& tips,
-                           const std::vector<TipPattern>& patterns) {
-  GrowthResult result = tips_of(model, tips);
-  result.load_factor = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < tips.size(); ++t) {
-    result.tips[t].load_factor = critical_factor(model.steps.back().growth->criterion, patterns[t]);
-    result.load_factor = std::min(result.load_factor, result.tips[t].load_factor);
-  }
-  for (TipResult& tip : result.tips) tip.grows = tip.load_factor <= (1.0 + together) * result.load_factor;
-  return result;
-}
-
-/// The tips at the highest load of a cycle.
-GrowthResult tips_in_cycle(const model::Model& model, const std::vector<Tip>& tips,
-                           const std::vector<CycledTip>& cycled) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const model::GrowthStep& growth = *model.steps.back().growth;
-  const double breaks_at = std::min(growth.K_Ic.value_or(infinite), growth.cycles->K_c.value_or(infinite));
-  GrowthResult result = tips_of(model, tips);
-  result.load_factor = 1.0;
-  double fastest = 0.0;
-  for (const CycledTip& tip : cycled) fastest = std::max(fastest, tip.rate);
-  for (std::size_t t = 0; t < tips.size(); ++t) {
-    TipResult& tip = result.tips[t];
-    tip.range = cycled[t].range;
-    tip.load_factor = breaks_at / cycled[t].highest;
-    tip.grows = cycled[t].rate > 0.0 && cycled[t].rate >= least_rate * fastest;
-  }
-  return result;
-}
-
-/// Why a crack does not grow at the load factor found; empty if it does.
-std::string why_not(const GrowthResult& at, const std::vector<TipPattern>& patterns) {
-  if (at.load_factor == 0.0)
-    return "a tip is critical under the loads that stay alone: let 'scale' name them, or make them smaller";
-  if (!std::isfinite(at.load_factor))
-    return "no factor of the scaled loads makes a tip critical: they close the crack, or do not reach it";
-  for (std::size_t t = 0; t < at.tips.size(); ++t) {
-    const Vec2 K = patterns[t].at(at.load_factor);
-    constexpr double rounding = 1e-6;
-    if (K[0] < -rounding * K.norm())
-      return fmt::format(
-          "the loads close the crack at its tip '{}' (K_I < 0), and growth of cracks in contact is not available in "
-          "this "
-          "version",
-          at.tips[t].name);
-  }
-  return {};
-}
-
-/// Factors, T and G from the state itself, and the kinks.
-void add_factors(const Prepared& prepared, const std::vector<Tip>& tips, const IncrementResult& increment,
-                 GrowthResult& growth) {
-  const model::GrowthCriterion criterion = prepared.model.steps.back().growth->criterion;
-  for (std::size_t t = 0; t < growth.tips.size(); ++t) {
-    TipResult& tip = growth.tips[t];
-    const auto crack = std::find_if(increment.cracks.begin(), increment.cracks.end(),
-                                    [&](const CrackResult& one) { return one.name == tip.name; });
-    tip.K_I = crack->factors.K_I;
-    tip.K_II = crack->factors.K_II;
-    tip.T = crack->factors.T_left;
-    tip.G = crack->factors.G;
-    const Vec2 open(std::max(tip.K_I, 0.0), tip.K_II);
-    if (open.norm() > 0.0) tip.kink = kink_of(criterion, open, material_constants(prepared, tips[t]).kappa).angle;
-  }
-}
 
 GrownCracks cracks_of(const model::Model& model, const std::vector<Tip>& tips, std::string ended) {
   GrownCracks grown;
@@ -134,33 +53,26 @@ std::string end_wanted(const model::GrowthStep& growth, const GrowthResult& at, 
   return {};
 }
 
-/// Growth of all tips in a step.
-double growth_of_step(const model::GrowthStep& growth, const GrowthResult& at) {
-  double whole = growth.step;
-  if (growth.length)
-    for (const TipResult& tip : at.tips)
-      if (tip.grows) whole = std::min(whole, *growth.length - tip.length);
-  return whole;
-}
+std::string crack_of(const TipResult& tip) { return tip.name.substr(0, tip.name.rfind('.')); }
 
-/// How far each tip grows: in proportion to its rate, or by equal parts where growth follows the load.
-std::vector<double> shares(const GrowthResult& at, const std::vector<CycledTip>& cycled, double whole) {
+/// How far each tip grows in a step: in proportion to its rate, or by equal parts where growth follows the load; less
+/// where a crack would become longer than wanted.
+std::vector<double> shares(const model::GrowthStep& growth, const GrowthResult& at,
+                           const std::vector<CycledTip>& cycled) {
   std::vector<double> lengths;
-  double sum = 0.0;
+  double sum = 0.0, whole = growth.step;
   for (std::size_t t = 0; t < at.tips.size(); ++t) {
     lengths.push_back(!at.tips[t].grows ? 0.0 : cycled.empty() ? 1.0 : cycled[t].rate);
     sum += lengths.back();
   }
+  for (std::size_t t = 0; growth.length && t < at.tips.size(); ++t) {
+    double of_crack = 0.0;
+    for (std::size_t other = 0; other < at.tips.size(); ++other)
+      if (crack_of(at.tips[other]) == crack_of(at.tips[t])) of_crack += lengths[other] / sum;
+    if (of_crack > 0.0) whole = std::min(whole, (*growth.length - at.tips[t].length) / of_crack);
+  }
   for (double& length : lengths) length *= whole / sum;
   return lengths;
-}
-
-/// The rates of the tips that grow, together.
-double rate_of(const GrowthResult& at, const std::vector<CycledTip>& cycled) {
-  double rate = 0.0;
-  for (std::size_t t = 0; t < at.tips.size(); ++t)
-    if (at.tips[t].grows) rate += cycled[t].rate;
-  return rate;
 }
 
 Vec2 turned(const Vec2& direction, double angle) {
@@ -168,25 +80,24 @@ Vec2 turned(const Vec2& direction, double angle) {
   return {c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y()};
 }
 
-/// A state that is to be solved: where the tips are in it, and why there is none.
-struct Sought {
-  GrowthResult at;
-  Factors factors;
-  std::vector<TipPattern> patterns;  // of growth under a load
-  std::vector<CycledTip> cycled;     // of growth under cycles
-  std::string failed;
-};
-
 /// What the next state needs of the growth that leads to it.
 struct Growth {
   std::vector<double> lengths;  // of each tip
   // Under a load:
-  Factors factors;        // of the state before
+  Factors factors;  // of the state before
+  double load_factor = 0.0;
   RestEnergy before;      // of that state
   double integral = 0.0;  // of G, the part of its beginning and middle
   // Under cycles:
   double cycles = 0.0;                // before
   double rate = 0.0, rate_mid = 0.0;  // of all tips together
+};
+
+/// At the middle of a step.
+struct Middle {
+  std::vector<double> kinks;      // of every tip, that are left there
+  std::vector<Vec2> K_alone;      // of growth under a load: under the pair forces before
+  std::vector<CycledTip> cycled;  // of growth under cycles
 };
 
 /// What follows a state: longer cracks, the end, or a mesh or solution that there is not.
@@ -199,16 +110,18 @@ struct Next {
 
 class Growing {
  public:
-  Growing(StaticSolution& solution, const Options& options)
-      : solution_(solution), options_(options), tips_(growing_tips(solution.model)) {
+  /// `before`: the state at the end of the steps before; empty: there are none.
+  Growing(StaticSolution& solution, const Options& options, std::optional<State> before)
+      : solution_(solution), options_(options), tips_(growing_tips(solution.model)), from_(std::move(before)) {
     for (const model::Body& body : solution.model.bodies) sizes_.push_back(body.mesh.refine);
     for (const Tip& tip : tips_) first_length_ = std::max(first_length_, length_of(crack_of(solution.model, tip)));
   }
 
   /// Goes back to the last of the increments that the run continues from; its number.
   int restore(const Continuation& from);
-  /// One state, and the cracks that follow; false at the end. `known`: its increment is there and told.
-  bool advance(int number, bool known = false);
+  /// One state, and the cracks that follow; false at the end. `known`: its increment is there and told, and this is
+  /// what a checkpoint keeps of it.
+  bool advance(int number, const State* known = nullptr);
 
  private:
   const model::Model& model() const { return solution_.model; }
@@ -219,15 +132,20 @@ class Growing {
   void go_on(Discretisation longer);
   std::optional<GrownCracks> meetings(const std::vector<Vec2>& directions, const GrowthResult& at,
                                       const std::vector<double>& lengths) const;
+  bool has_contacts() const { return !model().contacts.empty(); }
   Sought sought(const Prepared& prepared) const;
+  Sought known_again(const Prepared& prepared, const State& state) const;
   double cycles_until(const Sought& now) const;
-  std::optional<GrowthEnergy> energy_until(const Prepared& prepared, const std::vector<TipPattern>& patterns,
-                                           const State& state) const;
-  std::string turn_at_middle(const Sought& now, std::vector<Vec2>& directions, Growth& by);
+  std::optional<GrowthEnergy> energy_until(const Prepared& prepared, const Sought& now, const State& state) const;
+  std::variant<Middle, std::string> middle(const Prepared& prepared, const Sought& now, const State& state,
+                                           const std::vector<Vec2>& directions, const std::vector<double>& lengths);
+  std::string turn_at_middle(const Prepared& prepared, const Sought& now, const State& state,
+                             std::vector<Vec2>& directions, Growth& by);
   Next next(const Prepared& prepared, const Sought& now, const State& state, int number);
   double part_done(int number) const;
   IncrementResult result_at(const Prepared& prepared, Reached& reached, int number);
   bool fail(const Prepared& prepared, std::string reason, int number);
+  void grow_to(const Prepared& prepared, const State& state, Next after);
 
   StaticSolution& solution_;
   const Options& options_;
@@ -235,6 +153,8 @@ class Growing {
   std::vector<std::vector<model::LocalSize>> sizes_;  // given by the user
   double first_length_ = 0.0;
   std::optional<Growth> last_;  // that led to the present cracks
+  /// With contacts: the state before, its pairs carried over to the present cracks.
+  std::optional<State> from_;
 };
 
 model::Model Growing::longer(const std::vector<Vec2>& directions, const GrowthResult& at,
@@ -294,26 +214,29 @@ std::optional<GrownCracks> Growing::meetings(const std::vector<Vec2>& directions
                          model::point_text(met->at));
   }
   if (ended.empty()) return {};
-  return cracks_of(there, tips_, std::move(ended));
+  const bool broken = std::any_of(there.bodies.begin(), there.bodies.end(), is_split);
+  if (broken) ended += ", and the body is broken";
+  GrownCracks grown = cracks_of(there, tips_, std::move(ended));
+  grown.broken = broken;
+  return grown;
 }
 
 Sought Growing::sought(const Prepared& prepared) const {
+  if (growth().cycles) return sought_in_cycle(prepared, tips_, options_);
+  if (!has_contacts()) return sought_without_contact(prepared, tips_, options_);
+  const double guess = last_ ? last_->load_factor : 1.0;
+  return sought_in_contact(prepared, tips_, from_ ? *from_ : initial_state(prepared), guess, options_);
+}
+
+/// What led to a state with contacts, of which a checkpoint kept the history.
+Sought Growing::known_again(const Prepared& prepared, const State& state) const {
   Sought now;
-  if (growth().cycles) {
-    auto found = cycled_tips(prepared, tips_, options_);
-    if (auto* reason = std::get_if<std::string>(&found)) return now.failed = std::move(*reason), now;
-    now.cycled = std::get<std::vector<CycledTip>>(std::move(found));
-    now.at = tips_in_cycle(model(), tips_, now.cycled);
-    if (rate_of(now.at, now.cycled) == 0.0) now.failed = "no tip grows: the loads of the cycle do not reach any";
-    now.factors = factors_in_cycle(model(), 1);
-    return now;
-  }
-  auto found = tip_patterns(prepared, tips_, options_);
-  if (auto* reason = std::get_if<std::string>(&found)) return now.failed = std::move(*reason), now;
-  now.patterns = std::get<std::vector<TipPattern>>(std::move(found));
-  now.at = critical_tips(model(), tips_, now.patterns);
-  now.failed = why_not(now.at, now.patterns);
-  now.factors = factors_at(model(), now.at.load_factor);
+  now.at = *solution_.increments.back().growth;
+  now.factors = state.factors;
+  for (const Tip& tip : tips_) now.materials.push_back(material_constants(prepared, tip));
+  Reached& reached = now.reached.emplace();
+  reached.state = state;
+  complete(prepared, reached.state);
   return now;
 }
 
@@ -329,43 +252,90 @@ double Growing::cycles_until(const Sought& now) const {
 }
 
 /// What the growth that led to this state took (growth_energy.hpp).
-std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, const std::vector<TipPattern>& patterns,
+std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, const Sought& now,
                                                   const State& state) const {
-  if (!last_ || growth().cycles || !prepared.structure.thermal.empty() || !prepared.references.empty()) return {};
-  const Reached longer = reach_from_rest(prepared, last_->factors, options_);
-  if (!longer.reason.empty()) return {};
-  const auto found = factors_of_tips(prepared, tips_, longer.state);
+  if (!last_ || growth().cycles || !prepared.structure.thermal.empty() || !prepared.references.empty() ||
+      prepared.contact.rigid_motions() > 0)
+    return {};
+  State longer;
+  if (has_contacts()) {
+    longer = *from_;
+  } else {
+    Reached reached = reach_from_rest(prepared, last_->factors, options_);
+    if (!reached.reason.empty()) return {};
+    longer = std::move(reached.state);
+  }
+  const auto found = factors_of_tips(prepared, tips_, longer);
   if (std::holds_alternative<std::string>(found)) return {};
   double integral = last_->integral;
   for (std::size_t t = 0; t < tips_.size(); ++t)
-    integral += last_->lengths[t] / 6.0 * std::get<std::vector<Vec2>>(found)[t].squaredNorm() / patterns[t].modulus;
-  return energy_of_growth(last_->before, rest_energy(prepared, longer.state), rest_energy(prepared, state),
-                          integral * model().analysis.thickness);
+    integral +=
+        last_->lengths[t] / 6.0 * std::get<std::vector<Vec2>>(found)[t].squaredNorm() / now.materials[t].modulus;
+  return energy_of_growth(prepared, last_->before, longer, state, integral * model().analysis.thickness);
 }
 
-/// Turns the directions by the kinks that are left at the middle of the step, and shares the growth as the tips grow
-/// there; a reason where there is no such state.
-std::string Growing::turn_at_middle(const Sought& now, std::vector<Vec2>& directions, Growth& by) {
-  const Discretisation half = divided(longer(directions, now.at, by.lengths, 0.5));
-  const Prepared prepared(half);
+/// What tips are like where the cracks have gone half of a step in these directions, under the load before it.
+std::variant<Middle, std::string> Growing::middle(const Prepared& prepared, const Sought& now, const State& state,
+                                                  const std::vector<Vec2>& directions,
+                                                  const std::vector<double>& lengths) {
+  const Discretisation half = divided(longer(directions, now.at, lengths, 0.5));
+  const Prepared there(half);
+  Middle middle;
   if (growth().cycles) {
-    auto found = cycled_tips(prepared, tips_, options_);
+    auto found = cycled_tips(there, tips_, options_);
     if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
-    const auto& cycled = std::get<std::vector<CycledTip>>(found);
-    by.rate_mid = rate_of(now.at, cycled);
-    if (std::isfinite(by.rate_mid)) by.lengths = shares(now.at, cycled, growth_of_step(growth(), now.at));
-    for (std::size_t t = 0; t < tips_.size(); ++t)
-      if (now.at.tips[t].grows) directions[t] = turned(directions[t], cycled[t].kink);
-    return {};
+    middle.cycled = std::get<std::vector<CycledTip>>(std::move(found));
+    for (const CycledTip& tip : middle.cycled) middle.kinks.push_back(tip.kink);
+    return middle;
   }
-  const auto found = factors_of_tips(prepared, tips_, now.factors, options_);
-  if (const auto* reason = std::get_if<std::string>(&found)) return *reason;
+  const State from = has_contacts() ? on_longer(there, prepared, state, tips_) : initial_state(there);
+  const Reached reached = reach_from(there, from, now.factors, options_);
+  if (!reached.reason.empty()) return reached.reason;
+  const auto found = factors_of_tips(there, tips_, reached.state),
+             alone = has_contacts() ? factors_of_tips(there, tips_, from) : found;
+  for (const auto* factors : {&found, &alone})
+    if (const auto* reason = std::get_if<std::string>(factors)) return *reason;
+  middle.K_alone = std::get<std::vector<Vec2>>(alone);
   for (std::size_t t = 0; t < tips_.size(); ++t) {
     const Vec2& K = std::get<std::vector<Vec2>>(found)[t];
-    if (now.at.tips[t].grows && K[0] > 0.0)
-      directions[t] = turned(directions[t], kink_of(growth().criterion, K, now.patterns[t].kappa).angle);
-    const Vec2 first = factors_at_kink(now.patterns[t].at(now.at.load_factor), now.at.tips[t].kink);
-    by.integral += by.lengths[t] / 6.0 * (first.squaredNorm() + 4.0 * K.squaredNorm()) / now.patterns[t].modulus;
+    const bool kinks = K[0] > 0.0 || has_contact(model(), tips_[t]);
+    middle.kinks.push_back(kinks ? kink_at(growth().criterion, K, now.materials[t].kappa) : 0.0);
+  }
+  return middle;
+}
+
+/// Turns the directions so that no kink is left at the middle of the step, and shares the growth as the tips grow
+/// there; a reason where there is no such state.
+std::string Growing::turn_at_middle(const Prepared& prepared, const Sought& now, const State& state,
+                                    std::vector<Vec2>& directions, Growth& by) {
+  constexpr double small = 0.05, most_left = 0.5;
+  auto found = middle(prepared, now, state, directions, by.lengths);
+  if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
+  Middle at = std::get<Middle>(std::move(found));
+  std::vector<double> turns = at.kinks;
+  double largest = 0.0;
+  for (std::size_t t = 0; t < tips_.size(); ++t)
+    if (now.at.tips[t].grows) largest = std::max(largest, std::abs(turns[t]));
+  if (largest > small) {
+    std::vector<Vec2> tried = directions;
+    for (std::size_t t = 0; t < tips_.size(); ++t) tried[t] = turned(directions[t], turns[t]);
+    found = middle(prepared, now, state, tried, by.lengths);
+    if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
+    at = std::get<Middle>(std::move(found));
+    for (std::size_t t = 0; t < tips_.size(); ++t)
+      if (turns[t] != 0.0) turns[t] /= 1.0 - std::min(at.kinks[t] / turns[t], most_left);
+  }
+  for (std::size_t t = 0; t < tips_.size(); ++t)
+    if (now.at.tips[t].grows) directions[t] = turned(directions[t], turns[t]);
+  if (growth().cycles) {
+    by.rate_mid = rate_of(now.at, at.cycled);
+    if (std::isfinite(by.rate_mid)) by.lengths = shares(growth(), now.at, at.cycled);
+    return {};
+  }
+  for (std::size_t t = 0; t < tips_.size(); ++t) {
+    const Vec2 first = factors_at_kink({now.at.tips[t].K_I, now.at.tips[t].K_II}, now.at.tips[t].kink);
+    by.integral +=
+        by.lengths[t] / 6.0 * (first.squaredNorm() + 4.0 * at.K_alone[t].squaredNorm()) / now.materials[t].modulus;
   }
   return {};
 }
@@ -373,7 +343,7 @@ std::string Growing::turn_at_middle(const Sought& now, std::vector<Vec2>& direct
 Next Growing::next(const Prepared& prepared, const Sought& now, const State& state, int number) {
   if (std::string ended = end_wanted(growth(), now.at, number); !ended.empty())
     return {{}, cracks_of(model(), tips_, std::move(ended)), {}, {}};
-  Growth by{shares(now.at, now.cycled, growth_of_step(growth(), now.at)), now.factors, rest_energy(prepared, state)};
+  Growth by{shares(growth(), now.at, now.cycled), now.factors, now.at.load_factor, rest_energy(prepared, state)};
   by.cycles = now.at.cycles.value_or(0.0);
   if (growth().cycles) by.rate = rate_of(now.at, now.cycled);
   std::vector<Vec2> directions;
@@ -381,7 +351,7 @@ Next Growing::next(const Prepared& prepared, const Sought& now, const State& sta
     directions.push_back(turned(direction_of(model(), tips_[t]), now.at.tips[t].kink));
   if (auto met = meetings(directions, now.at, by.lengths)) return {{}, std::move(met), {}, {}};
   try {
-    if (std::string reason = turn_at_middle(now, directions, by); !reason.empty())
+    if (std::string reason = turn_at_middle(prepared, now, state, directions, by); !reason.empty())
       return {{}, {}, std::move(reason), {}};
   } catch (const InputError& error) {
     return {{}, {}, error.diagnostics().front().message, {}};
@@ -416,35 +386,46 @@ bool Growing::fail(const Prepared& prepared, std::string reason, int number) {
   return false;
 }
 
-bool Growing::advance(int number, bool known) {
+/// Makes the next cracks the present ones; with contacts their history follows.
+void Growing::grow_to(const Prepared& prepared, const State& state, Next after) {
+  last_ = std::move(after.growth);
+  Discretisation longer = divided(*std::move(after.model));
+  if (has_contacts()) {
+    const Prepared there(longer);
+    from_ = on_longer(there, prepared, state, tips_);
+    from_->energy.external += rest_energy(there, *from_).of_loads - last_->before.of_loads;
+  }
+  go_on(std::move(longer));
+}
+
+bool Growing::advance(int number, const State* known) {
   const Prepared prepared(solution_, options_.on_iteration);
-  Sought now = sought(prepared);
+  Sought now = known != nullptr && has_contacts() ? known_again(prepared, *known) : sought(prepared);
   if (!now.failed.empty()) return fail(prepared, std::move(now.failed), number);
-  Reached reached = reach_from_rest(prepared, now.factors, options_);
+  Reached reached = now.reached ? *std::move(now.reached) : reach_from_rest(prepared, now.factors, options_);
   IncrementResult result = result_at(prepared, reached, number);
   if (!result.converged) return fail(prepared, reached.reason, number);
   if (std::string reason = overlap(prepared, result.fields); !reason.empty())
     return fail(prepared, std::move(reason), number);
   add_factors(prepared, tips_, result, now.at);
-  if (growth().cycles) now.at.cycles = known ? solution_.increments.back().growth->cycles : cycles_until(now);
-  now.at.energy = energy_until(prepared, now.patterns, reached.state);
+  if (growth().cycles)
+    now.at.cycles = known != nullptr ? solution_.increments.back().growth->cycles : cycles_until(now);
+  if (known == nullptr) now.at.energy = energy_until(prepared, now, reached.state);
   Next after = next(prepared, now, reached.state, number);
   solution_.grown = after.end ? *after.end : cracks_of(model(), tips_, {});
-  if (known) {
+  if (known != nullptr) {
     solution_.increments.back().fields = std::move(result.fields);
   } else {
     if (after.end) result.reached = 1.0;
     result.growth = std::move(now.at);
     add_warnings(prepared, reached, result, solution_);
     solution_.increments.push_back(std::move(result));
-    tell_accepted(prepared,
-                  {model().steps.size() - 1, {number, solution_.increments.back().reached}, std::move(reached.state)},
+    tell_accepted(prepared, {model().steps.size() - 1, {number, solution_.increments.back().reached}, reached.state},
                   solution_, options_);
   }
   if (!after.model) return after.failed.empty() ? false : fail(prepared, std::move(after.failed), number + 1);
-  last_ = std::move(after.growth);
   try {
-    go_on(divided(*std::move(after.model)));
+    grow_to(prepared, reached.state, std::move(after));
   } catch (const InputError& error) {
     return fail(prepared, error.diagnostics().front().message, number + 1);
   }
@@ -465,13 +446,13 @@ bool continues_growth(const model::Model& model, const Options& options) {
   return options.from && options.from->at.step + 1 == model.steps.size() && options.from->at.progress.increment > 0;
 }
 
-void grow(StaticSolution& solution, const Options& options) {
-  Growing growing(solution, options);
+void grow(StaticSolution& solution, const Options& options, std::optional<State> before) {
+  Growing growing(solution, options, std::move(before));
   try {
     int number = 1;
     if (continues_growth(solution.model, options)) {
       number = growing.restore(*options.from);
-      if (!growing.advance(number, true)) return;
+      if (!growing.advance(number, &options.from->at.state)) return;
       ++number;
     }
     for (;; ++number) {

@@ -7,16 +7,27 @@ RestEnergy rest_energy(const Prepared& prepared, const State& state) {
   for (std::size_t p = 0; p < state.u.size(); ++p) {
     energy.of_loads += state.forces[p].dot(state.u[p]);
     energy.of_supports += state.reactions[p].dot(state.prescribed[p]);
+    if (state.p.size() > 0) energy.of_pairs += state.p.dot(prepared.contact.motion[p] * state.u[p]);
     energy.elastic += prepared.structure.parts[p]->elastic_energy(state.u[p]);
   }
   return energy;
 }
 
-GrowthEnergy energy_of_growth(const RestEnergy& A, const RestEnergy& O, const RestEnergy& B, double integral) {
+GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const State& O, const State& B,
+                              double integral) {
+  const RestEnergy longer = rest_energy(prepared, O);
   GrowthEnergy energy;
-  energy.external = O.of_loads - A.of_loads + B.work() - O.work();
-  energy.elastic = B.elastic - A.elastic;
-  energy.released = A.potential() - O.potential();
+  energy.external = longer.of_loads - A.of_loads;
+  energy.contact = A.of_pairs - longer.of_pairs;
+  for (std::size_t p = 0; p < B.u.size(); ++p) {
+    const Vector moved = B.u[p] - O.u[p];
+    energy.external += 0.5 * (O.forces[p] + B.forces[p]).dot(moved);
+    energy.external += 0.5 * (O.reactions[p] + B.reactions[p]).dot(B.prescribed[p] - O.prescribed[p]);
+    if (B.p.size() > 0) energy.contact -= 0.5 * (O.p + B.p).dot(prepared.contact.motion[p] * moved);
+    energy.elastic += prepared.structure.parts[p]->elastic_energy(B.u[p]);
+  }
+  energy.elastic -= A.elastic;
+  energy.released = A.potential() - longer.potential();
   energy.integral = integral;
   return energy;
 }

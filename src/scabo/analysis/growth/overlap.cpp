@@ -15,7 +15,9 @@ std::string overlap(const Prepared& prepared, const FieldState& fields) {
   for (std::size_t b = 0; b < prepared.model.bodies.size(); ++b) {
     const model::Body& body = prepared.model.bodies[b];
     const Vector& u = fields.displacements[b];
+    const std::vector<int> touching = mesh::cracks_in_contact(prepared.model, static_cast<int>(b));
     for (std::size_t c = 0; c < body.cracks.size(); ++c) {
+      if (std::find(touching.begin(), touching.end(), static_cast<int>(c)) != touching.end()) continue;
       double widest = 0.0, least = 0.0;
       Vec2 where = Vec2::Zero();
       for (const mesh::FacePair& pair : mesh::face_pairs(prepared.mesh.bodies[b], static_cast<int>(c))) {
@@ -29,8 +31,8 @@ std::string overlap(const Prepared& prepared, const FieldState& fields) {
       }
       if (least < -rounding * widest)
         return fmt::format(
-            "the faces of crack '{}.{}' overlap by {:.3g} near {}, and growth of cracks in contact is "
-            "not available in this version",
+            "the faces of crack '{0}.{1}' overlap by {2:.3g} near {3}: give a contact between '{0}.{1}.left' and "
+            "'{0}.{1}.right', so that they touch",
             body.name, body.cracks[c].name, -least, model::point_text(where));
     }
   }

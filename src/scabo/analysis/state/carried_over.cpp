@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scabo/geometry/foot_points.hpp"
 
@@ -15,14 +16,18 @@ const mesh::ContactPair& pair_in_mesh(const Prepared& prepared, const system::Co
   return prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
 }
 
-/// Arc length of the point of a pair on its edge; of the face of a crack, whose pairs never change, 0.
-double arc_length(const Prepared& prepared, int contact, const mesh::ContactPair& pair, int side) {
-  const model::Contact& named = prepared.model.contacts[static_cast<std::size_t>(contact)];
+/// Arc length of the point of a pair on its edge or crack in `model`.
+double arc_length(const model::Model& model, const Prepared& prepared, int contact, const mesh::ContactPair& pair,
+                  int side) {
+  const model::Contact& named = model.contacts[static_cast<std::size_t>(contact)];
   const model::Place& place = side == 0 ? named.a : named.b;
+  const model::Body& body = model.bodies[static_cast<std::size_t>(place.body)];
+  const Vec2 x = prepared.mesh.point_of(contact, pair, side);
+  if (place.kind == model::Place::Kind::face)
+    return arc_length_on(body.cracks[static_cast<std::size_t>(place.index / 2)], x);
   if (place.kind != model::Place::Kind::edge) return 0.0;
-  const geometry::Edge& edge =
-      prepared.model.bodies[static_cast<std::size_t>(place.body)].outline.edges[static_cast<std::size_t>(place.index)];
-  const auto foot = geometry::foot_on(edge, prepared.mesh.point_of(contact, pair, side));
+  const geometry::Edge& edge = body.outline.edges[static_cast<std::size_t>(place.index)];
+  const auto foot = geometry::foot_on(edge, x);
   return foot ? foot->t * edge.length() : 0.0;
 }
 
@@ -80,15 +85,28 @@ bool at_same_places(const std::vector<CarriedPair>& before, const std::vector<Ca
 
 }  // namespace
 
-CarriedPairs pairs_to_carry(const Prepared& prepared, const State& state) {
+double arc_length_on(const model::Crack& crack, const Vec2& x) {
+  double nearest = std::numeric_limits<double>::infinity(), at = 0.0, before = 0.0;
+  for (std::size_t k = 0; k + 1 < crack.path.size(); ++k) {
+    const Vec2 along = crack.path[k + 1] - crack.path[k];
+    const double part = std::clamp((x - crack.path[k]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    if (const double distance = (crack.path[k] + part * along - x).norm(); distance < nearest)
+      nearest = distance, at = before + part * along.norm();
+    before += along.norm();
+  }
+  return at;
+}
+
+CarriedPairs pairs_to_carry(const Prepared& prepared, const State& state, const model::Model* on) {
+  const model::Model& model = on != nullptr ? *on : prepared.model;
   CarriedPairs carried(prepared.model.contacts.size());
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
     const mesh::ContactPair& pair = pair_in_mesh(prepared, at);
     const auto k = static_cast<Eigen::Index>(i);
     CarriedPair& value = carried[static_cast<std::size_t>(at.contact)].emplace_back();
-    value.at_a = arc_length(prepared, at.contact, pair, 0);
-    value.at_b = arc_length(prepared, at.contact, pair, 1);
+    value.at_a = arc_length(model, prepared, at.contact, pair, 0);
+    value.at_b = arc_length(model, prepared, at.contact, pair, 1);
     value.pressure = state.p[2 * k] / prepared.contact.laws.area[k];
     value.shear = state.p[2 * k + 1] / prepared.contact.laws.area[k];
     value.slip = state.slip[k];
@@ -106,8 +124,8 @@ std::vector<CarriedPair> carried_to(const Prepared& prepared, const CarriedPairs
   CarriedPairs now(before.size());
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
     CarriedPair& pair = now[static_cast<std::size_t>(at.contact)].emplace_back();
-    pair.at_a = arc_length(prepared, at.contact, pair_in_mesh(prepared, at), 0);
-    pair.at_b = arc_length(prepared, at.contact, pair_in_mesh(prepared, at), 1);
+    pair.at_a = arc_length(prepared.model, prepared, at.contact, pair_in_mesh(prepared, at), 0);
+    pair.at_b = arc_length(prepared.model, prepared, at.contact, pair_in_mesh(prepared, at), 1);
   }
   std::vector<CarriedPair> all;
   for (std::size_t c = 0; c < now.size(); ++c) {

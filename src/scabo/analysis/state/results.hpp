@@ -158,11 +158,12 @@ struct TipResult {
   std::optional<double> range;  ///< under cycles of load: Delta K of the equivalent factor
 };
 
-/// Of the growth between two states, force times length. First the crack grows under the load of the first, then the
-/// load becomes that of the second: external = elastic + released.
+/// Of the growth between two states, force times length. First the crack grows under the load and the pair forces of
+/// the first, then these become those of the second: external = elastic + contact + released.
 struct GrowthEnergy {
   double external = 0.0;  ///< work of loads, and of supports that move
   double elastic = 0.0;   ///< by which the stored energy becomes larger
+  double contact = 0.0;   ///< taken by contact pairs: mean forces times changes of gap and slip
   double released = 0.0;  ///< by which growth under the load of the first state makes the potential energy smaller
   double integral = 0.0;  ///< of G over the growth of all tips under that load: what is released, from the factors
 };

@@ -90,6 +90,7 @@ struct GrownCracks {
   };
   std::vector<Path> paths;  ///< of the cracks that may grow, up to what they meet
   std::string ended;        ///< why growth ended, as a sentence without full stop
+  bool broken = false;      ///< the paths divide a body
 };
 
 /// Between the two factors of a step that looks for one (model::LimitStep) there is none with equilibrium.
