@@ -33,7 +33,7 @@ BEYOND_SCHEMA = re.compile(
     r"|dynamic_(?!damping)|added_mass_|growth_(?!toughness|nothing|law|criterion)|limit_(?!of_nothing|too_wide)|initial_without_time|space_"
     r"|cad_runs_|solver_tolerance_below_"
     r"|imported_(no_|folded|cut_off|empty|apart|unknown_(region|material|edge)|material_of|region_without|polygon_as|cell_without)"
-    r"|forces_per_radian_|support_(conflict|name_|formula_(of_a_point|unknown|without))|load_(on_unknown|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
+    r"|forces_per_radian_|support_(conflict|name_|formula_(of_a_point|unknown|without))|load_(on_unknown|moving_|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
     r"|contact_(with_itself|unknown_edge|twice|of_two_rigid|at_a_corner)"
     r"|crack_(across_a_hole|name_twice|of_no_length|on_a_border|on_a_crack|on_an_edge|out_of_its_body)"
     r"|crack_(and_centre|contact_|path_(face_|in_one|mouth|outside|point_twice)|two|face_|in_finite|mouth_(inside|on_a|unknown)|named_like|tip_)|face_(points_(twice|xi)|power_|powers_on)|notch_"

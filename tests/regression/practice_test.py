@@ -1,4 +1,4 @@
-"""Examples 17 to 21, 23 to 26, 32 to 34 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21, 23 to 28, 32 to 34 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
@@ -123,6 +123,12 @@ class Practice(support.InTemporaryDirectory):
             self.assertLess(abs(row["top"] - row["upper"]), 1e-9)
             self.assertLess(abs(row["lower"]), 1e-9)
 
+    def test_koyna(self):
+        """At the end nothing slides any more, and the lift joint is closed."""
+        self.check("28_koyna", page=ROOT / "examples" / "28_koyna" / "README.md")
+        rows = self.history("28_koyna", [])
+        self.assertLess(max(abs(row["base.ux"] - rows[-1]["base.ux"]) for row in rows[160:]), 1e-4)
+        self.assertLess(abs(rows[-1]["lift.uy"]), 1e-9)
 
     def test_press_fit_of_revolution(self):
         self.check("32_press_fit_of_revolution", page=ROOT / "examples" / "32_press_fit_of_revolution" / "README.md")

@@ -1,4 +1,6 @@
 """Staged construction, resumed bit by bit, and runs that start where another one ended."""
+import csv
+import math
 import signal
 import subprocess
 import time
@@ -277,13 +279,100 @@ steps: %s
         self.assertEqual(run.returncode, 1)
         self.assertIn("has no state at its end to start from", run.stderr)
 
-    def test_runs_with_steps_in_time_are_refused(self):
-        one = self.write("one.yaml", "[{name: a, loads: {weight: 1}}, {name: b, dynamic: {duration: 2e-3, step: 1e-3}}]")
-        run = scabo("run", one, "--quiet")
-        self.assertEqual(run.returncode, 0, run.stderr)
-        run = scabo("check", self.write("two.yaml", "[{name: c, loads: {push: 1}}]", "restart: one.results"))
+
+def history_of(directory):
+    with open(directory / "history.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class RestartInTime(support.InTemporaryDirectory):
+    """A run in time and the same in two halves, the second of which starts in motion."""
+    AXLE = ", axle: {on: rock.top, force: [0, -1e3], moving: {velocity: -10, from: 4}}"
+    BLOCK = """
+scabo: 1
+analysis: {plane: strain}
+materials: {stone: {young: 2e9, poisson: 0.2, density: 2400, damping: {ratio: 0.05, between: [20, 200]}}}
+bodies:
+  rock: {material: stone, shape: {rectangle: {corner: [-1, -1], size: [4, 1]}}, mesh: {kind: fem, size: 0.5}}
+  block: {material: stone, shape: {rectangle: {corner: [0, 0], size: [2, 1.5]}}, mesh: {kind: fem, size: 0.5}}
+  stone: {rigid: true, density: 2500, shape: {rectangle: {corner: [2.25, 0], size: [0.5, 0.5]}}}
+supports: [{on: rock.bottom, fix: [x, y]}]
+loads: {weight: {gravity: [0, -9.81]}AXLE}
+contacts: {base: {between: [rock.top, block.bottom], friction: 0.4}, seat: {between: [rock.top, stone.bottom], friction: 0.3}}
+solver: {halvings: 1}
+output: {history: {tip: block.top_left.ux, speed: block.top_left.vx, ground: ground_velocity_x, heat: friction_energy, work: external_energy}}
+""".replace("AXLE", AXLE)
+    BAR = """
+scabo: 1
+analysis: {type: dynamic, plane: stress}
+materials: {bar: {young: 900, poisson: 0, density: 1}}
+bodies:
+  wall: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [1, 3]}}}
+  bar: {material: bar, shape: {rectangle: {corner: [5, 0], size: [10, 1]}}, mesh: {kind: fem, size: 0.5, order: 1}}
+supports: [{on: wall, fix: [x, y]}]
+contacts: {hit: {between: [wall.right, bar.left], friction: 0}}
+output: {history: {tip: bar.top_left.ux, force: hit.normal_force, kinetic: kinetic_energy}}
+"""
+
+    def run_model(self, name, text):
+        model = self.directory / f"{name}.yaml"
+        model.write_text(text, encoding="utf-8")
+        done = scabo("run", model, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return history_of(model.with_suffix(".results"))
+
+    def test_two_halves_of_a_shaken_block_are_one_run(self):
+        lines = [f"{0.01 * i:.2f},{8 * math.sin(25 * 0.01 * i):.6f}" for i in range(31)]
+        (self.directory / "quake.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        rest = "{name: rest, loads: {weight: 1}}"
+
+        def steps(duration, begin, before=""):
+            return (f"curves: {{quake: {{record: {{file: quake.csv, unit: m/s2, from: {begin}}}}}}}\n"
+                    f"steps: [{before}{{name: shake, dynamic: {{duration: {duration}, step: 1e-3, ground: {{x: quake}}}}, "
+                    f"loads: {{axle: 1}}, increments: {round(100 * duration)}}}]\n")
+
+        whole = self.run_model("whole", self.BLOCK + steps(0.2, 0, rest + ", "))[1:]
+        one = self.run_model("one", self.BLOCK + steps(0.12, 0, rest + ", "))[1:]
+        two = self.run_model("two", self.BLOCK + steps(0.08, 0.12) + "restart: one.results\n")
+        self.assertGreater(float(whole[-1]["heat"]), 10)
+        for expected, row in zip(whole, one + two, strict=True):
+            for key in ("time", "tip", "speed", "ground", "heat", "work"):
+                self.assertAlmostEqual(float(row[key]), float(expected[key]), delta=1e-8 * max(map(abs, (float(r[key]) for r in whole))))
+        # From a run at rest the same begins with its first step in time.
+        self.run_model("rest", self.BLOCK.replace(self.AXLE, "").split("output")[0] + f"steps: [{rest}]\noutput: {{history: {{heat: friction_energy}}}}\n")
+        other = self.run_model("other", self.BLOCK + steps(0.12, 0) + "restart: rest.results\n")
+        for expected, row in zip(one, other, strict=True):
+            for key in ("time", "tip", "speed", "ground", "heat", "work"):
+                self.assertEqual(row[key], expected[key])
+
+    def test_two_halves_of_a_bar_that_hits_a_wall_are_one_run_bit_by_bit(self):
+        initial = "initial: [{on: bar, velocity: [-10, 0]}]\n"
+        one, two = ("{dynamic: {duration: %s, step: 5e-3}, increments: %s}" % of for of in ((0.8, 16), (0.6, 12)))
+        whole = self.run_model("whole", self.BAR + initial + f"steps: [{one}, {two}]\n")
+        halves = self.run_model("one", self.BAR + initial + f"steps: [{one}]\n")
+        halves += self.run_model("two", self.BAR + f"steps: [{two}]\nrestart: one.results\n")
+        self.assertGreater(float(whole[15]["force"]), 250)
+        for expected, row in zip(whole, halves, strict=True):
+            for key in ("time", "tip", "force", "kinetic"):
+                self.assertEqual(row[key], expected[key])
+
+    def test_what_does_not_go_on_in_motion_is_refused(self):
+        self.run_model("one", self.BAR + "initial: [{on: bar, velocity: [-10, 0]}]\nsteps: [{dynamic: {duration: 0.1}, increments: 1}]\n")
+        for text, message in (
+                (self.BAR.replace("type: dynamic, ", "").split("output")[0] + "steps: [{name: press}]\n",
+                 "steps.0: is quasi-static, but the run that this one starts from ended in motion: make it a step in time, "
+                 "'dynamic: {duration: ...}'"),
+                (self.BAR + "initial: [{on: bar, velocity: [1, 0]}]\nsteps: [{dynamic: {duration: 0.1}}]\n",
+                 "initial.0: has no effect: bodies go on with the velocities at the end of the run that this one starts from")):
+            (self.directory / "two.yaml").write_text(text + "restart: one.results\n", encoding="utf-8")
+            run = scabo("check", self.directory / "two.yaml")
+            self.assertEqual(run.returncode, 1)
+            self.assertIn(message, run.stderr)
+        text = self.BAR.replace("density: 1}", "density: 2}") + "steps: [{dynamic: {duration: 0.1}}]\nrestart: one.results\n"
+        (self.directory / "two.yaml").write_text(text, encoding="utf-8")
+        run = scabo("run", self.directory / "two.yaml", "--quiet")
         self.assertEqual(run.returncode, 1)
-        self.assertIn("without steps in time, error bars and tolerances, leaves one", run.stderr)
+        self.assertIn("body 'bar' is not the same as in", run.stderr)
 
 
 if __name__ == "__main__":

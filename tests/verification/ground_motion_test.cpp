@@ -92,6 +92,73 @@ steps: [{{dynamic: {{duration: 0.5, step: 1e-3, ground: {{x: quake}}}}, incremen
   }
 }
 
+// A bar between two supports, of which a record moves one: until the wave comes back from the other, the force on the
+// moved end is E A/c times its velocity.
+TEST(GroundMotion, ARecordMovesOneSupport) {
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "one_support.csv";
+  const double w = 10.0 * std::numbers::pi, amplitude = 4.0;  // one cycle, in which the velocity rises and falls
+  {
+    std::ofstream stream(file);
+    for (int i = 0; i <= 100; ++i) stream << fmt::format("{}, {}\n", 0.002 * i, amplitude * std::sin(w * 0.002 * i));
+  }
+  const double E = 900.0, c = 30.0, length = 10.0;
+  const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: stress}}
+materials: {{bar: {{young: {}, poisson: 0, density: 1}}}}
+bodies:
+  bar: {{material: bar, shape: {{rectangle: {{corner: [0, 0], size: [{}, 1]}}}}, mesh: {{kind: fem, size: 0.25, order: 2}}}}
+supports:
+  - {{name: far, on: bar.left, fix: [x, y]}}
+  - {{name: moved, on: bar.right, displacement: [1, 0]}}
+curves: {{quake: {{record: {{file: {}, unit: m/s2}}}}}}
+steps: [{{dynamic: {{duration: 0.6, step: 2e-3}}, loads: {{moved: quake}}, increments: 60}}]
+)",
+                                                  E, length, file.string()));
+  expect_balanced(solution);
+  const double largest = E / c * 2.0 * amplitude / w;
+  for (const IncrementResult& at : solution.increments) {
+    const double t = *at.time - 1e-3;  // forces are means of their time step
+    const double v = t < 0.2 ? amplitude / w * (1.0 - std::cos(w * t)) : 0.0;
+    EXPECT_NEAR(at.reactions[1].x(), E / c * v, 0.01 * largest) << *at.time;
+  }
+  // The end has gone 2 amplitude/w 0.1 s, and stays there; of a record that is linear between its times 3e-4 less.
+  const Vector& u = last(solution).fields.displacements[0];
+  double farthest = 0.0;
+  for (Eigen::Index i = 0; i < u.size(); i += 2) farthest = std::max(farthest, u[i]);
+  EXPECT_NEAR(farthest, 0.2 * amplitude / w, 5e-4 * farthest);
+}
+
+// A rigid beam on springs under a load that drives over it: heave w = F/K (1 - cos a t), and rotation
+// F/R ((v t - L/2) + L/2 cos b t - v/b sin b t), R = K L^2/12.
+TEST(GroundMotion, ALoadDrivesOverABeamOnSprings) {
+  const double L = 4.0, height = 0.5, v = 8.0, F = 3.0, k = 500.0;
+  for (const std::string load : {"force: [0, -3]", "pressure: {over: length, at: [-0.01, 0.01], values: [150, 150]}"}) {
+    const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: stress}}
+bodies:
+  beam: {{rigid: true, density: 1, shape: {{rectangle: {{corner: [0, 0], size: [{}, {}]}}}}}}
+springs: [{{on: beam.bottom, k_n: {}}}]
+loads: {{axle: {{on: beam.top, {}, moving: {{velocity: {}, from: {}}}}}}}
+steps: [{{dynamic: {{duration: 0.4, step: 5e-4}}, increments: 20}}]
+)",
+                                                    L, height, k, load, -v, L));
+    expect_balanced(solution);
+    const double mass = L * height, inertia = mass * (L * L + height * height) / 12.0, K = k * L,
+                 R = k * L * L * L / 12.0, a = std::sqrt(K / mass), b = std::sqrt(R / inertia);
+    for (const IncrementResult& at : solution.increments) {
+      const double t = *at.time;
+      // The top runs from right to left; the load against it, from left to right.
+      const double heave = F / K * (1.0 - std::cos(a * t)),
+                   turn = F / R * ((v * t - 0.5 * L) + 0.5 * L * std::cos(b * t) - v / b * std::sin(b * t));
+      const Vector& u = at.fields.displacements[0];
+      EXPECT_NEAR(u[1], -heave, 5e-3 * 2.0 * F / K) << load << t;
+      EXPECT_NEAR(u[2], -turn, 5e-3 * F / R * L) << load << t;
+    }
+  }
+}
+
 // What the ground has done by some time: of A sin(w t) in closed form, and of a table with a jump.
 TEST(GroundMotion, WhatTheGroundHasDone) {
   const model::Curve sine{"sine", model::CurveSine{0.5, 3.0, 2.0, 0.0}, {}},
@@ -104,6 +171,11 @@ TEST(GroundMotion, WhatTheGroundHasDone) {
   EXPECT_NEAR(by_sine.displacement, 0.25 * t * t + 3.0 / w * (t - std::sin(w * t) / w), 1e-5);
   EXPECT_NEAR(by_table.largest, 4.0, 1e-9);
   EXPECT_NEAR(by_table.velocity, 3.0 - 0.5 - 1.0, 1e-9);  // it stays at -1
+  model::Curve record = table;
+  record.record.emplace();
+  model::integrate_record(record);
+  for (const double at : {0.3, 1.0, 1.7, 2.0})
+    EXPECT_NEAR(model::displacement_at(record, at, 9.0), model::ground_motion(table, 9.0, at).displacement, 1e-9);
   EXPECT_NEAR(by_table.displacement, (1.0 + 2.0 / 6.0) + (3.0 - 1.0 / 6.0) + (2.5 - 0.5), 1e-9);
 }
 

@@ -121,6 +121,75 @@ steps: [{{dynamic: {{duration: {0}, step: {1}}}, increments: 4}}]
   }
 }
 
+// A long crack, of which the faces are under a pressure of 1 from t = 0 on, plane strain, nu = 0.3:
+// K_I = 2 sqrt((1 - 2 nu) c_d t/pi)/(1 - nu) (Freund), until the waves of the other end of the crack and of the edges
+// of the plate come to its tip, at c_d t = 1 and 2.
+TEST(Waves, AtTheTipOfACrackUnderSuddenPressure) {
+  const double nu = 0.3, c_d = std::sqrt(2.0 * (1.0 - nu) / (1.0 - 2.0 * nu));
+  double before = 0.0;
+  for (const double size : {0.1, 0.05}) {
+    const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: strain}}
+materials: {{rock: {{young: 2.6, poisson: 0.3, density: 1}}}}
+bodies:
+  plate:
+    material: rock
+    shape: {{rectangle: {{corner: [-1, -1], size: [2, 2]}}}}
+    mesh: {{kind: quadtree, size: {0}}}
+    cracks: [{{name: flaw, path: [[-1, 0], [0, 0]]}}]
+loads:
+  left: {{on: plate.flaw.left, pressure: 1}}
+  right: {{on: plate.flaw.right, pressure: 1}}
+steps: [{{dynamic: {{duration: 0.5, step: {1}}}, increments: 10}}]
+output: {{fields: []}}
+)",
+                                                    size, 0.2 * size));
+    double largest = 0.0;  // error of the second half
+    for (std::size_t i = 4; i < 10; ++i) {
+      const IncrementResult& at = increment_at(solution, i);
+      const double exact = 2.0 * std::sqrt((1.0 - 2.0 * nu) * c_d * *at.time / std::numbers::pi) / (1.0 - nu);
+      largest = std::max(largest, std::abs(at.cracks.at(0).factors.K_I / exact - 1.0));
+    }
+    EXPECT_LT(largest, before > 0.0 ? 0.003 : 0.01);
+    if (before > 0.0) {
+      EXPECT_LT(largest, 0.5 * before);
+    }
+    before = largest;
+  }
+}
+
+// A rigid block on a spring and on a rough floor, let go: w = 1, and from one extreme to the next the amplitude falls
+// by 2 mu N/k = 0.4, until the spring no longer moves it.
+TEST(Waves, FrictionLetsAVibrationDecayLinearly) {
+  const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-5, -1], size: [14, 1]}}}}}}
+  block: {{rigid: true, density: 1, shape: {{rectangle: {{corner: [0, 0], size: [4, 1]}}}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+springs: [{{on: block.left, k_n: 4}}]
+loads: {{weight: {{gravity: [0, -10]}}, push: {{on: block, force: [9.6, 0]}}}}
+contacts: {{base: {{between: [floor.top, block.bottom], friction: 0.02}}}}
+steps:
+  - {{name: push, loads: {{weight: 1, push: 1}}}}
+  - {{name: free, dynamic: {{duration: {}, step: 0.02}}, loads: {{push: 0}}, increments: 8}}
+)",
+                                                  8.0 * std::numbers::pi));
+  const double first = 2.2;
+  double expected = first;
+  for (const IncrementResult& at : solution.increments) {
+    const double u = at.fields.displacements[1][0];
+    if (at.time) expected = std::max(expected - 0.4, 0.2);
+    EXPECT_NEAR(std::abs(u), expected, 1e-4 * first);
+    if (at.time) {
+      EXPECT_LT(at.certificate.energy_balance, 1e-9);
+    }
+  }
+  EXPECT_NEAR(last(solution).energy.friction - solution.increments[0].energy.friction, 0.8 * 12.0, 1e-4 * 9.6);
+}
+
 // A rigid block on a spring, w = 2 pi, under a force from t = 0: u = F/k (1 - cos w t). The error at the end falls with
 // the square of the step, and where output is asked for does not matter.
 TEST(Waves, TheErrorFallsWithTheSquareOfTheStep) {

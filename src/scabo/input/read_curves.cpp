@@ -119,6 +119,7 @@ void read_curves(Reading& reading, const Value& value) {
                                  : read_ramp(reading, *ramp);
       if (!read) continue;
       curve.kind = *read;
+      if (curve.record) integrate_record(curve);
     }
     const auto index = static_cast<int>(reading.model.curves.size());
     if (const auto over = map.get("over"))

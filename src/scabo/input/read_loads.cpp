@@ -13,8 +13,9 @@ namespace {
 
 constexpr const char* load_example = "{on: upper.top_right, force: [0, -100e3]}";
 
-const std::vector<std::string> load_keys = {"on",    "in",      "force", "moment",     "traction",    "pressure",
-                                            "water", "gravity", "spin",  "body_force", "temperature", "field"};
+const std::vector<std::string> load_keys = {"on",          "in",    "force",   "moment", "traction",
+                                            "pressure",    "water", "gravity", "spin",   "body_force",
+                                            "temperature", "field", "moving"};
 
 constexpr const char* table_example[2] = {"{at: [[0, 0], [0, 3]], values: [[1e3, 0], [0, 0]]}",
                                           "{at: [[0, 0], [0, 3]], values: [30e3, 0]}"};
@@ -139,11 +140,21 @@ std::optional<decltype(Load::kind)> read_kind(Reading& reading, const Value& val
   return Gravity{*vector};
 }
 
+/// `{velocity: 20, from: 0}`.
+Moving read_moving(Reading& reading, const Value& value) {
+  const MapReader map(reading.report, value, {"velocity", "from"}, "{velocity: 20, from: 0}");
+  Moving moving;
+  moving.velocity = number_or_unread(reading, map.need("velocity"));
+  if (const auto from = map.get("from")) moving.from = number_or_unread(reading, from);
+  return moving;
+}
+
 /// `{in: joint, pressure: p}`, a table over x or y, or water.
 std::optional<Load> read_load_in_contact(Reading& reading, const Entry& entry, const MapReader& map) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  for (const char* key : {"on", "force", "moment", "traction", "gravity", "spin", "body_force", "temperature", "field"})
+  for (const char* key :
+       {"on", "force", "moment", "traction", "gravity", "spin", "body_force", "temperature", "field", "moving"})
     map.refuse(key, "does not go together with in: in contacts there are pressure and water");
   if (map.has("pressure") == map.has("water")) {
     if (report.count() == before && map.all_known())
@@ -212,6 +223,8 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   if (on && !load.on) return {};
   if (report.count() > before || !value) return {};
   load.kind = *value;
+  if (const auto moving = map.get("moving")) load.moving = read_moving(reading, *moving);
+  if (report.count() > before) return {};
   return load;
 }
 

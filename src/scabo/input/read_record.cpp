@@ -118,22 +118,35 @@ bool correct(Reading& reading, const MapReader& map, files::Acceleration& accele
   return true;
 }
 
-CurveTable table_of(const files::Acceleration& acceleration) {
+/// `from`: time of the record at which it begins in a step.
+CurveTable table_of(const files::Acceleration& acceleration, double from) {
   CurveTable table;
-  table.first = acceleration.times.front(), table.last = acceleration.times.back();
+  const double first = acceleration.times.front(), last = acceleration.times.back();
   table.points.push_back({0.0, 0.0});
   for (std::size_t i = 0; i < acceleration.times.size(); ++i)
-    table.points.push_back(
-        {(acceleration.times[i] - table.first) / (table.last - table.first), acceleration.values[i]});
+    table.points.push_back({(acceleration.times[i] - first) / (last - first), acceleration.values[i]});
   table.points.push_back({1.0, 0.0});
+  table.first = first - from, table.last = last - from;
   return table;
+}
+
+/// `from: 5`. Nothing if it is broken.
+std::optional<double> read_from(Reading& reading, const MapReader& map, const files::Acceleration& acceleration) {
+  const auto given = map.get("from");
+  if (!given) return 0.0;
+  const auto from = read_number(reading.report, *given);
+  if (!from) return {};
+  if (*from >= 0.0 && *from < acceleration.times.back()) return from;
+  reading.report.error(*given, fmt::format("must be a time of the record, from 0 to its end at {}, not {}",
+                                           number_text(acceleration.times.back()), number_text(*from)));
+  return {};
 }
 
 }  // namespace
 
 std::optional<CurveTable> read_record_of(Reading& reading, const Value& value, Curve& curve) {
   const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"file", "unit", "of", "column", "baseline"},
+  const MapReader map(reading.report, value, {"file", "unit", "of", "column", "baseline", "from"},
                       "{file: koyna.AT2, unit: g}");
   const auto name = map.need("file");
   const auto column = map.get("column");
@@ -156,10 +169,11 @@ std::optional<CurveTable> read_record_of(Reading& reading, const Value& value, C
   if (!meaning || reading.report.count() > before) return {};
   files::Acceleration acceleration = files::acceleration_of(record, meaning->kind, meaning->factor);
   if (!is_plausible(reading, value, acceleration, *meaning, map.has("unit"), curve.name)) return {};
-  RecordOfGround made{*file, kinds[static_cast<int>(meaning->kind)], {}};
-  if (!correct(reading, map, acceleration, made)) return {};
+  RecordOfGround made{*file, kinds[static_cast<int>(meaning->kind)], {}, {}, {}};
+  const auto from = read_from(reading, map, acceleration);
+  if (!correct(reading, map, acceleration, made) || !from) return {};
   curve.record = std::move(made);
-  return table_of(acceleration);
+  return table_of(acceleration, *from);
 }
 
 }  // namespace scabo::input

@@ -51,8 +51,8 @@ void read_restart(Reading& reading, const Value& value) {
       stream.is_open() && fs::exists(directory / state_at_end_file, error) ? parse_yaml(text, mistakes) : NodePtr();
   if (!root || root->kind != Node::Kind::map || !mistakes.empty()) {
     reading.report.error(
-        value, fmt::format("{} has no state at its end to start from: only a run at rest that was solved, without "
-                           "steps in time, error bars and tolerances, leaves one; run it again",
+        value, fmt::format("{} has no state at its end to start from: only a run that was solved, without error bars, "
+                           "tolerances and cracks that grow, leaves one; run it again",
                            quoted_name(*name)));
     return;
   }
@@ -72,6 +72,12 @@ void read_restart(Reading& reading, const Value& value) {
   };
   take_factors(*root, "loads", in(reading.index_of_load), restart.load_factors);
   take_factors(*root, "supports", in(supports), restart.support_factors);
+  if (root->find("motion") != nullptr) {
+    const Index names{{"time", 0}, {"ground_x", 1}, {"ground_y", 2}};
+    std::vector<double> motion(names.size(), 0.0);
+    take_factors(*root, "motion", in(names), motion);
+    restart.motion = {motion[0], {motion[1], motion[2]}};
+  }
   reading.model.files.push_back(file.string());
   reading.model.files.push_back((directory / state_at_end_file).string());
   reading.model.restart = std::move(restart);

@@ -131,13 +131,17 @@ void set_factor(Reading& reading, const Index& supports, Step& step, const MapEn
     return;
   }
   if (const auto found = supports.find(entry.key); found != supports.end()) {
+    const Curve* const curve =
+        factor && factor->curve != no_curve ? &reading.model.curves[static_cast<std::size_t>(factor->curve)] : nullptr;
     const auto i = static_cast<std::size_t>(found->second);
     if (is_fixed(reading.model.supports[i])) {
       reading.report.error(at,
                            fmt::format("support '{}' is fixed, so that a factor has no effect: remove it", entry.key));
     } else if (factor) {
-      step.support_factors[i] = factor->value;
-      if (factor->curve == no_curve) return;
+      const bool by_record = curve && curve->record && step.dynamic;
+      step.support_factors[i] =
+          by_record ? displacement_at(*curve, step.dynamic->duration, step.dynamic->duration) : factor->value;
+      if (!curve) return;
       step.support_curves.resize(step.support_factors.size(), no_curve);
       step.support_curves[i] = factor->curve;
     }

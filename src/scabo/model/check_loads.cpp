@@ -330,7 +330,9 @@ bool check_on(Checking& checking, const std::string& path, const Load& load) {
   }
   const Place& place = *load.on;
   if (!check_place(checking, path + ".on", place)) return false;
-  if (const std::string why = why_not_on(checking.body(place.body), place, kind); !why.empty()) {
+  const bool at_a_point = load.moving && kind == "force";  // which moves where a traction may act
+  if (const std::string why = why_not_on(checking.body(place.body), place, at_a_point ? "traction" : kind);
+      !why.empty()) {
     checking.error(path, "on", why);
     return false;
   }
@@ -359,6 +361,29 @@ bool check_on(Checking& checking, const std::string& path, const Load& load) {
   return true;
 }
 
+/// A load that moves does so along an edge, in time.
+bool check_moving(Checking& checking, const std::string& path, const Load& load) {
+  if (!load.moving) return true;
+  const auto* table = std::get_if<EdgeTable>(&load.kind);
+  const bool on_edge = load.on && load.on->kind == Place::Kind::edge;
+  if (!on_edge || !(std::holds_alternative<Force>(load.kind) || (table && table->over == EdgeTable::Over::length))) {
+    checking.error(path, "moving",
+                   "is of a force on an edge, which then acts at one point of it, or of a traction or pressure on an "
+                   "edge by a table over its length, {over: length, at: [0, 2], values: [...]}");
+    return false;
+  }
+  if (!checking.number(path, "moving.velocity", load.moving->velocity) ||
+      !checking.number(path, "moving.from", load.moving->from))
+    return false;
+  if (load.moving->velocity == 0.0)
+    checking.error(path, "moving.velocity", "must not be 0: leave 'moving' out for a load that stays where it is");
+  else if (!checking.gaps.steps && !is_dynamic(checking.model))
+    checking.error(path, "moving", "needs a step in time: steps: [{dynamic: {duration: ...}}]");
+  else
+    return true;
+  return false;
+}
+
 }  // namespace
 
 void check_loads(Checking& checking) {
@@ -375,7 +400,7 @@ void check_loads(Checking& checking) {
     check_name(checking, path, load.name, "load", names);
     if (supports.contains(load.name)) checking.error_of_key(path, "", named_like_a_support(load.name));
     const bool on = check_on(checking, path, load);
-    checking.load[i] = check_values(checking, path, load) && on;
+    checking.load[i] = check_values(checking, path, load) && on && check_moving(checking, path, load);
     if (const auto* temperature = std::get_if<Temperature>(&load.kind); temperature && temperature->table)
       if (checking.load[i]) check_linear_in_bodies(checking, path, load, *temperature->table);
     if (!checking.load[i]) checking.gaps.conditions = true;

@@ -81,15 +81,8 @@ void check_curves(Checking& checking) {
 }
 
 /// Factors that follow curves begin where they are at the end of the step before.
-void check_beginnings(Checking& checking, const std::string& path, const Step& step, const Step* step_before) {
+void check_beginnings(Checking& checking, const std::string& path, const Step& step, const Step* before) {
   const Model& model = checking.model;
-  std::optional<Step> restarted;
-  if (step_before == nullptr && model.restart) {
-    restarted.emplace();
-    restarted->load_factors = model.restart->load_factors;
-    restarted->support_factors = model.restart->support_factors;
-  }
-  const Step* before = restarted ? &*restarted : step_before;
   const auto check = [&](const std::vector<int>& curves, const std::vector<double> Step::*factors, bool support) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       if (curves[i] < 0) continue;
@@ -98,6 +91,7 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
         return;
       }
       const Curve& curve = model.curves[static_cast<std::size_t>(curves[i])];
+      if (support && curve.record) continue;  // as check_records_of_supports() says
       const auto* table = std::get_if<CurveTable>(&curve.kind);
       if (table != nullptr && table->points.empty()) return;
       const auto together = [](const CurveTable::Point& a, const CurveTable::Point& b) { return a.at == b.at; };
@@ -124,20 +118,47 @@ void check_beginnings(Checking& checking, const std::string& path, const Step& s
   check(step.support_curves, &Step::support_factors, true);
 }
 
-/// A record of the ground is an acceleration, and a support is moved by a displacement.
+/// A record moves supports in time.
 void check_records_of_supports(Checking& checking, const std::string& path, const Step& step) {
   const Model& model = checking.model;
   for (std::size_t i = 0; i < step.support_factors.size(); ++i) {
     const int curve = support_curve(step, i);
     if (curve < 0 || static_cast<std::size_t>(curve) >= model.curves.size()) continue;
     const Curve& of = model.curves[static_cast<std::size_t>(curve)];
-    if (of.record)
+    if (of.record && !step.dynamic)
       checking.error(
           path, "loads." + model.supports[i].name,
-          fmt::format("curve '{}' is the acceleration of a record, and a support is moved by a displacement: "
-                      "let the ground move by it, dynamic: {{ground: {{x: {}}}}}",
-                      of.name, of.name));
+          fmt::format("curve '{}' is a record in seconds, which moves a support only in a step in time: make "
+                      "it one, 'dynamic: {{duration: ...}}'",
+                      of.name));
   }
+}
+
+/// A support whose factor is `here` follows its curve from there on, without jumps.
+void check_curve_of_support(Checking& checking, const std::string& path, const Step& step, std::size_t i, double here) {
+  const Model& model = checking.model;
+  const auto index = static_cast<std::size_t>(support_curve(step, i));
+  if (index >= model.curves.size()) return;
+  const Curve& curve = model.curves[index];
+  const auto* table = std::get_if<CurveTable>(&curve.kind);
+  if (table != nullptr && table->points.empty()) return;
+  const std::string& name = model.supports[i].name;
+  const double begin = displacement_at(curve, 0.0, step.dynamic->duration);
+  double largest = std::max(1.0, std::abs(begin));
+  if (curve.record)
+    for (const double u : curve.record->displacement) largest = std::max(largest, std::abs(u));
+  constexpr double rounding = 1e-9;
+  if (std::abs(begin - here) > rounding * largest)
+    checking.error(path, "loads." + name,
+                   fmt::format("curve '{}' begins at {}, but the factor of support '{}' is {} there: a support cannot "
+                               "jump; begin the curve at {}",
+                               curve.name, number_text(begin), name, number_text(here), number_text(here)));
+  if (table == nullptr || curve.record) return;
+  for (std::size_t k = 1; k < table->points.size(); ++k)
+    if (table->points[k].at == table->points[k - 1].at && table->points[k].value != table->points[k - 1].value)
+      checking.error(
+          path, "loads." + name,
+          fmt::format("curve '{}' jumps, which support '{}' cannot: give the jump a duration", curve.name, name));
 }
 
 /// In time curves may begin anywhere, but supports do not jump.
@@ -163,6 +184,7 @@ void check_dynamic_step(Checking& checking, const std::string& path, const Step&
     const Support& support = model.supports[i];
     const bool moves = support.rotation.value_or(0.0) != 0.0 || support.displacement[0].value_or(0.0) != 0.0 ||
                        support.displacement[1].value_or(0.0) != 0.0;
+    if (moves && known && support_curve(step, i) >= 0) check_curve_of_support(checking, path, step, i, here);
     if (!moves || support_curve(step, i) >= 0 || step.support_factors[i] == here) continue;
     checking.error(path, "loads." + support.name,
                    fmt::format("support '{}' would jump at the begin of a step in time: let its factor follow a curve, "
@@ -205,8 +227,6 @@ void check_with_steps_in_time(Checking& checking) {
     if (contact.fit_in >= static_cast<int>(first))
       refuse(contact.source, path, "has its interference in a step in time: let it grow in a quasi-static step before");
   }
-  if (model.restart)
-    refuse(model.restart->source, "restart", "a run with steps in time does not start from another one yet");
   if (model.tolerance || model.output.error || !model.output.error_of.empty())
     refuse(
         {}, model.tolerance ? "tolerance" : "output",
@@ -222,6 +242,33 @@ void check_with_steps_in_time(Checking& checking) {
     refuse({}, "output.discrete_problems", "is for quasi-static increments: leave it out with steps in time");
   if (model.solver.uniqueness)
     refuse({}, "solver.uniqueness", "is a question to quasi-static increments: leave it out with steps in time");
+}
+
+/// A run that ended in motion goes on in time.
+void check_goes_on(Checking& checking) {
+  const Model& model = checking.model;
+  if (!model.restart || !model.restart->motion) return;
+  for (std::size_t i = 0; i < model.steps.size(); ++i) {
+    if (model.steps[i].dynamic) continue;
+    checking.enter(model.steps[i].source);
+    checking.error(path_of("steps", model.steps[i].source, i), "",
+                   "is quasi-static, but the run that this one starts from ended in motion: make it a step in time, "
+                   "'dynamic: {duration: ...}'");
+  }
+  for (std::size_t i = 0; i < model.initial.size(); ++i) {
+    checking.enter(model.initial[i].source);
+    checking.error(path_of("initial", model.initial[i].source, i), "",
+                   "has no effect: bodies go on with the velocities at the end of the run that this one starts from");
+  }
+}
+
+/// What the first step of a restart follows.
+std::optional<Step> end_of_other_run(const Model& model) {
+  if (!model.restart) return {};
+  Step end;
+  end.load_factors = model.restart->load_factors;
+  end.support_factors = model.restart->support_factors;
+  return end;
 }
 
 /// Where some step changes coefficients of friction.
@@ -313,6 +360,7 @@ void check_steps(Checking& checking) {
   }
   const bool has_friction =
       std::any_of(model.steps.begin(), model.steps.end(), [](const Step& of) { return !of.friction.empty(); });
+  const std::optional<Step> restarted = end_of_other_run(model);
   std::unordered_set<std::string> names;
   for (std::size_t i = 0; i < model.steps.size(); ++i) {
     const Step& step = model.steps[i];
@@ -342,7 +390,7 @@ void check_steps(Checking& checking) {
       checking.gaps.steps = true;
       return;
     }
-    const Step* const before = i > 0 ? &model.steps[i - 1] : nullptr;
+    const Step* const before = i > 0 ? &model.steps[i - 1] : restarted ? &*restarted : nullptr;
     check_records_of_supports(checking, path, step);
     if (step.dynamic)
       check_dynamic_step(checking, path, step, before);
@@ -351,6 +399,7 @@ void check_steps(Checking& checking) {
     if (has_friction && !checking.gaps.conditions) check_friction_of_step(checking, path, step);
   }
   check_with_steps_in_time(checking);
+  check_goes_on(checking);
 }
 
 void check_initial(Checking& checking) {

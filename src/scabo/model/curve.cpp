@@ -66,6 +66,34 @@ double mean_between(const Curve& curve, double from, double to, double duration)
   return sum / (b - a);
 }
 
+void integrate_record(Curve& curve) {
+  const auto& table = std::get<CurveTable>(curve.kind);
+  RecordOfGround& record = *curve.record;
+  record.velocity.assign(table.points.size(), 0.0);
+  record.displacement = record.velocity;
+  for (std::size_t i = 1; i < table.points.size(); ++i) {
+    const double h = (table.points[i].at - table.points[i - 1].at) * (table.last - table.first);
+    const double a = table.points[i - 1].value, b = table.points[i].value, v = record.velocity[i - 1];
+    record.velocity[i] = v + 0.5 * h * (a + b);
+    record.displacement[i] = record.displacement[i - 1] + h * v + h * h * (2.0 * a + b) / 6.0;
+  }
+}
+
+double displacement_at(const Curve& curve, double time, double duration) {
+  if (!curve.record) return value_at(curve, time, duration);
+  const auto& table = std::get<CurveTable>(curve.kind);
+  const RecordOfGround& record = *curve.record;
+  const double length = table.last - table.first, s = (time - table.first) / length;
+  const auto next = std::upper_bound(table.points.begin(), table.points.end(), s,
+                                     [](double at, const CurveTable::Point& point) { return at < point.at; });
+  if (next == table.points.begin()) return 0.0;
+  const auto i = static_cast<std::size_t>(next - table.points.begin()) - 1;
+  const double t = (s - table.points[i].at) * length, before = record.displacement[i] + t * record.velocity[i];
+  if (next == table.points.end()) return before;
+  const double a = table.points[i].value, rise = (next->value - a) / ((next->at - table.points[i].at) * length);
+  return before + t * t * (0.5 * a + rise * t / 6.0);
+}
+
 GroundMotion ground_motion(const Curve& acceleration, double duration, double time) {
   GroundMotion motion;
   // Between these times the acceleration is linear, or they are 1/256 of a sine's period.

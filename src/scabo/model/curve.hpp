@@ -36,6 +36,8 @@ struct RecordOfGround {
   /// What a correction of the baseline has taken off: constant, and per time since the begin of the record. Empty: none
   /// was asked for.
   std::optional<std::array<double, 2>> baseline;
+  /// At each point of the table: once and twice the integral of the acceleration, from rest (integrate_record()).
+  std::vector<double> velocity, displacement;
 };
 
 struct Curve {
@@ -57,6 +59,12 @@ double value_at(const Curve& curve, double time, double duration);
 
 /// Mean of value_at() between two times.
 double mean_between(const Curve& curve, double from, double to, double duration);
+
+/// Of a curve that is a record: its velocity and displacement.
+void integrate_record(Curve& curve);
+
+/// The factor of a support in a step in time: that of the curve, or the displacement of a record.
+double displacement_at(const Curve& curve, double time, double duration);
 
 /// What an acceleration that follows a curve has done since the begin of a step in time of this duration, at a time in
 /// it.

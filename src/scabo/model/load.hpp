@@ -140,6 +140,15 @@ struct AddedMass {
   Source source;
 };
 
+/// A load that travels along an edge: it acts at `from` + `velocity` t from the start of the edge, t being the time
+/// since the begin of the first step in time.
+struct Moving {
+  double velocity = 0.0;  ///< length / time, not 0; below 0: towards the start of the edge
+  double from = 0.0;      ///< length
+
+  double place_at(double time) const { return from + velocity * time; }
+};
+
 struct Load {
   std::string name;
   std::optional<Place> on;  ///< empty: gravity, temperature or stress of every elastic body, or in contacts
@@ -147,6 +156,8 @@ struct Load {
                UniformStress, GroundStress, Moment, PorePressure, AtRest>
       kind;
   Source source;
+  /// Of a force, which acts at one point of its edge, or of a table over its length, whose places count from there.
+  std::optional<Moving> moving = {};
 };
 
 }  // namespace scabo::model

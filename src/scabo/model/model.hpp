@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -60,6 +61,13 @@ struct Restart {
   /// At its end, for the loads and supports of this model; 0 for one that it does not have. The first step starts from
   /// them.
   std::vector<double> load_factors, support_factors;
+  /// Of a run that ended with a step in time: its time since the begin of the first one, and the velocity of its
+  /// ground.
+  struct Motion {
+    double time = 0.0;
+    std::array<double, 2> ground{};
+  };
+  std::optional<Motion> motion = {};
   Source source;
 };
 

@@ -106,7 +106,7 @@ analysis::StaticSolution solve_and_write(const StaticRun& run) {
     if (run.directory) run.directory->add(solved, increment);
     if (run.observer.on_increment) run.observer.on_increment(solved, increment);
   };
-  if (run.directory && !model::is_dynamic(run.model))  // a restart begins at rest
+  if (run.directory)
     options.on_end = [&](const analysis::EndState& end) { analysis::write_end_state(run.directory->path(), end); };
   options.on_accepted = [&](const auto& state, const auto& solved) { checkpoints.add(state, solved); };
   if (run.directory && run.model.output.discrete_problems)

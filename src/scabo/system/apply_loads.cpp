@@ -66,11 +66,32 @@ class Applied {
     add_at_tips(along_normal);
   }
 
-  void operator()(const model::EdgeTable& table) {
-    apply(varying_traction(table, body_.outline.edges[static_cast<std::size_t>(place_->index)]));
-  }
+  void operator()(const model::EdgeTable& table) { apply(varying_traction(table, edge())); }
 
   void operator()(const model::Water& water) { apply(varying_traction(water)); }
+
+  /// A load that moves, at a place along its edge.
+  void at_place(const model::Load& load, double place) {
+    if (const auto* force = std::get_if<model::Force>(&load.kind)) {
+      if (!body_.rigid) {
+        nodal = forces_at_place(mesh::nodes_of(*place_, mesh_).elements, body_mesh_.nodes, edge(), place, force->value);
+        return;
+      }
+      nodal = Vector::Zero(3);
+      if (place >= 0.0 && place <= edge().length()) add_to_rigid(edge().at(place / edge().length()), force->value);
+      return;
+    }
+    auto table = std::get<model::EdgeTable>(load.kind);
+    for (model::EdgeTable::Point& point : table.points) point.at += place;
+    (*this)(table);
+  }
+  /// A load at factor 1: one that moves in the middle of its edge.
+  void operator()(const model::Load& load) {
+    if (!load.moving) return std::visit(*this, load.kind);
+    const auto* table = std::get_if<model::EdgeTable>(&load.kind);
+    const double middle = table ? 0.5 * (table->points.front().at + table->points.back().at) : 0.0;
+    at_place(load, 0.5 * edge().length() - middle);
+  }
 
   void operator()(const model::Gravity& gravity) {
     if (body_.rigid) {
@@ -168,13 +189,12 @@ class Applied {
       return;
     }
     const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
-    const model::Edge& edge = body_.outline.edges[static_cast<std::size_t>(place_->index)];
-    const Vec2 along = (edge.end - edge.start) / edge.length();
+    const Vec2 start = edge().start, along = (edge().end - start) / edge().length();
     // Over the elements, between which the edge of an image may have gaps: length, first and second moment.
     double length = 0.0, first = 0.0, second = 0.0;
     for (const mesh::LineElement& element : at.elements) {
       const auto position = [&](int node) {
-        return along.dot(body_mesh_.nodes[static_cast<std::size_t>(node)] - edge.start);
+        return along.dot(body_mesh_.nodes[static_cast<std::size_t>(node)] - start);
       };
       const double from = position(element.nodes.front()), to = position(element.nodes.back());
       length += to - from;
@@ -182,7 +202,7 @@ class Applied {
       second += (to * to * to - from * from * from) / 3.0;
     }
     const double slope = moment.value / (thickness() * (second - first * first / length));
-    const Vec2 middle = edge.start + first / length * along;
+    const Vec2 middle = start + first / length * along;
     // The normal is the direction of the edge turned clockwise.
     apply_traction(at, [&](const Vec2& x, const Vec2& n) { return Vec2(-slope * along.dot(x - middle) * n); });
   }
@@ -363,6 +383,7 @@ class Applied {
   static element::LinearField about(const Vec2& centre, const model::Linear& field) {
     return {field.constant + field.per_x * centre.x() + field.per_y * centre.y(), field.per_x, field.per_y};
   }
+  const model::Edge& edge() const { return body_.outline.edges[static_cast<std::size_t>(place_->index)]; }
   Eigen::Index size() const { return places_of(body_mesh_.nodes.size()); }
   double thickness() const { return model_.analysis.thickness; }
   Extent extent() const { return model_.analysis.extent(); }
@@ -377,10 +398,10 @@ class Applied {
   }
   /// Force and moment of a traction on the edge of a rigid body.
   void apply_to_rigid(const VaryingTraction& varying) {
-    const EdgeElements edge = elements_of(body_.outline.edges[static_cast<std::size_t>(place_->index)]);
-    const Vector forces = traction_forces(edge.elements, edge.nodes, extent(), varying.traction, varying.breaks);
+    const EdgeElements at = elements_of(edge());
+    const Vector forces = traction_forces(at.elements, at.nodes, extent(), varying.traction, varying.breaks);
     nodal = Vector::Zero(3);
-    for (std::size_t i = 0; i < edge.nodes.size(); ++i) add_to_rigid(edge.nodes[i], forces.segment<2>(place_of(i)));
+    for (std::size_t i = 0; i < at.nodes.size(); ++i) add_to_rigid(at.nodes[i], forces.segment<2>(place_of(i)));
   }
   void add_to_rigid(const Vec2& point, const Vec2& force) {
     nodal += rigid_point(point, part_.reference(), part_.lever()).transpose() * force;
@@ -395,59 +416,6 @@ class Applied {
   const element::SolvedCells& cells_;
   const model::Place* place_;
 };
-
-}  // namespace
-
-namespace {
-
-/// Forces on both sides of all pairs, and on the side faces at the tips of cracks, which have no pairs.
-void add_pore_pressure(Structure& structure, const model::PorePressure& pores, const model::Model& model,
-                       const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells) {
-  std::vector<Vector>& forces = structure.loads.back();
-  for (const int c : pores.contacts) {
-    const model::Contact& contact = model.contacts[static_cast<std::size_t>(c)];
-    const std::vector<mesh::ContactPair>& pairs = mesh.interfaces[static_cast<std::size_t>(c)].pairs;
-    const Vector of_pairs = pore_forces(pores, c, model, mesh);
-    const auto add = [&](int body, int node, const Vec2& point, const Vec2& force) {
-      const std::size_t p = structure.dofs.part_of(body);
-      if (forces[p].size() == 0) forces[p] = Vector::Zero(structure.dofs.size(p));
-      if (node >= 0)
-        forces[p].segment<2>(structure.dofs.of(body, node, 0)) += force;
-      else {
-        const BodySystem& part = *structure.parts[p];
-        forces[p] += rigid_point(point, part.reference(), part.lever()).transpose() * force;
-        structure.outward.back()[p] += (point - part.reference()).dot(force);
-      }
-    };
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Vec2 force = of_pairs[static_cast<Eigen::Index>(i)] * pairs[i].normal;
-      add(contact.b.body, pairs[i].node_b, pairs[i].point_b, force);
-      add(contact.a.body, pairs[i].node_a, pairs[i].point_a, -force);
-    }
-    std::optional<double>& sum = structure.pores.back()[static_cast<std::size_t>(c)];
-    sum = sum.value_or(0.0) + of_pairs.sum();
-    if (contact.a.kind != model::Place::Kind::face) continue;
-    const auto b = static_cast<std::size_t>(contact.a.body);
-    for (const mesh::TipFace& tip : mesh::tip_faces(model.bodies[b], mesh.bodies[b])) {
-      if (tip.crack != contact.a.index / 2) continue;
-      const mesh::Cell& cell = mesh.bodies[b].cells[tip.cell];
-      const element::SolvedSuperElement& solved = *cells[b][tip.cell];
-      const auto face = tip.last ? element::Face::last : element::Face::first;
-      const Vec2 traction = -pressure_at(pores, cell.centre) * element::face_normal(solved.ring, face);
-      const std::vector<element::RadialLoad> loads = {
-          element::face_load(solved.ring, face, 0.0, traction, model.analysis.thickness)};
-      element::CellLoads& interior = structure.interior.back()[b];
-      interior.resize(mesh.bodies[b].cells.size());
-      element::add_radial_loads(interior[tip.cell].loads, loads, 1.0);
-      Vector nodal = Vector::Zero(places_of(mesh.bodies[b].nodes.size()));
-      nodal(element::dofs_of(cell)) += element::equivalent_load(solved.solution(), loads);
-      structure.dofs.add(contact.a.body, nodal, forces[structure.dofs.part_of(contact.a.body)]);
-      if (structure.of_bodies.empty()) continue;
-      Vector& of_body = structure.of_bodies.back()[b];
-      of_body = of_body.size() == 0 ? nodal : Vector(of_body + nodal);
-    }
-  }
-}
 
 }  // namespace
 
@@ -480,7 +448,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
       const auto body = static_cast<int>(b);
       const std::size_t part = structure.dofs.part_of(body);
       Applied applied(model, mesh, cells, *structure.parts[part], b, load.on ? &*load.on : nullptr);
-      std::visit(applied, load.kind);
+      applied(load);
       if (const auto* at_rest = std::get_if<model::AtRest>(&load.kind)) {
         const Vector& of_part = structure.springs.at_rest[static_cast<std::size_t>(at_rest->spring)];
         forces[part] = of_part;
@@ -495,6 +463,19 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
     }
   }
   structure.thermal = thermal_energies(model, mesh, structure.dofs, cells, structure.interior);
+}
+
+std::vector<Vector> forces_of_moving_load(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
+                                          const std::vector<element::SolvedCells>& cells, std::size_t load,
+                                          double time) {
+  const model::Load& moves = model.loads[load];
+  const int body = moves.on->body;
+  const std::size_t part = structure.dofs.part_of(body);
+  Applied applied(model, mesh, cells, *structure.parts[part], static_cast<std::size_t>(body), &*moves.on);
+  applied.at_place(moves, moves.moving->place_at(time));
+  std::vector<Vector> forces(structure.parts.size());
+  structure.dofs.add(body, applied.nodal, forces[part]);
+  return forces;
 }
 
 }  // namespace scabo::system

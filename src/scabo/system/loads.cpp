@@ -1,6 +1,7 @@
 #include "scabo/system/loads.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scabo/base/components.hpp"
 #include "scabo/geometry/foot_points.hpp"
@@ -123,6 +124,38 @@ std::vector<Eigen::Triplet<double>> mass_along_normals(const std::vector<mesh::L
                              M(i, j));
   }
   return entries;
+}
+
+Vector forces_at_place(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
+                       const model::Edge& edge, double place, const Vec2& force) {
+  Vector f = Vector::Zero(places_of(nodes.size()));
+  const double length = edge.length();
+  if (!(place >= 0.0 && place <= length)) return f;
+  const auto position = [&](const Vec2& x) { return length * geometry::closest_position(edge, x); };
+  const mesh::LineElement* nearest = nullptr;
+  double distance = HUGE_VAL;  // of the place from the element, along the edge
+  for (const mesh::LineElement& element : elements) {
+    const double from = position(nodes[static_cast<std::size_t>(element.nodes.front())]);
+    double to = position(nodes[static_cast<std::size_t>(element.nodes.back())]);
+    if (to < from) to = length;  // the end of a closed edge is its start
+    const double beyond = std::max({from - place, place - to, 0.0});
+    if (beyond < distance) distance = beyond, nearest = &element;
+  }
+  ensure(nearest != nullptr, "an edge has elements");
+  const auto& basis = geometry::LineBasis::of_order(order_of(*nearest));
+  const auto point = [&](const Vector& N) {
+    Vec2 x = Vec2::Zero();
+    for (std::size_t i = 0; i < nearest->nodes.size(); ++i)
+      x += N[static_cast<Eigen::Index>(i)] * nodes[static_cast<std::size_t>(nearest->nodes[i])];
+    return x;
+  };
+  double low = -1.0, high = 1.0;
+  for (double middle = 0.0; low < middle && middle < high; middle = 0.5 * (low + high))
+    (position(point(basis.values(middle))) > place ? high : low) = middle;
+  const Vector N = basis.values(high);
+  for (std::size_t i = 0; i < nearest->nodes.size(); ++i)
+    f.segment<2>(place_of(nearest->nodes[i])) += N[static_cast<Eigen::Index>(i)] * force;
+  return f;
 }
 
 VaryingTraction varying_traction(const model::EdgeTable& table, const model::Edge& edge) {

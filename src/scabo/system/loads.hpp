@@ -40,6 +40,10 @@ struct VaryingTraction {
 VaryingTraction varying_traction(const model::EdgeTable& table, const model::Edge& edge);
 VaryingTraction varying_traction(const model::Water& water);
 
+/// N^T F of a force at a place on line elements along an edge, by length from its start; zero beyond its ends.
+Vector forces_at_place(const std::vector<mesh::LineElement>& elements, const std::vector<Vec2>& nodes,
+                       const model::Edge& edge, double place, const Vec2& force);
+
 /// Line elements of the edge of a rigid body, which has no mesh: exact for lines, to rounding for arcs.
 struct EdgeElements {
   std::vector<Vec2> nodes;

@@ -4,6 +4,8 @@
 #include <map>
 
 #include "scabo/base/components.hpp"
+#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 #include "scabo/system/tributary_lengths.hpp"
 
@@ -68,6 +70,54 @@ Vector pore_forces(const model::PorePressure& pores, int contact, const model::M
     force = sides[i] > 0 ? force / sides[i] : pressure_at(pores, pairs[i].point_a) * areas[i];
   }
   return sum;
+}
+
+void add_pore_pressure(Structure& structure, const model::PorePressure& pores, const model::Model& model,
+                       const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells) {
+  std::vector<Vector>& forces = structure.loads.back();
+  for (const int c : pores.contacts) {
+    const model::Contact& contact = model.contacts[static_cast<std::size_t>(c)];
+    const std::vector<mesh::ContactPair>& pairs = mesh.interfaces[static_cast<std::size_t>(c)].pairs;
+    const Vector of_pairs = pore_forces(pores, c, model, mesh);
+    const auto add = [&](int body, int node, const Vec2& point, const Vec2& force) {
+      const std::size_t p = structure.dofs.part_of(body);
+      if (forces[p].size() == 0) forces[p] = Vector::Zero(structure.dofs.size(p));
+      if (node >= 0)
+        forces[p].segment<2>(structure.dofs.of(body, node, 0)) += force;
+      else {
+        const BodySystem& part = *structure.parts[p];
+        forces[p] += rigid_point(point, part.reference(), part.lever()).transpose() * force;
+        structure.outward.back()[p] += (point - part.reference()).dot(force);
+      }
+    };
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Vec2 force = of_pairs[static_cast<Eigen::Index>(i)] * pairs[i].normal;
+      add(contact.b.body, pairs[i].node_b, pairs[i].point_b, force);
+      add(contact.a.body, pairs[i].node_a, pairs[i].point_a, -force);
+    }
+    std::optional<double>& sum = structure.pores.back()[static_cast<std::size_t>(c)];
+    sum = sum.value_or(0.0) + of_pairs.sum();
+    if (contact.a.kind != model::Place::Kind::face) continue;
+    const auto b = static_cast<std::size_t>(contact.a.body);
+    for (const mesh::TipFace& tip : mesh::tip_faces(model.bodies[b], mesh.bodies[b])) {
+      if (tip.crack != contact.a.index / 2) continue;
+      const mesh::Cell& cell = mesh.bodies[b].cells[tip.cell];
+      const element::SolvedSuperElement& solved = *cells[b][tip.cell];
+      const auto face = tip.last ? element::Face::last : element::Face::first;
+      const Vec2 traction = -pressure_at(pores, cell.centre) * element::face_normal(solved.ring, face);
+      const std::vector<element::RadialLoad> loads = {
+          element::face_load(solved.ring, face, 0.0, traction, model.analysis.thickness)};
+      element::CellLoads& interior = structure.interior.back()[b];
+      interior.resize(mesh.bodies[b].cells.size());
+      element::add_radial_loads(interior[tip.cell].loads, loads, 1.0);
+      Vector nodal = Vector::Zero(places_of(mesh.bodies[b].nodes.size()));
+      nodal(element::dofs_of(cell)) += element::equivalent_load(solved.solution(), loads);
+      structure.dofs.add(contact.a.body, nodal, forces[structure.dofs.part_of(contact.a.body)]);
+      if (structure.of_bodies.empty()) continue;
+      Vector& of_body = structure.of_bodies.back()[b];
+      of_body = of_body.size() == 0 ? nodal : Vector(of_body + nodal);
+    }
+  }
 }
 
 }  // namespace scabo::system

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/system/structure.hpp"
 
 namespace scabo::system {
 
@@ -18,5 +19,10 @@ double pressure_at(const model::PorePressure& pores, const Vec2& x);
 
 /// P of the pairs of a contact, one for each pair of its interface, at factor 1.
 Vector pore_forces(const model::PorePressure& pores, int contact, const model::Model& model, const mesh::Mesh& mesh);
+
+/// Adds P of all pairs to the last load of a structure, and what acts on the side faces at the tips of cracks, which
+/// have no pairs.
+void add_pore_pressure(Structure& structure, const model::PorePressure& pores, const model::Model& model,
+                       const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells);
 
 }  // namespace scabo::system

@@ -20,7 +20,8 @@ struct Structure {
   Dofs dofs;
   std::vector<std::unique_ptr<BodySystem>> parts;  ///< one for each part of `dofs`
   ModelSprings springs;                            ///< those of the parts, spring by spring
-  /// [load][part]: generalised forces at factor 1; empty where the load does not act on the part.
+  /// [load][part]: generalised forces at factor 1; empty where the load does not act on the part. Of loads that move
+  /// see forces_of_moving_load().
   std::vector<std::vector<Vector>> loads;
   /// [load][part]: sum of arm . force of a load at factor 1 on a rigid body, arms from its reference point: force times
   /// length, by which the moment of the load changes with a rotation of the body. 0 of elastic parts.
@@ -54,6 +55,12 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
 /// Adds the loads to a structure (apply_loads.cpp).
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
                const std::vector<element::SolvedCells>& cells);
+
+/// Generalised forces of a load that moves, at factor 1 and a time, as one of Structure::loads. There it stands in the
+/// middle of its edge, for its size.
+std::vector<Vector> forces_of_moving_load(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
+                                          const std::vector<element::SolvedCells>& cells, std::size_t load,
+                                          double time);
 
 /// Points of a rigid body that belong to a place.
 std::vector<Vec2> rigid_points(const model::Place& place, const model::Body& body);

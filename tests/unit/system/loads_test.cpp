@@ -57,6 +57,32 @@ TEST(TractionForces, OfPressureOnAnArcIsThatOnItsChord) {
   }
 }
 
+// A force that acts at a place of an edge, wherever that is: its sum and its moment, and nothing beyond the ends.
+TEST(ForcesAtAPlace, HaveTheForceAndItsMoment) {
+  const Vec2 force(3.0, -5.0);
+  for (int order = 1; order <= 4; ++order) {
+    const auto beam = mesh_of(test::elastic("beam", test::rectangle({1, 2}, {6, 1.5}), 2.0, order));
+    const model::Edge top = test::rectangle({1, 2}, {6, 1.5}).edges[2];  // from (7, 3.5) to (1, 3.5)
+    for (const double place : {0.0, 0.7, 2.0, 3.1, 6.0}) {
+      const Vector f = forces_at_place(beam.edges[2], beam.nodes, top, place, force);
+      EXPECT_LT((total(f) - force).norm(), 1e-14);
+      EXPECT_NEAR(moment(f, beam.nodes), cross(Vec2(7.0 - place, 3.5), force), 1e-12);
+    }
+    for (const double place : {-0.1, 6.1})
+      EXPECT_TRUE(forces_at_place(beam.edges[2], beam.nodes, top, place, force).isZero(0.0));
+  }
+  const model::Outline half_disc =
+      test::outline({test::line("bottom", {-2, 0}, {2, 0}), test::arc("rim", {0, 0}, 2.0, 0.0, test::pi)});
+  model::Body disc = test::elastic("disc", half_disc, 0.5, 4);
+  disc.mesh.centre = {0.0, 0.8};
+  const auto mesh = mesh_of(disc);
+  for (const double angle : {0.0, 0.3, 1.9, 3.1}) {
+    const Vector f = forces_at_place(mesh.edges[1], mesh.nodes, half_disc.edges[1], 2.0 * angle, force);
+    EXPECT_LT((total(f) - force).norm(), 1e-13);
+    EXPECT_NEAR(moment(f, mesh.nodes), cross(2.0 * Vec2(std::cos(angle), std::sin(angle)), force), 1e-4);
+  }
+}
+
 TEST(TractionForces, LengthOfAnArcConverges) {
   double before = 1.0;
   for (int order : {1, 2, 3, 4}) {

@@ -48,6 +48,15 @@ double wave_speed(const model::Material& material, model::Plane plane) {
   return std::sqrt(std::max(D(0, 0), D(1, 1)) / *material.density);
 }
 
+/// A size of time steps without the rounding of the times between which they lie: it does not depend on which increment
+/// of a run asks first.
+double without_rounding(double size) {
+  constexpr int bits = 40;
+  int exponent = 0;
+  const double mantissa = std::frexp(size, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, bits)), exponent - bits);
+}
+
 /// An interference has to be resolved at rest.
 void refuse_overlap(const Prepared& prepared, const State& at_rest) {
   const double none = rounding_of_gaps(prepared);
@@ -96,6 +105,8 @@ void Dynamics::begin(const Prepared& at_rest, std::size_t step, double begin, do
   }
   const double duration = solution_.model.steps[step].dynamic->duration;
   increment_ = {step, begin * duration, end * duration, 1, 0.0};
+  if (solution_.model.restart && solution_.model.restart->motion)
+    increment_.before = solution_.model.restart->motion->time;
   for (std::size_t before = 0; before < step; ++before)
     if (const auto& dynamic = solution_.model.steps[before].dynamic) increment_.before += dynamic->duration;
   const double longest = longest_time_step(solution_.model, solution_.mesh, solution_.model.steps[step]);
@@ -169,6 +180,8 @@ Acting Dynamics::acting(double from, double to, const StepSystem& system) const 
   const std::size_t step = increment_.step;
   const model::DynamicStep& dynamic = *model.steps[step].dynamic;
   Acting acting{mean_factors(model, step, from, to), factors_at_time(model, step, to), {}, {}};
+  acting.mean.time = increment_.before + 0.5 * (from + to);
+  acting.end.time = increment_.before + to;
   acting.support = support_velocities(to, system.size);
   for (std::size_t k = 0; k < 2; ++k) {
     if (dynamic.ground[k] < 0) continue;
@@ -186,7 +199,7 @@ Acting Dynamics::acting(double from, double to, const StepSystem& system) const 
 Attempt Dynamics::attempt(const State& from, double part) const {
   const double end = increment_.begin + part * (increment_.end - increment_.begin);
   const double begin = from.velocity.empty() ? increment_.begin : from.time - increment_.before;
-  const double longest = (increment_.end - increment_.begin) / increment_.steps;
+  const double longest = without_rounding((increment_.end - increment_.begin) / increment_.steps);
   const int halvings = std::max(0, static_cast<int>(std::lround(std::log2(longest / (end - begin)))));
   const StepSystem& system = system_of(std::ldexp(longest, -halvings));
   const bool may_halve = halvings < solution_.model.solver.halvings;

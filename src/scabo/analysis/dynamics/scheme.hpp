@@ -33,7 +33,7 @@ class Dynamics {
     std::size_t step = 0;
     double begin = 0.0, end = 0.0;
     int steps = 1;        ///< equal time steps, while none is halved
-    double before = 0.0;  ///< durations of the steps in time before this one
+    double before = 0.0;  ///< time at the begin of this step
   };
 
   const StaticSolution& solution_;

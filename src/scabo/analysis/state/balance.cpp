@@ -82,6 +82,7 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
 }
 
 void complete(const Prepared& prepared, State& state, const std::vector<Vector>* without_motions) {
+  state.factors.time = state.time;
   state.forces = applied_forces(prepared, state.factors, state.released);
   state.prescribed = prescribed_values(prepared, state.factors.supports, state.replaced.moved);
   if (!state.velocity.empty()) return;  // in time displacements are a part of the history

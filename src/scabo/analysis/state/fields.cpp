@@ -115,9 +115,9 @@ constexpr Field optional_field(const char* name, Owner owner, int count, Kept ke
 template <typename Of>
 constexpr Field in_time(const char* name, Of) {
   return {name,
-          Owner::whole,
+          Owner::vector_of_part,
           0,
-          false,
+          true,
           true,
           [](const State& state) { return state.velocity.empty() ? Numbers() : numbers_of(Of{}(state)); },
           [](State& state, const Numbers& numbers) {
@@ -175,11 +175,11 @@ struct Table {
       field(
           "largest_force", whole, 1, lasts, [](auto& state) -> auto& { return state.largest_force; }),
       field(
-          "time", whole, 1, in_this_run, [](auto& state) -> auto& { return state.time; }),
+          "time", whole, 1, lasts, [](auto& state) -> auto& { return state.time; }),
       field(
-          "largest_energy", whole, 1, in_this_run, [](auto& state) -> auto& { return state.largest_energy; }),
+          "largest_energy", whole, 1, lasts, [](auto& state) -> auto& { return state.largest_energy; }),
       optional_field(
-          "velocity", whole, 0, in_this_run, [](auto& state) -> auto& { return state.velocity; }),
+          "velocity", vector_of_part, 0, lasts, [](auto& state) -> auto& { return state.velocity; }),
       in_time(
           "displacement", [](auto& state) -> auto& { return state.u; }),
       in_time(

@@ -10,13 +10,14 @@
 
 namespace scabo::analysis {
 
-/// What one entry of a field belongs to. `whole`: to the state itself.
-enum class Owner { pair, held_pair, rigid_motion, contact, part, whole };
+/// What one entry of a field belongs to. `vector_of_part`: a part that has any count of numbers, which stands before
+/// them; `whole`: the state itself.
+enum class Owner { pair, held_pair, rigid_motion, contact, part, vector_of_part, whole };
 
 struct Field {
   const char* name = "";
   Owner owner = Owner::whole;
-  int count = 1;  ///< numbers of each owner, of all in their order. Of `whole`: any
+  int count = 1;  ///< numbers of each owner, of all in their order. Of `vector_of_part` and `whole`: any
   /// Another run may start with it: it does not depend on the loads, steps and bodies that only this run has.
   bool lasts = false;
   bool optional = false;  ///< empty where the model has nothing that needs it

@@ -26,6 +26,16 @@ double sum_of_loads(const Prepared& prepared, std::size_t p, const Factors& fact
   return sum;
 }
 
+/// [load][part]: where they are now, of loads that move and act; empty of all others.
+std::vector<std::vector<Vector>> moving_forces(const Prepared& prepared, const Factors& factors) {
+  std::vector<std::vector<Vector>> forces(factors.loads.size());
+  for (std::size_t load = 0; load < factors.loads.size(); ++load)
+    if (prepared.model.loads[load].moving && factors.loads[load] != 0.0)
+      forces[load] = system::forces_of_moving_load(prepared.structure, prepared.model, prepared.mesh,
+                                                   prepared.discretisation.cells, load, factors.time);
+  return forces;
+}
+
 }  // namespace
 
 double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p) {
@@ -97,12 +107,14 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& fact
                                    const std::vector<Vector>& released) {
   std::vector<Vector> forces;
   for (const auto& part : prepared.structure.parts) forces.push_back(Vector::Zero(part->size()));
+  const std::vector<std::vector<Vector>> moving = moving_forces(prepared, factors);
   for (std::size_t p = 0; p < forces.size(); ++p) {
     const double presence = presence_of(prepared, factors, p);
     if (presence == 0.0) continue;
-    for (std::size_t load = 0; load < factors.loads.size(); ++load)
-      if (prepared.structure.loads[load][p].size() > 0)
-        forces[p] += presence * factors.loads[load] * prepared.structure.loads[load][p];
+    for (std::size_t load = 0; load < factors.loads.size(); ++load) {
+      const Vector& of = moving[load].empty() ? prepared.structure.loads[load][p] : moving[load][p];
+      if (of.size() > 0) forces[p] += presence * factors.loads[load] * of;
+    }
     if (!released.empty() && released[p].size() > 0 && factors.release != 0.0)
       forces[p] += factors.release * released[p];
     if (const Matrix& rigid = prepared.structure.parts[p]->rigid_motions(); rigid.cols() > 0)

@@ -8,8 +8,10 @@
 #include <system_error>
 #include <type_traits>
 
+#include "scabo/analysis/state/agreements.hpp"
 #include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/sealed_file.hpp"
+#include "scabo/analysis/state/step_factors.hpp"
 #include "scabo/model/restart_files.hpp"
 
 namespace scabo::analysis {
@@ -19,128 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "5";
-
-/// Digest of numbers and texts, one after the other.
-class Fingerprint {
- public:
-  void add(std::string_view text) { value_ = digest(text, digest(";", value_)); }
-  void add(double number) {
-    if (number == 0.0) number = 0.0;  // also -0
-    value_ = digest({reinterpret_cast<const char*>(&number), sizeof number}, value_);
-  }
-  void add(const Vec2& x) { add(x.x()), add(x.y()); }
-  void add(const Vector& values) {
-    add(static_cast<double>(values.size()));
-    for (const double value : values) add(value);
-  }
-  std::string text() const { return hexadecimal(value_); }
-
- private:
-  std::uint64_t value_ = digest_start;
-};
-
-void add_material(const model::Material& material, Fingerprint& to) {
-  to.add(material.young), to.add(material.poisson);
-  if (!material.law) return;
-  if (const auto* of = std::get_if<model::Orthotropic>(&*material.law)) {
-    for (const double value : {of->E1, of->E2, of->E3, of->nu12, of->nu13, of->nu23, of->G12, of->angle}) to.add(value);
-    return;
-  }
-  const auto& of = std::get<model::Anisotropic>(*material.law);
-  for (const double value : {of.D11, of.D12, of.D22, of.D16, of.D26, of.D66}) to.add(value);
-}
-
-bool body_is_there(const Prepared& now, int body) { return !now.is_absent(now.structure.dofs.part_of(body)); }
-
-/// Shape, mesh and material of a body, and the bodies it is tied to.
-std::string fingerprint_of_body(const Prepared& now, std::size_t b) {
-  Fingerprint of;
-  const model::Body& body = now.model.bodies[b];
-  of.add(now.model.analysis.revolved()                      ? "axisymmetric"
-         : now.model.analysis.plane == model::Plane::strain ? "strain"
-                                                            : "stress");
-  of.add(now.model.analysis.thickness);
-  if (now.model.analysis.per_radian) of.add("per radian");
-  const std::size_t part = now.structure.dofs.part_of(static_cast<int>(b));
-  for (const int other : now.structure.dofs.bodies_of(part))
-    of.add(now.model.bodies[static_cast<std::size_t>(other)].name);
-  of.add(static_cast<double>(now.structure.dofs.size(part)));
-  if (body.rigid) {
-    of.add(body.outline.centroid());
-    of.add(system::half_size(body.outline));
-    return of.text();
-  }
-  for (const Vec2& node : now.mesh.bodies[b].nodes) of.add(node);
-  for (const mesh::Cell& cell : now.mesh.bodies[b].cells) {
-    of.add(static_cast<double>(cell.kind));
-    of.add(static_cast<double>(cell.boundary.size()));
-    for (const int material : cell.materials) add_material(now.model.materials[static_cast<std::size_t>(material)], of);
-  }
-  return of.text();
-}
-
-std::string fingerprint_of_support(const Prepared& now, std::size_t support) {
-  Fingerprint of;
-  for (std::size_t p = 0; p < now.structure.parts.size(); ++p)
-    for (const system::Constraint& constraint : now.structure.parts[p]->constraints()) {
-      if (constraint.support != static_cast<int>(support)) continue;
-      of.add(static_cast<double>(constraint.dof)), of.add(static_cast<double>(constraint.component));
-      of.add(constraint.point), of.add(constraint.inclined), of.add(constraint.value);
-      of.add(constraint.rotation ? 1.0 : 0.0);
-    }
-  return of.text();
-}
-
-std::string fingerprint_of_contact(const Prepared& now, const State& state, std::size_t contact) {
-  Fingerprint of;
-  const auto index = static_cast<int>(contact);
-  for (std::size_t i = 0; i < now.contact.pairs.size(); ++i) {
-    if (now.contact.pairs[i].contact != index) continue;
-    const mesh::ContactPair& pair =
-        now.mesh.interfaces[contact].pairs[static_cast<std::size_t>(now.contact.pairs[i].index)];
-    of.add(pair.normal), of.add(pair.point_a), of.add(pair.point_b);
-    of.add(gap_at(now, state.factors, static_cast<Eigen::Index>(i)));
-  }
-  return of.text();
-}
-
-std::string fingerprint_of_load(const Prepared& now, std::size_t load) {
-  Fingerprint of;
-  for (std::size_t p = 0; p < now.structure.parts.size(); ++p) {
-    const Vector& forces = now.structure.loads[load][p];
-    if (now.is_absent(p) || forces.size() == 0 || forces.isZero(0.0)) continue;
-    of.add(now.model.bodies[static_cast<std::size_t>(now.structure.dofs.bodies_of(p).front())].name);
-    of.add(forces);
-  }
-  return of.text();
-}
-
-std::vector<EndState::Agreement> agreements_of(const Prepared& now, const State& state) {
-  const model::Model& model = now.model;
-  std::vector<EndState::Agreement> agreements;
-  const auto add = [&](const char* kind, const std::string& name, std::string digest) {
-    agreements.push_back({fmt::format("{} '{}'", kind, name), std::move(digest)});
-  };
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (body_is_there(now, static_cast<int>(b))) add("body", model.bodies[b].name, fingerprint_of_body(now, b));
-  for (std::size_t i = 0; i < model.supports.size(); ++i)
-    if (body_is_there(now, model.supports[i].on.body))
-      add("support", model.supports[i].name, fingerprint_of_support(now, i));
-  for (const model::Spring& spring : model.springs) {
-    if (!body_is_there(now, spring.on.body)) continue;
-    Fingerprint of;
-    of.add(spring.stiffness[0]), of.add(spring.stiffness[1]);
-    of.add(static_cast<double>(spring.on.kind)), of.add(static_cast<double>(spring.on.index)), of.add(spring.on.near);
-    add("spring", spring.name, of.text());
-  }
-  for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    if (body_is_there(now, model.contacts[c].a.body) && body_is_there(now, model.contacts[c].b.body))
-      add("contact", model.contacts[c].name, fingerprint_of_contact(now, state, c));
-  for (std::size_t load = 0; load < model.loads.size(); ++load)
-    if (state.factors.loads[load] != 0.0) add("load", model.loads[load].name, fingerprint_of_load(now, load));
-  return agreements;
-}
+constexpr const char* end_version = "6";
 
 template <typename Io, typename T, typename Exchange>
 void exchange_list(Io& io, const std::string& path, std::vector<T>& list, const Exchange& exchange) {
@@ -154,7 +35,8 @@ bool is_of_contact(const Field& field) {
          (field.owner == Owner::pair || field.owner == Owner::held_pair || field.owner == Owner::contact);
 }
 bool is_of_part(const Field& field) {
-  return field.lasts && (field.owner == Owner::part || field.owner == Owner::rigid_motion);
+  return field.lasts &&
+         (field.owner == Owner::part || field.owner == Owner::rigid_motion || field.owner == Owner::vector_of_part);
 }
 bool is_of_whole(const Field& field) { return field.lasts && field.owner == Owner::whole; }
 
@@ -219,10 +101,23 @@ std::size_t entries_of(const Prepared& now, const Field& field) {
       return now.model.contacts.size();
     case Owner::part:
       return now.structure.parts.size();
+    case Owner::vector_of_part:
     case Owner::whole:
       break;
   }
   return 1;
+}
+
+/// Of a field with a vector for every part that of one of them; nothing if the field is empty.
+std::vector<double> vector_of_part(const std::vector<double>& numbers, std::size_t part) {
+  std::size_t at = 0;
+  for (std::size_t p = 0; at < numbers.size(); ++p) {
+    const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+    const auto count = static_cast<std::ptrdiff_t>(numbers[at]);
+    if (p == part) return {begin, begin + count};
+    at += 1 + static_cast<std::size_t>(count);
+  }
+  return {};
 }
 
 /// The entries of a field at some places; nothing if the field is empty.
@@ -359,8 +254,22 @@ const std::string& name_of_part(const Prepared& now, std::size_t part) {
   return now.model.bodies[static_cast<std::size_t>(now.structure.dofs.bodies_of(part).front())].name;
 }
 
+/// A field with a vector for every part, all of which are there if they move.
+void continue_vectors(const Prepared& now, const EndState& end, const Field& field, State& state) {
+  if (!now.model.restart->motion) return;
+  std::vector<double> numbers;
+  for (std::size_t p = 0; p < now.structure.parts.size(); ++p) {
+    const EndState::Of* of = find(end.parts, name_of_part(now, p));
+    const std::vector<double>& values = of ? kept(of->fields, field.name) : kept({}, field.name);
+    numbers.push_back(static_cast<double>(values.size()));
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  }
+  field.set(state, numbers);
+}
+
 /// A field of the state at the start of a model, from the end of the other run.
 void continue_field(const Prepared& now, const EndState& end, const Field& field, State& state) {
+  if (field.owner == Owner::vector_of_part) return continue_vectors(now, end, field, state);
   std::vector<double> numbers = field.get(state);
   const std::size_t size = static_cast<std::size_t>(field.count) * entries_of(now, field);
   if (is_of_whole(field)) numbers = kept(end.whole, field.name);
@@ -378,7 +287,8 @@ void continue_field(const Prepared& now, const EndState& end, const Field& field
 EndState end_state(const Prepared& now, const State& state) {
   EndState end;
   end.version = end_version;
-  end.agreements = agreements_of(now, state);
+  const bool in_motion = !state.velocity.empty();
+  end.agreements = agreements_of(now, state, in_motion);
   for (const model::Contact& contact : now.model.contacts) end.contacts.push_back({contact.name, {}});
   for (const std::size_t p : present_parts(now)) end.parts.push_back({name_of_part(now, p), {}});
   for (const Field& field : fields_of_state()) {
@@ -389,12 +299,19 @@ EndState end_state(const Prepared& now, const State& state) {
     std::size_t number = 0;
     for (const std::size_t p : present_parts(now))
       if (is_of_part(field))
-        end.parts[number++].fields[field.name] = selected(numbers, places_in_part(now, field, p), field.count);
+        end.parts[number++].fields[field.name] = field.owner == Owner::vector_of_part
+                                                     ? vector_of_part(numbers, p)
+                                                     : selected(numbers, places_in_part(now, field, p), field.count);
   }
   for (std::size_t i = 0; i < now.model.loads.size(); ++i)
     end.loads.push_back({now.model.loads[i].name, state.factors.loads[i]});
   for (std::size_t i = 0; i < now.model.supports.size(); ++i)
     end.supports.push_back({now.model.supports[i].name, state.factors.supports[i]});
+  const std::size_t last = now.model.steps.size() - 1;
+  if (in_motion)
+    end.motion = {{"time", state.time},
+                  {"ground_x", ground_velocity(now.model, last, 1.0, 0)},
+                  {"ground_y", ground_velocity(now.model, last, 1.0, 1)}};
   return end;
 }
 
@@ -402,7 +319,9 @@ void write_end_state(const fs::path& directory, EndState end) {
   const fs::path factors = directory / model::factors_at_end_file;
   std::ofstream stream(factors, std::ios::binary);
   stream << "# Scabo: factors at the end of this run\n";
-  for (const auto& [section, list] : {std::pair("loads", &end.loads), std::pair("supports", &end.supports)}) {
+  for (const auto& [section, list] :
+       {std::pair("loads", &end.loads), std::pair("supports", &end.supports), std::pair("motion", &end.motion)}) {
+    if (list == &end.motion && list->empty()) continue;
     stream << section << ":\n";
     for (const EndState::Factor& factor : *list) {
       std::string quoted;
@@ -429,7 +348,9 @@ State state_of_restart(const Prepared& now) {
   State state = initial_state(now);
   state.factors.loads = now.model.restart->load_factors;
   state.factors.supports = now.model.restart->support_factors;
-  if (auto messages = disagreements(end.agreements, agreements_of(now, state), directory); !messages.empty())
+  if (auto messages =
+          disagreements(end.agreements, agreements_of(now, state, now.model.restart->motion.has_value()), directory);
+      !messages.empty())
     refuse(now.model, std::move(messages));
   for (const Field& field : fields_of_state())
     if (field.lasts) continue_field(now, end, field, state);

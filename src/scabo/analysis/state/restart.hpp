@@ -2,12 +2,13 @@
 // (model/restart_files.hpp):
 //
 //   end.hdf5   the state of every body and contact by name, and digests of what the two models must have in common
-//   end.yaml   factors of loads and supports, which the reader of the other model needs for its steps
+//   end.yaml   factors of loads and supports, which the reader of the other model needs for its steps, and the time and
+//              the velocity of the ground of a run that ended in motion
 //
-// Displacements are not kept: they follow from the factors, the contact forces and the rigid motions, as those of a
-// checkpoint do, if bodies, supports, springs, contacts and the loads that act are the same. Digests tell whether they
-// are. Bodies that are absent at the end (stages.hpp) may be left out of the other model, and it may have others that
-// are added later. Laws of contacts may change: a joint keeps its forces, its slip and whether it is broken. Of
+// Displacements at rest are not kept: they follow from the factors, the contact forces and the rigid motions, as those
+// of a checkpoint do, if bodies, supports, springs, contacts and the loads that act are the same. Digests tell whether
+// they are. Bodies that are absent at the end (stages.hpp) may be left out of the other model, and it may have others
+// that are added later. Laws of contacts may change: a joint keeps its forces, its slip and whether it is broken. Of
 // contacts with large slip (large_slip.hpp) the end tells where their sides were when their pairs were found: the other
 // run divides them there before anything is compared.
 #pragma once
@@ -40,6 +41,7 @@ struct EndState {
   std::vector<Agreement> agreements;
   std::vector<Of> contacts, parts;
   std::vector<Factor> loads, supports;
+  std::vector<Factor> motion;                        ///< time and ground_x, ground_y; empty: at rest
   std::map<std::string, std::vector<double>> whole;  ///< lasting fields of the state itself
 };
 

@@ -60,6 +60,7 @@ struct Factors {
   std::vector<double> presence = {};  ///< per body, part of its loads that acts, 0 to 1; empty: all of all
   double release = 0.0;               ///< part of State::released that acts
   std::vector<double> fits = {};      ///< per contact, part of its interferences that is there; empty: all of all
+  double time = 0.0;                  ///< since the begin of the first step in time, of loads that move
 };
 /// Part of its loads that acts on part `p`, 0 to 1.
 double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p);

@@ -46,20 +46,21 @@ bool takes_away(const model::Model& model, std::size_t step) {
 
 namespace {
 
-/// Those of a step, held from its begin, where no curve has others.
+/// Those of a step, held from its begin, where no curve has others. Supports are where they are at `time`.
 template <typename ValueOf>
-Factors held_in(const model::Model& model, std::size_t index, const ValueOf& value_of_curve) {
+Factors held_in(const model::Model& model, std::size_t index, double time, const ValueOf& value_of_curve) {
   const model::Step& step = model.steps[index];
   const auto number = static_cast<int>(index);
   Factors factors{
       step.load_factors,     step.support_factors, model::coefficients_of(step), presence_at(model, number), 0.0,
       fits_at(model, number)};
-  const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {
+  const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of, const auto& value) {
     for (std::size_t i = 0; i < curves.size(); ++i)
-      if (curves[i] >= 0) of[i] = value_of_curve(model.curves[static_cast<std::size_t>(curves[i])]);
+      if (curves[i] >= 0) of[i] = value(model.curves[static_cast<std::size_t>(curves[i])]);
   };
-  follow(step.load_curves, factors.loads);
-  follow(step.support_curves, factors.supports);
+  follow(step.load_curves, factors.loads, value_of_curve);
+  follow(step.support_curves, factors.supports,
+         [&](const model::Curve& curve) { return model::displacement_at(curve, time, step.dynamic->duration); });
   return factors;
 }
 
@@ -67,17 +68,17 @@ Factors held_in(const model::Model& model, std::size_t index, const ValueOf& val
 
 Factors factors_at_time(const model::Model& model, std::size_t step, double time) {
   const double duration = model.steps[step].dynamic->duration;
-  return held_in(model, step, [&](const model::Curve& curve) { return model::value_at(curve, time, duration); });
+  return held_in(model, step, time, [&](const model::Curve& curve) { return model::value_at(curve, time, duration); });
 }
 
 Factors mean_factors(const model::Model& model, std::size_t step, double from, double to) {
   const double duration = model.steps[step].dynamic->duration;
-  return held_in(model, step,
+  return held_in(model, step, to,
                  [&](const model::Curve& curve) { return model::mean_between(curve, from, to, duration); });
 }
 
 double ground_velocity(const model::Model& model, std::size_t index, double s, std::size_t axis) {
-  double velocity = 0.0;
+  double velocity = model.restart && model.restart->motion ? model.restart->motion->ground[axis] : 0.0;
   for (std::size_t i = 0; i <= index; ++i) {
     const auto& dynamic = model.steps[i].dynamic;
     if (!dynamic || dynamic->ground[axis] < 0) continue;
