@@ -245,6 +245,12 @@ TWICE = {
     "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.3\n*SURFACE INTERACTION, NAME=i\n*FRICTION\n0.2\n":
         "there is another *SURFACE INTERACTION 'i' before this one",
     "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.3\n*FRICTION\n0.2\n": "*FRICTION of this *SURFACE INTERACTION stands before this one too",
+    "*SURFACE, NAME=Body_Right\n1, S4\n": "there is another *SURFACE 'Body_Right' before this one",
+    "*NODE PRINT, NSET=N_BODY_TOP, nset=N_BODY_LEFT\nU\n": "*NODE PRINT gives NSET twice",
+    "*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD, Pressure-Overclosure = TIED\n": "gives PRESSURE-OVERCLOSURE twice",
+    STATIC + "*STATIC, DIRECT\n.2, 1.\n" + END: "another procedure of this step stands before this *STATIC",
+    STATIC + "*BOUNDARY\nN_BODY_RIGHT, 1, 1, 1e-3\nN_BODY_TOP, 1, 1, 2e-3\n" + END:
+        "in one step 'N_BODY_RIGHT' has the displacement 0.001 along degree of freedom 1, and 'N_BODY_TOP', of the same node, 0.002",
 }
 
 LOST_IN_STEP = {
@@ -310,7 +316,14 @@ class Messages(Converting):
             with self.subTest(part=part):
                 run = self.convert(SQUARE + part + HELD + PRESSED)
                 self.assertEqual(run.returncode, 1, run.stderr)
-                self.assertRegex(run.stderr, rf"(?m)^part\.inp:\d+: (?!warning).*{re.escape(message)}")
+                self.assertRegex(run.stderr, rf"(?m)^part\.inp:\d+(:1)?: (?!warning).*{re.escape(message)}")
+
+    def test_lines_without_a_name(self):
+        self.converted(SQUARE + HELD + PRESSED.replace("*STATIC", "*STATIC, ,"))
+        for line, message in (("*STATIC, =3\n", "*STATIC gives '=3' to no parameter"), ("*\n*STATIC\n", "this line names no keyword")):
+            run = self.convert(SQUARE + HELD + PRESSED.replace("*STATIC\n", line))
+            self.assertEqual(run.returncode, 1, run.stderr)
+            self.assertRegex(run.stderr, rf"^part\.inp:57:1: {re.escape(message)}")
 
     def test_elements_and_sets_that_are_not_there(self):
         """Messages name the line, and what stands in it."""

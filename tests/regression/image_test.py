@@ -6,12 +6,13 @@ import support
 from support import InTemporaryDirectory, scabo, summary_of
 
 
-def write_png(file, rows):
-    """Eight bits of grey; the first row is the top one."""
+def write_png(file, rows, opacity=None):
+    """Eight bits of grey, and of opacity if it is given; the first row is the top one."""
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    raw = b"".join(b"\0" + bytes(row) for row in rows)
-    file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0))
+    samples = lambda row: row if opacity is None else [value for level in row for value in (level, opacity)]
+    raw = b"".join(b"\0" + bytes(samples(row)) for row in rows)
+    file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0 if opacity is None else 4, 0, 0, 0))
                      + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 
 
@@ -74,6 +75,12 @@ class Levels(Images):
             with self.subTest(levels):
                 self.assertAlmostEqual(self.force("smooth.png", levels, "meant"), 13972, delta=1)
                 self.assertEqual(self.said, "")
+
+    def test_transparent_pixels_are_told(self):
+        for opacity, word in ((255, ""), (128, "bodies.wall.shape.image.file: 1024 of 1024 pixels are transparent, and count by their level of grey")):
+            write_png(self.directory / "clear.png", [[255] * 32] * 16 + [[0] * 32] * 16, opacity)
+            self.assertAlmostEqual(self.force("clear.png", "{0: soft, 255: stiff}", "clear"), 19426.11, delta=0.01)
+            self.assertIn(word, self.said) if word else self.assertEqual(self.said, "")
 
     def test_a_range_without_pixels_is_told(self):
         self.force("sharp.png", "{0-127: soft, 128-254: soft, 255: stiff}", "absent")

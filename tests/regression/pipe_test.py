@@ -25,6 +25,7 @@ class Pipes(InTemporaryDirectory):
     def pipe(self, name, content):
         """Written once, when it is opened to be read; a reader that opens it again waits for ever."""
         path = self.directory / name
+        path.parent.mkdir(exist_ok=True)
         os.mkfifo(path)
 
         def write():
@@ -81,6 +82,18 @@ class Pipes(InTemporaryDirectory):
                 run = scabo("check", model)
                 self.assertEqual(run.returncode, 1)
                 self.assertIn("is a pipe or a device, which is read only once", run.stderr)
+
+    def test_records_and_states_that_are_pipes_are_refused(self):
+        self.pipe("quake.txt", "0.1\n0.2\n")
+        self.pipe("first.results/end.yaml", "")
+        for more, message in (("curves: {quake: {record: {file: quake.txt, unit: m/s2}}}\n", "quake.txt: the file of the record cannot be read: is a pipe or a device"),
+                              ("restart: first.results\n", "'first.results' has no state at its end to start from")):
+            with self.subTest(more):
+                model = self.directory / "model.yaml"
+                model.write_text(MODEL + more, encoding="utf-8")
+                run = scabo("check", model)
+                self.assertEqual(run.returncode, 1)
+                self.assertIn(message, run.stderr)
 
     def test_pipes_in_the_place_of_results_are_refused(self):
         model = self.directory / "model.yaml"

@@ -422,6 +422,35 @@ TEST(Springs, SoftOnesBesideAContactTakeNoDigits) {
   }
 }
 
+// A rigid block of 10 kN on an elastic floor, in m and in mm: friction holds the push, and the spring takes next to
+// nothing. Gaps count by the way that the loads would move the block on its spring, 10 km, so that contact is solved to
+// a smaller tolerance.
+TEST(Springs, SoftOnesBesideARigidBlockOnAnElasticFloor) {
+  for (const double unit : {1.0, 1e3})
+    for (const char* axis : {"k_x", "k_y"})
+      for (const double k : {1e4, 1e2, 1.0})
+        for (const double push : {0.0, 500.0}) {
+          const auto at = [&](double x, double y) { return fmt::format("[{}, {}]", x * unit, y * unit); };
+          const auto solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{thickness: {}}}
+materials: {{s: {{young: {}, poisson: 0.2}}}}
+bodies:
+  floor: {{material: s, shape: {{rectangle: {{corner: {}, size: {}}}}}, mesh: {{size: {}}}}}
+  block: {{rigid: true, shape: {{rectangle: {{corner: {}, size: {}}}}}}}
+supports: [{{on: floor.bottom, fix: [x, y]}}]
+springs: [{{on: block.bottom_left, {}: {}}}]
+loads: {{weight: {{on: block, force: [0, -1e4]}}, push: {{on: block.top_right, force: [{}, 0]}}}}
+contacts: {{base: {{between: [floor.top, block.bottom], friction: 0.1}}}}
+)",
+                                                unit, 1e9 / (unit * unit), at(-2, -1), at(4, 1), 0.25 * unit,
+                                                at(-0.5, 0), at(1, 1), axis, k / unit, push));
+          ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << axis << ", " << k << ": " << solution.reason;
+          EXPECT_NEAR(contact_of(last(solution)).normal_force, 1e4, 0.1);
+          EXPECT_NEAR(std::abs(contact_of(last(solution)).tangential_force), push, 0.1);
+        }
+}
+
 // Where no digits are left, the run is not solved and says why.
 TEST(Springs, ThatAreTooSoftBesideAContactAreNotSolved) {
   for (const double k : {1.0, 1e-2, 1e-6}) {

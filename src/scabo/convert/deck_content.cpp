@@ -111,6 +111,8 @@ class ContentReader {
   void static_step(const DeckBlock& block) {
     if (!in_step_) return remarks_.essential(block.at, "*STATIC stands outside of a step; put *STEP before it");
     DeckStep& step = content_.steps.back();
+    if (has_procedure_)
+      remarks_.essential(block.at, "another procedure of this step stands before this *STATIC; leave one of them");
     has_procedure_ = true;
     step.equal = is_on(block, "DIRECT");
     if (block.lines.empty()) return;
@@ -246,6 +248,17 @@ class ContentReader {
     growing.given.at = line.at;
   }
 
+  /// Programs differ in which of two values counts.
+  void tell_other_value(const Growing& growing, int component, double value, const std::string& amplitude,
+                        const DeckLine& line) {
+    if (!in_step_ || !growing.touched || (growing.value == value && growing.amplitude == amplitude)) return;
+    remarks_.essential(line.at,
+                       fmt::format("in one step '{}' has the displacement {:g} along degree of freedom {}, and "
+                                   "'{}', of the same node, {:g}; keep the one that is meant",
+                                   files::printable(growing.given.label), growing.value, component + 1,
+                                   files::printable(line.fields[0]), value));
+  }
+
   void boundary(const DeckBlock& block) {
     const auto amplitude = amplitude_of(block);
     if (!amplitude) return;
@@ -290,6 +303,7 @@ class ContentReader {
       for (const int node : nodes_of(line, "the support"))
         for (const int component : components) {
           const bool known = displacements_.contains({node, component});
+          tell_other_value(displacements_[{node, component}], component, value, *amplitude, line);
           grow(displacements_[{node, component}], value, *amplitude, line, false);
           if (in_step_ && !known && content_.steps.size() > 1)
             remarks_.essential(
@@ -379,18 +393,7 @@ class ContentReader {
         else if (value)
           press(*sides, *value, *amplitude, line);
       } else if (label == "GRAV") {
-        const auto g = number(remarks_, line, 2, "the acceleration");
-        const auto x = number(remarks_, line, 3, "the direction of gravity", 0.0),
-                   y = number(remarks_, line, 4, "the direction of gravity", 0.0),
-                   z = number(remarks_, line, 5, "the direction of gravity", 0.0);
-        if (!g || !x || !y || !z) continue;
-        const double length = std::hypot(*x, *y, *z);
-        if (*g != 0.0 && (!(length > 0.0) || std::abs(*z) > 1e-9 * length)) {
-          remarks_.essential(line.at, "gravity needs a direction in the plane; correct the last three numbers");
-          continue;
-        }
-        body_load(line, DeckBodyLoad::Kind::gravity,
-                  length > 0.0 ? Vec2(*g * *x / length, *g * *y / length) : Vec2(0.0, 0.0), *amplitude);
+        if (const auto g = gravity_of(remarks_, line)) body_load(line, DeckBodyLoad::Kind::gravity, *g, *amplitude);
       } else if (label == "BX" || label == "BY") {
         const auto value = number(remarks_, line, 2, "the force per volume");
         if (value)

@@ -58,6 +58,20 @@ std::optional<std::vector<double>> numbers_of(Remarks& remarks, const DeckBlock&
   return std::nullopt;
 }
 
+std::optional<Vec2> gravity_of(Remarks& remarks, const DeckLine& line) {
+  const auto g = number(remarks, line, 2, "the acceleration");
+  const auto x = number(remarks, line, 3, "the direction of gravity", 0.0),
+             y = number(remarks, line, 4, "the direction of gravity", 0.0),
+             z = number(remarks, line, 5, "the direction of gravity", 0.0);
+  if (!g || !x || !y || !z) return std::nullopt;
+  const double length = std::hypot(*x, *y, *z);
+  if (*g != 0.0 && (!(length > 0.0) || std::abs(*z) > 1e-9 * length)) {
+    remarks.essential(line.at, "gravity needs a direction in the plane; correct the last three numbers");
+    return std::nullopt;
+  }
+  return length > 0.0 ? Vec2(*g * *x / length, *g * *y / length) : Vec2(0.0, 0.0);
+}
+
 std::optional<double> rotation_of(Remarks& remarks, const DeckLine& line) {
   const auto square = number(remarks, line, 2, "the square of the angular velocity");
   std::array<double, 6> axis{};  // a point, a direction

@@ -22,6 +22,8 @@ std::optional<double> number(Remarks& remarks, const files::DeckLine& line, std:
 std::optional<std::vector<double>> numbers_of(Remarks& remarks, const files::DeckBlock& block, std::size_t count,
                                               const char* what);
 
+/// Acceleration of a line of GRAV. Nothing, with a remark, if it is not in the plane.
+std::optional<Vec2> gravity_of(Remarks& remarks, const files::DeckLine& line);
 /// Square of the angular velocity of a line of CENTRIF about the axis of revolution. Nothing, with a remark, if it is
 /// about another axis.
 std::optional<double> rotation_of(Remarks& remarks, const files::DeckLine& line);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/files/abaqus_lines.hpp"
@@ -227,7 +226,7 @@ bool lacks_data(const DeckBlock& block, DataLines wanted) {
 
 }  // namespace
 
-const KeywordRule* rule_of(const std::string& name) {
+const std::map<std::string, KeywordRule>& keyword_rules() {
   static const Rules all = [] {
     Rules rules;
     add_mesh_rules(rules);
@@ -236,8 +235,12 @@ const KeywordRule* rule_of(const std::string& name) {
     add_history_rules(rules);
     return rules;
   }();
-  const auto found = all.find(name);
-  return found == all.end() ? nullptr : &found->second;
+  return all;
+}
+
+const KeywordRule* rule_of(const std::string& name) {
+  const auto found = keyword_rules().find(name);
+  return found == keyword_rules().end() ? nullptr : &found->second;
 }
 
 void check_block(const DeckBlock& block, Remarks& remarks) {

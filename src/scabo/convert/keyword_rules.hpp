@@ -2,6 +2,7 @@
 // it needs data lines. docs/convert.md lists the same; a parameter that stands nowhere is an essential remark.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct KeywordRule {
   bool any_parameter = false;  ///< none has an effect on results, but for those that are refused
 };
 
+/// By keyword, in upper case and without blanks.
+const std::map<std::string, KeywordRule>& keyword_rules();
 /// Null for a keyword that is not part of a model.
 const KeywordRule* rule_of(const std::string& name);
 

@@ -142,13 +142,21 @@ AbaqusKeyword AbaqusLines::keyword_of_line() {
     joined += line_;
   }
   const std::vector<std::string_view> fields = split_fields(joined);
-  if (fields.empty()) return keyword;
+  if (fields.empty() || fields.front().empty()) builder_.fail(keyword.at, "this line names no keyword; take it out");
   keyword.name = without_blanks(upper(fields.front()));
   keyword.written = '*' + printable(with_single_blanks(fields.front()));
   for (std::size_t i = 1; i < fields.size(); ++i) {
+    if (fields[i].empty()) continue;
     const auto equals = fields[i].find('=');
     const std::string_view value = equals == std::string_view::npos ? "" : fields[i].substr(equals + 1);
-    keyword.parameters[with_single_blanks(fields[i].substr(0, equals))] = trimmed(without_quotes(value));
+    const std::string parameter = with_single_blanks(fields[i].substr(0, equals));
+    if (parameter.empty())
+      builder_.fail(keyword.at, fmt::format("{} gives '{}' to no parameter; write its name before it", keyword.written,
+                                            printable(fields[i])));
+    if (keyword.has(parameter))
+      builder_.fail(keyword.at, fmt::format("{} gives {} twice; keep the one that is meant", keyword.written,
+                                            printable(parameter)));
+    keyword.parameters[parameter] = trimmed(without_quotes(value));
   }
   return keyword;
 }
@@ -175,7 +183,7 @@ void AbaqusLines::insert(const AbaqusKeyword& keyword) {
   const std::string name = keyword.value("INPUT");
   if (name.empty()) builder_.fail(keyword.at, keyword.written + " names no file; write INPUT=file");
   for (const auto& [parameter, value] : keyword.parameters)
-    if (parameter != "INPUT" && !parameter.empty())
+    if (parameter != "INPUT")
       builder_.fail(keyword.at, fmt::format("{} with {} is not taken: put the text of the file into INPUT=file alone",
                                             keyword.written, printable(parameter)));
   if (open_.size() > most_nested_includes || names_.size() > most_includes)

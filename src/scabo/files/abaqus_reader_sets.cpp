@@ -115,6 +115,10 @@ void AbaqusReader::surface(const AbaqusKeyword& key) {
     return;
   }
   if (!type.empty() && type != "ELEMENT") return;  // cutting, user and revolved surfaces have no sides of cells
+  for (const auto& surface : surfaces_)
+    if (upper(surface.name) == upper(name))
+      builder_.fail(key.at, fmt::format("there is another *SURFACE '{}' before this one; give each a name of its own",
+                                        printable(key.value("NAME"))));
   surfaces_.push_back({name, fmt::format("surface '{}'", printable(name)), {}});
   while (next_data(fields))
     surfaces_.back().entries.push_back(

@@ -133,12 +133,11 @@ void GmshReader::read_name() {
   }
   std::string& name = names_[{static_cast<int>(dimension), tag}];
   const std::string_view found = rest.substr(first + 1, last - first - 1);
-  if (dimension == no_dimension && !name.empty() && name != found) {
-    fail(
-        fmt::format("the physical groups '{}' and '{}' both have the tag {}, and without dimensions it is not known "
-                    "which is which; save as 4.1 or 2.2 (in Gmsh: -format msh41)",
-                    printable(name), printable(found), tag));
-  }
+  if (!name.empty() && name != found)
+    fail(fmt::format("the physical groups '{}' and '{}' both have the tag {}{}", printable(name), printable(found), tag,
+                     dimension == no_dimension ? ", and without dimensions it is not known which is which; save as 4.1 "
+                                                 "or 2.2 (in Gmsh: -format msh41)"
+                                               : " of one dimension; keep the one that is meant"));
   name = found;
 }
 

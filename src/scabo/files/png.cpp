@@ -36,7 +36,7 @@ constexpr std::uint64_t most_pixels = std::uint64_t(1) << 28;
 
 struct PngHeader {
   png_uint_32 width = 0, height = 0;
-  int channels = 0;  // after conversion: 1 or 3
+  int channels = 0;  // after conversion: 1 or 3, and one of transparency
   int bytes = 0;     // of a sample: 1 or 2
   std::size_t row_bytes = 0;
 };
@@ -53,14 +53,14 @@ bool read_header(png_structp png, png_infop info, std::FILE* file, PngHeader* he
   const int colours = png_get_color_type(png, info);
   if (colours == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png);
   if (colours == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png, info) < 8) png_set_expand_gray_1_2_4_to_8(png);
-  png_set_strip_alpha(png);
+  if (png_get_valid(png, info, PNG_INFO_tRNS)) png_set_tRNS_to_alpha(png);
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
   header->channels = png_get_channels(png, info);
   header->bytes = png_get_bit_depth(png, info) / 8;
   header->row_bytes = png_get_rowbytes(png, info);
-  if (header->row_bytes != std::size_t(header->width) * header->channels * header->bytes ||
-      (header->channels != 1 && header->channels != 3)) {
+  if (header->row_bytes != std::size_t(header->width) * header->channels * header->bytes || header->channels < 1 ||
+      header->channels > 4) {
     png_error(png, "an unknown arrangement of samples");
   }
   return true;
@@ -116,12 +116,13 @@ PngImage read_png(const std::string& file) {
     return value;
   };
   for (int& label : image.labels) {
-    if (header.channels == 1) {
+    if (header.channels <= 2) {
       label = sample();
     } else {
       const std::int64_t red = sample(), green = sample(), blue = sample();
       label = int((299 * red + 587 * green + 114 * blue + 500) / 1000);
     }
+    if (header.channels % 2 == 0 && sample() < image.largest_label) ++image.transparent;
   }
   return image;
 }

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <string_view>
 
+#include "scabo/files/bytes_of_file.hpp"
 #include "scabo/files/text_cursor.hpp"
 
 namespace scabo::files {
@@ -19,8 +20,9 @@ struct Line {
 };
 
 std::vector<Line> lines_of(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) fail_in_file(file, 0, 0, "the file of the record cannot be read");
+  const std::optional<std::string> bytes = bytes_of_file(file);
+  if (!bytes) fail_in_file(file, 0, 0, "the file of the record cannot be read: " + why_unreadable(file));
+  std::istringstream stream(*bytes);
   std::vector<Line> lines;
   constexpr int most = 10'000'000;
   for (std::string text; std::getline(stream, text);) {

@@ -178,6 +178,13 @@ std::optional<Outline> read_image(Reading& reading, const Value& value, Body& bo
       report.error(*file_value, fmt::format("{}: {}", *name, error.diagnostics().front().message));
     }
   }
+  if (image && image->transparent > 0)
+    reading.model.warnings.push_back(
+        {WarningKind::input, file_value->path,
+         fmt::format(
+             "{}: {} of {} pixels are transparent, and count by their level of grey as if they were not: paint those "
+             "that are to be empty in a grey of their own",
+             file_value->path, image->transparent, image->labels.size())});
   if (const auto pixel = map.need("pixel")) {
     shape.pixel = read_number(report, *pixel).value_or(1.0);
     if (!(shape.pixel > 0.0)) report.error(*pixel, "must be greater than 0: it is the length of the side of a pixel");

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "scabo/files/bytes_of_file.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/input/yaml_document.hpp"
@@ -44,11 +43,10 @@ void read_restart(Reading& reading, const Value& value) {
             quoted_name(*name)));
     return;
   }
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::optional<std::string> text = files::bytes_of_file(file);
   std::vector<Diagnostic> mistakes;
   const NodePtr root =
-      stream.is_open() && fs::exists(directory / state_at_end_file, error) ? parse_yaml(text, mistakes) : NodePtr();
+      text && fs::exists(directory / state_at_end_file, error) ? parse_yaml(*text, mistakes) : NodePtr();
   if (!root || root->kind != Node::Kind::map || !mistakes.empty()) {
     reading.report.error(
         value, fmt::format("{} has no state at its end to start from: only a run that was solved, without error bars, "

@@ -425,8 +425,35 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
   return warnings;
 }
 
+namespace {
+
+/// A point of an elastic body gives way without limit under a force: what moves it by so much has no force of its own.
+void warn_of_moved_points(const StaticSolution& solution, std::vector<Warning>& warnings) {
+  const auto last = std::find_if(solution.increments.rbegin(), solution.increments.rend(),
+                                 [](const IncrementResult& increment) { return increment.converged; });
+  if (last == solution.increments.rend()) return;
+  constexpr double least = 1e-6;  // of the largest reaction
+  double largest = 0.0;
+  for (const Vec2& reaction : last->reactions) largest = std::max(largest, reaction.norm());
+  for (std::size_t s = 0; s < solution.model.supports.size(); ++s) {
+    const model::Support& support = solution.model.supports[s];
+    const bool moves = support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0;
+    const bool point = support.on.kind == model::Place::Kind::corner || support.on.kind == model::Place::Kind::near;
+    const model::Body& body = solution.model.bodies[static_cast<std::size_t>(support.on.body)];
+    if (!moves || !point || body.rigid || !(last->reactions[s].norm() > least * largest)) continue;
+    warnings.push_back(
+        {WarningKind::infinite_stress, support.name,
+         fmt::format("support '{}' moves a single point of body '{}': its force depends on the mesh, and "
+                     "falls with every finer one; move an edge, or give a force",
+                     support.name, body.name)});
+  }
+}
+
+}  // namespace
+
 std::vector<Warning> contact_warnings(const StaticSolution& solution) {
   std::vector<Warning> warnings;
+  warn_of_moved_points(solution, warnings);
   warn_of_large_strains(solution, warnings);
   warn_of_open_contacts(solution, warnings);
   warn_of_coarse_zones(solution, warnings);

@@ -109,7 +109,8 @@ void solve(const contact::Problem& problem, Making& making) {
 }
 
 /// Corrections of a solution, which leave it one of the same laws: motions that nothing determines, and forces that
-/// are lost in the rounding of W p and q. Whether contact is to be solved again, from there and with another q.
+/// are lost in the rounding of W p and q, or because gaps count by the way that loads would move a softly held body
+/// without contact. Whether contact is to be solved again, from there, with another q and a smaller tolerance.
 bool refine(const Vector& drawn, contact::Problem& problem, Making& making) {
   Attempt& made = making.attempt;
   if (made.solution.status != contact::Status::solved) return false;
@@ -117,8 +118,11 @@ bool refine(const Vector& drawn, contact::Problem& problem, Making& making) {
                             making.to(), made.solution))
     making.balances = add_displacements(making.prepared, nullptr, making.to());
   making.soft = softly_held(making.prepared, making.to(), made.problem, made.solution, drawn, made.force_scale);
-  if (!making.soft || !(making.soft->apart > SoftlyHeld::good)) return false;
+  if (!making.soft || !(making.soft->apart > SoftlyHeld::good || making.soft->wrong > SoftlyHeld::allowed))
+    return false;
   problem.q += making.soft->difference;
+  constexpr double smaller = 1e-2;  // each time: with less than rounding allows nothing is solved
+  if (making.soft->wrong > SoftlyHeld::allowed) making.options.tolerance *= smaller;
   return true;
 }
 
@@ -154,9 +158,15 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   made.force_scale = options.force_scale;
   Making making{prepared, from, laws_at(prepared, factors), options, std::move(made)};
   constexpr int most_corrections = 3;
+  std::optional<Making> before;
   for (int round = 0;; ++round) {
     solve(posed.problem, making);
+    if (before && making.attempt.solution.status != contact::Status::solved) {  // rounding allows no better one
+      certify(*before);
+      return std::move(before->attempt);
+    }
     if (!refine(posed.drawn, posed.problem, making) || round == most_corrections) break;
+    before.emplace(making);
     const contact::Solution& solution = making.attempt.solution;
     making.attempt.start = {solution.p, solution.a, making.attempt.start.touching};
   }
