@@ -641,6 +641,82 @@ steps: [{name: shake, increments: 2, cycles: 2, loads: {push: back_and_forth}}]
         self.assertEqual(len(rows), 9 * finished)
 
 
+class AgainstThePlane(support.InTemporaryDirectory):
+    """Models in space whose fields are those of a plane one: forces that statics fixes are the same, others converge."""
+    materials = "materials: {steel: {young: 200e3, poisson: 0.3}}\n"
+
+    def solve(self, text, name):
+        model = self.directory / f"{name}.yaml"
+        model.write_text("scabo: 1\n" + self.materials + text, encoding="utf-8")
+        done = scabo("run", model, "-o", self.directory / name, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return summary_of(self.directory / name)["increments"]
+
+    def assert_within(self, one, other, part):
+        self.assertAlmostEqual(one, other, delta=part * abs(other))
+
+    def test_plane_strain_between_planes_of_symmetry(self):
+        """A block pressed on a larger one and pushed until half of its base slides; in space a slice of it."""
+        common = """contacts: {joint: {between: [base.top, block.bottom], friction: 0.3}}
+loads: {press: {on: block.top, pressure: 100}}
+steps:
+  - {name: press, loads: {press: 1, ram: 0}}
+  - {name: push, loads: {ram: 1}}
+"""
+        plane = self.solve(common + """analysis: {plane: strain, thickness: 0.5}
+bodies:
+  base: {material: steel, shape: {rectangle: {corner: [0, -5], size: [10, 5]}}, mesh: {kind: fem, size: 0.2, order: 2}}
+  block: {material: steel, shape: {rectangle: {corner: [2, 0], size: [6, 3]}}, mesh: {kind: fem, size: 0.2, order: 2}}
+supports:
+  - {on: base.bottom, fix: [x, y], name: ground}
+  - {on: block.left, displacement: [2e-3, null], name: ram}
+""", "plane")
+        space = self.solve(common + """analysis: {space: true}
+bodies:
+  base: {material: steel, shape: {box: {corner: [0, 0, -5], size: [10, 0.5, 5]}}, mesh: {size: 0.5}}
+  block: {material: steel, shape: {box: {corner: [2, 0, 0], size: [6, 0.5, 3]}}, mesh: {size: 0.5}}
+supports:
+  - {on: base.bottom, fix: [x, y, z], name: ground}
+  - {on: block.left, displacement: [2e-3, null, null], name: ram}
+""" + "".join(f"  - {{on: {body}.{face}, fix: y}}\n" for body in ("base", "block") for face in ("front", "back")), "space")
+        for one, other in zip(space, plane, strict=True):
+            self.assertAlmostEqual(one["contacts"]["joint"]["normal_force"][2], 300, delta=300e-9)
+            self.assertAlmostEqual(one["reactions"]["ground"][2], 300, delta=300e-9)
+            self.assert_within(one["reactions"]["ram"][0], other["reactions"]["ram"][0], 5e-3)
+            self.assert_within(one["energy"]["elastic"], other["energy"]["elastic"], 5e-3)
+        self.assertGreater(space[-1]["contacts"]["joint"]["slip"], 5)
+        self.assertGreater(space[-1]["contacts"]["joint"]["stick"], 5)
+
+    def test_a_pin_on_a_disc_against_a_body_of_revolution(self):
+        """Pressed down by a given way. The force falls to that of a fine mesh of the plane as the elements become smaller."""
+        common = """contacts: {joint: {between: [base.top, pin.bottom], friction: 0.1}}
+"""
+        plane, = self.solve(common + """analysis: {plane: axisymmetric}
+bodies:
+  base: {material: steel, shape: {rectangle: {corner: [0, -2], size: [3, 2]}}, mesh: {kind: fem, size: 0.15, order: 2}}
+  pin: {material: steel, shape: {rectangle: {corner: [0, 0], size: [1.5, 2]}}, mesh: {kind: fem, size: 0.15, order: 2}}
+supports:
+  - {on: base.bottom, fix: [x, y], name: ground}
+  - {on: pin.top, displacement: [0, -2e-3], name: ram}
+""", "plane")
+        force = -plane["reactions"]["ram"][1]
+        for sizes, part in (((0.7, 0.55), 1e-2), ((0.45, 0.35), 5e-3)):
+            space, = self.solve(common + f"""analysis: {{space: true}}
+bodies:
+  base: {{material: steel, shape: {{cylinder: {{from: [0, 0, -2], to: [0, 0, 0], radius: 3}}}}, mesh: {{size: {sizes[0]}}}}}
+  pin: {{material: steel, shape: {{cylinder: {{from: [0, 0, 0], to: [0, 0, 2], radius: 1.5}}}}, mesh: {{size: {sizes[1]}}}}}
+supports:
+  - {{on: base.bottom, fix: [x, y, z], name: ground}}
+  - {{on: pin.top, displacement: [0, 0, -2e-3], name: ram}}
+""", "space")
+            ram, ground = space["reactions"]["ram"], space["reactions"]["ground"]
+            self.assert_within(-ram[2], force, part)
+            self.assert_within(space["energy"]["elastic"], plane["energy"]["elastic"], part)
+            for k in range(3):
+                self.assertAlmostEqual(ram[k] + ground[k], 0, delta=1e-9 * force)
+                self.assertAlmostEqual(space["moments"]["ram"][k] + space["moments"]["ground"][k], 0, delta=1e-9 * force)
+
+
 class Shapes(support.InTemporaryDirectory):
     def test_a_bush_under_pressure_in_a_ring_has_the_stress_of_lame(self):
         """Both of one material without a gap, kept from moving along the axis: together they are one thick tube, and the pressure between them is
