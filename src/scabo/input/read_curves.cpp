@@ -1,6 +1,7 @@
 // `curves`: tables, ramps and sines that factors of loads and supports follow, within a step or over several.
 #include <fmt/format.h>
 
+#include "scabo/input/curves.hpp"
 #include "scabo/input/numbers.hpp"
 #include "scabo/input/reading.hpp"
 
@@ -8,58 +9,58 @@ namespace scabo::input {
 
 namespace {
 
-std::optional<CurveTable> read_curve_table(Reading& reading, const Value& value) {
-  const auto items = read_list(reading.report, value, "[[0, 0], [1, 1], [3, -1], [4, 0]]");
+std::optional<CurveTable> read_curve_table(Report& report, const Value& value) {
+  const auto items = read_list(report, value, "[[0, 0], [1, 1], [3, -1], [4, 0]]");
   if (!items) return {};
   if (items->size() < 2) {
-    reading.report.error(value, "needs two points or more, as in [[0, 0], [1, 1], [3, -1], [4, 0]]");
+    report.error(value, "needs two points or more, as in [[0, 0], [1, 1], [3, -1], [4, 0]]");
     return {};
   }
   CurveTable table;
   for (const Value& item : *items) {
-    const auto point = read_vector(reading.report, item);
+    const auto point = read_vector(report, item);
     if (!point) return {};
     if (!table.points.empty() && !(point->x() >= table.points.back().at)) {
-      reading.report.error(item, "positions must be ascending: a factor cannot jump");
+      report.error(item, "positions must be ascending: a factor cannot jump");
       return {};
     }
     table.points.push_back({point->x(), point->y()});
   }
   table.first = table.points.front().at, table.last = table.points.back().at;
   if (!(table.last > table.first)) {
-    reading.report.error(value, "must have points at different positions");
+    report.error(value, "must have points at different positions");
     return {};
   }
   for (CurveTable::Point& point : table.points) point.at = (point.at - table.first) / (table.last - table.first);
   return table;
 }
 
-std::optional<CurveTable> read_ramp(Reading& reading, const Value& value) {
-  const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"from", "to", "begin", "end"}, "{from: 0, to: 1, begin: 0.2, end: 0.8}");
+std::optional<CurveTable> read_ramp(Report& report, const Value& value) {
+  const std::size_t before = report.count();
+  const MapReader map(report, value, {"from", "to", "begin", "end"}, "{from: 0, to: 1, begin: 0.2, end: 0.8}");
   const auto number = [&](const char* key, double otherwise) {
     const auto given = map.get(key);
-    return given ? read_number(reading.report, *given).value_or(otherwise) : otherwise;
+    return given ? read_number(report, *given).value_or(otherwise) : otherwise;
   };
   map.need("to");
   const double from = number("from", 0.0), to = number("to", 1.0), begin = number("begin", 0.0),
                end = number("end", 1.0);
-  if (reading.report.count() > before) return {};
+  if (report.count() > before) return {};
   if (!(begin >= 0.0 && begin < end && end <= 1.0)) {
-    reading.report.error(value, "'begin' and 'end' must be parts of the step, from 0 to 1, and ascending");
+    report.error(value, "'begin' and 'end' must be parts of the step, from 0 to 1, and ascending");
     return {};
   }
   return CurveTable{{{begin, from}, {end, to}}};
 }
 
-std::optional<CurveSine> read_sine(Reading& reading, const Value& value) {
-  const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"amplitude", "periods", "mean"}, "{amplitude: 1, periods: 3}");
+std::optional<CurveSine> read_sine(Report& report, const Value& value) {
+  const std::size_t before = report.count();
+  const MapReader map(report, value, {"amplitude", "periods", "mean"}, "{amplitude: 1, periods: 3}");
   CurveSine sine;
-  sine.amplitude = number_or_unread(reading, map.need("amplitude"));
-  if (const auto periods = map.get("periods")) sine.periods = read_number(reading.report, *periods).value_or(unread);
-  if (const auto mean = map.get("mean")) sine.mean = read_number(reading.report, *mean).value_or(unread);
-  return reading.report.count() > before ? std::nullopt : std::optional(sine);
+  if (const auto amplitude = map.need("amplitude")) sine.amplitude = read_number(report, *amplitude).value_or(unread);
+  if (const auto periods = map.get("periods")) sine.periods = read_number(report, *periods).value_or(unread);
+  if (const auto mean = map.get("mean")) sine.mean = read_number(report, *mean).value_or(unread);
+  return report.count() > before ? std::nullopt : std::optional(sine);
 }
 
 /// `[press, shake]`, of equal length, or `{press: 1, shake: 3}`, with their lengths.
@@ -94,6 +95,16 @@ std::optional<CurveOver> read_over(Reading& reading, const Value& value) {
 
 }  // namespace
 
+std::optional<CurveKind> read_curve_kind(Report& report, const MapReader& map) {
+  const auto table = map.get("table"), ramp = map.get("ramp"), sine = map.get("sine");
+  if (sine) {
+    const auto read = read_sine(report, *sine);
+    return read ? std::optional<CurveKind>(*read) : std::nullopt;
+  }
+  const auto read = table ? read_curve_table(report, *table) : read_ramp(report, *ramp);
+  return read ? std::optional<CurveKind>(*read) : std::nullopt;
+}
+
 void read_curves(Reading& reading, const Value& value) {
   const std::size_t start = reading.report.count();
   for (const Entry& entry :
@@ -109,14 +120,12 @@ void read_curves(Reading& reading, const Value& value) {
     Curve curve;
     curve.name = entry.key;
     curve.source = entry.key_source;
-    if (sine) {
-      const auto read = read_sine(reading, *sine);
+    if (record) {
+      const auto read = read_record_of(reading, *record, curve);
       if (!read) continue;
       curve.kind = *read;
     } else {
-      const auto read = table    ? read_curve_table(reading, *table)
-                        : record ? read_record_of(reading, *record, curve)
-                                 : read_ramp(reading, *ramp);
+      const auto read = read_curve_kind(reading.report, map);
       if (!read) continue;
       curve.kind = *read;
       if (curve.record) integrate_record(curve);

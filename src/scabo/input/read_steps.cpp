@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "scabo/input/curves.hpp"
 #include "scabo/input/numbers.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
@@ -254,21 +255,6 @@ void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
   }
 }
 
-/// Increments end at the corners of curves, besides their equal parts.
-void divide_at_corners(const Reading& reading, Step& step) {
-  const std::vector<double> corners = corners_of(step, reading.model.curves);
-  if (step.automatic || step.dynamic || corners.empty()) return;
-  std::vector<double> ends = corners;
-  for (int k = 1; k <= step.increments; ++k) ends.push_back(static_cast<double>(k) / step.increments);
-  std::sort(ends.begin(), ends.end());
-  constexpr double rounding = 1e-9;
-  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a <= rounding; }), ends.end());
-  ends.back() = 1.0;
-  if (static_cast<int>(ends.size()) == step.increments) return;
-  step.increments = static_cast<int>(ends.size());
-  step.ends = std::move(ends);
-}
-
 /// Whether a body is put in place or taken away in the step of this name.
 bool has_stage(const Reading& reading, const std::string& step) {
   const auto named = [&](const std::optional<Value>& value) { return value && value->node->text == step; };
@@ -287,7 +273,7 @@ void read_loads_of_step(Reading& reading, const Index& supports, const MapReader
     if (!reading.support_is_named[i]) step.support_factors[i] = 1.0;
   }
   read_factors(reading, supports, step, *loads);
-  divide_at_corners(reading, step);
+  divide_at_corners(reading.model.curves, step);
 }
 
 /// The step that follows one that ends with the factors of `before`.
@@ -376,23 +362,36 @@ void check_curves_over(Reading& reading, const std::vector<std::pair<std::string
   }
 }
 
-/// How often a step is run.
-long read_cycles(Reading& reading, const Value& value, const Step& step) {
+}  // namespace
+
+void divide_at_corners(const std::vector<Curve>& curves, Step& step) {
+  const std::vector<double> corners = corners_of(step, curves);
+  if (step.automatic || step.dynamic || corners.empty()) return;
+  std::vector<double> ends = corners;
+  for (int k = 1; k <= step.increments; ++k) ends.push_back(static_cast<double>(k) / step.increments);
+  std::sort(ends.begin(), ends.end());
+  constexpr double rounding = 1e-9;
+  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a <= rounding; }), ends.end());
+  ends.back() = 1.0;
+  if (static_cast<int>(ends.size()) == step.increments) return;
+  step.increments = static_cast<int>(ends.size());
+  step.ends = std::move(ends);
+}
+
+long read_cycles(Report& report, const Value& value, const Step& step) {
   if (value.node->kind != Node::Kind::map) return 1;
   const MapEntry* entry = value.node->find("cycles");
   if (entry == nullptr || entry->value->kind == Node::Kind::null) return 1;
   const Value cycles{entry->value, value.path + ".cycles"};
-  const long count = read_integer(reading.report, cycles, limits::cycles).value_or(1);
+  const long count = read_integer(report, cycles, limits::cycles).value_or(1);
   if (count > 1 && !step.dynamic && step.load_curves.empty() && step.support_curves.empty()) {
-    reading.report.error(cycles,
-                         "repeats a step in which no factor follows a curve, so that nothing would change: give "
-                         "'loads' a curve that ends where it begins");
+    report.error(cycles,
+                 "repeats a step in which no factor follows a curve, so that nothing would change: give "
+                 "'loads' a curve that ends where it begins");
     return 1;
   }
   return count;
 }
-
-}  // namespace
 
 void add_coefficients(const std::vector<Contact>& contacts, Step& step) {
   for (const Contact& contact : contacts) {
@@ -437,7 +436,7 @@ void read_steps(Reading& reading, const std::optional<Value>& value) {
   std::vector<std::pair<std::string, long>> names;
   for (std::size_t i = 0; i < items->size(); ++i) {
     step = read_step(reading, supports, (*items)[i], step, i + 1);
-    const long cycles = read_cycles(reading, (*items)[i], step);
+    const long cycles = read_cycles(reading.report, (*items)[i], step);
     names.emplace_back(step.name, cycles);
     if (factors * (reading.model.steps.size() + static_cast<std::size_t>(cycles)) > most_factors) {
       reading.report.error((*items)[i],

@@ -4,15 +4,19 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/warning.hpp"
 #include "scabo/files/imported_solid_mesh.hpp"
+#include "scabo/model/curve.hpp"
 #include "scabo/model/solid_shape.hpp"
+#include "scabo/model/step.hpp"
 
 namespace scabo::model {
 
@@ -20,6 +24,7 @@ struct SpaceMaterial {
   std::string name;
   double young = 0.0, poisson = 0.0;  ///< force / length^2, > 0; -1 < poisson < 1/2
   double density = 0.0;               ///< mass / length^3, >= 0
+  double expansion = 0.0;             ///< strain per change of temperature, >= 0
 };
 
 struct SpaceBody {
@@ -28,32 +33,51 @@ struct SpaceBody {
   std::optional<SolidShape> shape;
   SolidSizes sizes;  ///< of a shape
   int material = -1;
+  bool rigid = false;    ///< then without a material
+  double density = 0.0;  ///< of a rigid body, mass / length^3, >= 0
   Source source;
 };
 
-/// A surface of the mesh file of a body, the outer facets whose corners are in a set of nodes, or a face of its shape.
+/// A surface of the mesh file of a body, the outer facets whose corners are in a set of nodes, or a face of its shape;
+/// none of them: the whole body.
 struct SpaceFace {
   int body = -1;
   int side_set = -1, node_set = -1;  ///< one of them, of `body`'s mesh; or none
   std::string of_shape;              ///< the name of a face of `body`'s shape
   std::string text;                  ///< `block.bottom`
   Source source;
+
+  bool is_body() const { return side_set < 0 && node_set < 0 && of_shape.empty(); }
 };
+
+/// A number at a point, or the reason why it has none, as a sentence without a subject.
+using SpaceFormula = std::function<std::variant<double, std::string>(const Eigen::Vector3d&)>;
 
 struct SpaceSupport {
   std::string name;
-  bool named = false;  ///< by the user, so that steps give it a factor
-  SpaceFace on;
+  bool named = false;                                 ///< by the user, so that steps give it a factor
+  SpaceFace on;                                       ///< a face of an elastic body, or a rigid body
   std::array<std::optional<double>, 3> displacement;  ///< length, at factor 1; none: free
+  std::array<SpaceFormula, 3> shape;  ///< of a face: the displacement at a point is that above times this
+  // Of a rigid body; `displacement` is then that of the point `at`.
+  std::array<std::optional<double>, 3> rotation;  ///< about the axes, radians, at factor 1; none: free
+  std::optional<Eigen::Vector3d> at;              ///< none: its centroid
 };
 
 struct SpaceLoad {
-  enum class Kind { pressure, traction, gravity };
+  /// Force: the total over a face, as a constant traction, or on a rigid body at its centroid. Moment: on a face as the
+  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body.
+  enum class Kind { pressure, traction, force, moment, gravity, temperature };
   std::string name;
   Kind kind = Kind::pressure;
-  SpaceFace on;                                      ///< of pressure and traction
-  double pressure = 0.0;                             ///< against the outward normal
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();  ///< traction, or acceleration of all bodies
+  SpaceFace on;           ///< of gravity and temperature a body; without one, all of them
+  double pressure = 0.0;  ///< against the outward normal
+  /// Traction, force, moment or acceleration; gradient of a temperature.
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  double constant = 0.0;                ///< of a change of temperature: at the origin
+  std::array<SpaceFormula, 3> formula;  ///< of a traction, or the first one of a pressure, instead of the value
+
+  bool varies() const { return formula[0] || formula[1] || formula[2]; }
 };
 
 /// Also a tie: without friction.
@@ -61,13 +85,11 @@ struct SpaceContact {
   std::string name;
   SpaceFace a, b;
   std::optional<double> friction;  ///< none: tied
-  double gap = 0.0;                ///< added to that of the meshes
-};
-
-struct SpaceStep {
-  std::string name;
-  int increments = 1;
-  std::vector<double> load_factors, support_factors;  ///< at its end
+  double gap = 0.0;                ///< added to that of the meshes; negative: an interference
+  /// Index of the step over which interferences, negative gaps of pairs, grow from 0 to their values; -1: they are
+  /// there from the start.
+  int fit_in = -1;
+  Eigen::Vector3d about = Eigen::Vector3d::Zero();  ///< point to which the moment of the contact forces refers
 };
 
 struct SpaceModel {
@@ -79,7 +101,8 @@ struct SpaceModel {
   std::vector<SpaceSupport> supports;
   std::vector<SpaceLoad> loads;
   std::vector<SpaceContact> contacts;
-  std::vector<SpaceStep> steps;
+  std::vector<Curve> curves;
+  std::vector<Step> steps;   ///< counted ones
   double tolerance = 1e-10;  ///< of the certificate
   std::vector<Warning> warnings;
 };

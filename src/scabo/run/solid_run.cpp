@@ -1,11 +1,11 @@
 #include "scabo/run/solid_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <set>
 
 #include "scabo/base/interruption.hpp"
+#include "scabo/run/checkpoint_pace.hpp"
 #include "scabo/run/failures.hpp"
 #include "scabo/run/origin.hpp"
 
@@ -17,7 +17,6 @@ namespace {
 constexpr double unit_dofs = 95232.0, unit_bytes = 0.66e9, unit_seconds = 6.3;
 constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 4e-5;  // of elements and fields, the latter of an increment
 constexpr double sweep_seconds = 3e-8;                          // for each degree of freedom and row of W
-constexpr double share_of_solid_checkpoints = 0.05;             // of the time
 constexpr double contact_bytes = 60.0, contact_seconds = 2e-8;  // for the square of the rows of W
 
 /// Corners of the side with the pairs, or more: those of the side with more of them.
@@ -51,6 +50,7 @@ Plan plan_of(const analysis::PosedSolids& posed) {
     const auto n = 3.0 * static_cast<double>(mesh.nodes.cols());
     plan.sizes.nodes += static_cast<int>(mesh.nodes.cols());
     plan.sizes.finite_elements += static_cast<int>(mesh.cells.size());
+    if (posed.model.bodies[b].rigid_at) continue;
     plan.bytes += unit_bytes * std::pow(n / unit_dofs, 1.42) + bytes_of_dof * n;
     plan.cells += seconds_of_dof * n;
     plan.factorise += unit_seconds * std::pow(n / unit_dofs, 2.05);
@@ -65,9 +65,7 @@ Plan plan_of(const analysis::PosedSolids& posed) {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Writes checkpoints, after every increment as long as that takes a twentieth of the time, and at an interruption.
+/// Writes checkpoints, also at an interruption.
 class SolidCheckpoints {
  public:
   explicit SolidCheckpoints(const SolidRun& run)
@@ -77,7 +75,7 @@ class SolidCheckpoints {
   void add(const analysis::SolidState& state) {
     last_.state = state;
     is_newer_ = true;
-    if (wanted_ && Clock::now() >= next_) write();
+    if (wanted_ && pace_.is_due()) write();
   }
   void finish() {
     if (wanted_ && is_newer_) write();
@@ -85,18 +83,17 @@ class SolidCheckpoints {
 
  private:
   void write() {
-    const Clock::time_point start = Clock::now();
-    last_.results = run_.results.written();
-    analysis::write_solid_checkpoint(run_.directory, last_);
+    pace_.write([&] {
+      last_.results = run_.results.written();
+      analysis::write_solid_checkpoint(run_.directory, last_);
+    });
     is_newer_ = false;
-    const Clock::time_point end = Clock::now();
-    next_ = end + std::chrono::duration_cast<Clock::duration>((end - start) / share_of_solid_checkpoints);
   }
 
   const SolidRun& run_;
   analysis::SolidCheckpoint last_;
   bool wanted_, is_newer_ = false;
-  Clock::time_point next_;
+  CheckpointPace pace_;
 };
 
 result::SolidEnd solve_and_write(const SolidRun& run) {

@@ -9,6 +9,7 @@
 #include "scabo/contact/files/fclib.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/version.hpp"
+#include "scabo/run/checkpoint_pace.hpp"
 #include "scabo/run/origin.hpp"
 #include "scabo/run/sizes.hpp"
 
@@ -17,10 +18,6 @@ namespace scabo::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Part of the time of a run that its checkpoints may take. More increments are then solved again after a kill, at most
-/// for as long as twenty checkpoints take.
-constexpr double share_of_checkpoints = 0.05;
 
 /// One file for each attempt, with the solution if it was accepted. Not in result/, which has no access to problem
 /// files.
@@ -48,7 +45,6 @@ void write_problems(const result::ResultsDirectory& directory, const model::Mode
   }
 }
 
-/// Writes checkpoints, after every increment as long as that takes a twentieth of the time.
 class Checkpoints {
  public:
   explicit Checkpoints(const StaticRun& run) : run_(run), seconds_before_(run.begun.from.timing.total) {
@@ -57,22 +53,22 @@ class Checkpoints {
   }
   void add(const analysis::RunState& state, const analysis::StaticSolution& solution) {
     const bool stopping = run_.stop && *run_.stop;
-    if (!writer_ || (Clock::now() < next_ && !stopping)) return;
-    const Clock::time_point start = Clock::now();
-    analysis::WrittenResults written = run_.directory->written();
-    analysis::Timing timing = run_.directory->complete(solution.timing);
-    timing.read += run_.reading;
-    timing.total = seconds_before_ + std::chrono::duration<double>(start - run_.start).count();
-    writer_->write(state, solution, std::move(written), timing);
-    const Clock::time_point end = Clock::now();
-    next_ = end + std::chrono::duration_cast<Clock::duration>((end - start) / share_of_checkpoints);
+    if (!writer_ || (!pace_.is_due() && !stopping)) return;
+    pace_.write([&] {
+      const Clock::time_point start = Clock::now();
+      analysis::WrittenResults written = run_.directory->written();
+      analysis::Timing timing = run_.directory->complete(solution.timing);
+      timing.read += run_.reading;
+      timing.total = seconds_before_ + std::chrono::duration<double>(start - run_.start).count();
+      writer_->write(state, solution, std::move(written), timing);
+    });
   }
 
  private:
   const StaticRun& run_;
   double seconds_before_;
   std::optional<analysis::CheckpointWriter> writer_;
-  Clock::time_point next_;
+  CheckpointPace pace_;
 };
 
 analysis::StaticSolution stopped_before_any_increment(const StaticRun& run) {

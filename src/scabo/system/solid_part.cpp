@@ -1,6 +1,7 @@
 #include "scabo/system/solid_part.hpp"
 
-#include "scabo/element/space/facet.hpp"
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 namespace scabo::system {
 
@@ -69,6 +70,93 @@ Vector pressure_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::Soli
   for (const mesh::SolidFacet& facet : facets)
     add_forces(facet, -pressure * element::normal_weights(mesh::nodes_of(mesh, facet)), forces);
   return forces;
+}
+
+Vector varying_traction_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets,
+                               const element::TractionAt& traction) {
+  Vector forces = Vector::Zero(space.count(mesh.nodes.cols()));
+  for (const mesh::SolidFacet& facet : facets)
+    add_forces(facet, element::traction_integrals(mesh::nodes_of(mesh, facet), traction), forces);
+  return forces;
+}
+
+double area_of_facets(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets) {
+  double area = 0.0;
+  for (const mesh::SolidFacet& facet : facets) area += element::area_weights(mesh::nodes_of(mesh, facet)).sum();
+  return area;
+}
+
+namespace {
+
+/// Of the nodal forces of unit rotations about a centroid, as much as has this moment.
+Vector with_moment(const Matrix& nodes, const Eigen::Vector3d& centroid, const Matrix& of_rotations,
+                   const Eigen::Vector3d& moment) {
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
+      const Eigen::Vector3d arm = nodes.col(i) - centroid;
+      moments.col(k) += arm.cross(Eigen::Vector3d(of_rotations.col(k).segment<3>(space.of(i))));
+    }
+  return of_rotations * moments.ldlt().solve(moment);
+}
+
+}  // namespace
+
+Vector moment_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets,
+                     const Eigen::Vector3d& moment) {
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (const mesh::SolidFacet& facet : facets) {
+    const Matrix nodes = mesh::nodes_of(mesh, facet);
+    centroid += nodes * element::area_weights(nodes);
+  }
+  centroid /= area_of_facets(mesh, facets);
+  Matrix of_rotations(space.count(mesh.nodes.cols()), 3);
+  for (int k = 0; k < 3; ++k)
+    of_rotations.col(k) =
+        varying_traction_forces(mesh, facets, [&](const Eigen::Vector3d& x, const Eigen::Vector3d&) -> Eigen::Vector3d {
+          return Eigen::Vector3d::Unit(k).cross(x - centroid);
+        });
+  return with_moment(mesh.nodes, centroid, of_rotations, moment);
+}
+
+SolidVolume volume_of(const mesh::SolidMesh& mesh) {
+  SolidVolume of{Vector::Zero(mesh.nodes.cols())};
+  for (const std::vector<int>& cell : mesh.cells)
+    of.weights(cell) += element::volume_weights(mesh::nodes_of(mesh, cell));
+  of.volume = of.weights.sum();
+  of.centroid = mesh.nodes * of.weights / of.volume;
+  return of;
+}
+
+Vector forces_on_rigid(const mesh::SolidMesh& mesh, const Eigen::Vector3d& force, const Eigen::Vector3d& moment) {
+  const SolidVolume of = volume_of(mesh);
+  Vector forces(space.count(mesh.nodes.cols()));
+  Matrix of_rotations(forces.size(), 3);
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
+    const Eigen::Vector3d arm = mesh.nodes.col(i) - of.centroid;
+    forces.segment<3>(space.of(i)) = of.weights[i] / of.volume * force;
+    for (int k = 0; k < 3; ++k)
+      of_rotations.col(k).segment<3>(space.of(i)) = of.weights[i] * Eigen::Vector3d::Unit(k).cross(arm);
+  }
+  return forces + with_moment(mesh.nodes, of.centroid, of_rotations, moment);
+}
+
+Vector thermal_forces(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion, const Vector& change) {
+  Vector forces = Vector::Zero(space.count(mesh.nodes.cols()));
+  const element::Vec6 stress = D.leftCols<3>().rowwise().sum() * expansion;
+  for (const std::vector<int>& cell : mesh.cells)
+    add_forces(cell,
+               element::forces_of_stress(mesh::nodes_of(mesh, cell), stress, change(cell)).reshaped(3, cell.size()),
+               forces);
+  return forces;
+}
+
+double held_thermal_energy(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion,
+                           const Vector& change) {
+  double squares = 0.0;
+  for (const std::vector<int>& cell : mesh.cells)
+    squares += element::integral_of_square(mesh::nodes_of(mesh, cell), change(cell));
+  return 0.5 * expansion * expansion * D.topLeftCorner<3, 3>().sum() * squares;
 }
 
 std::vector<PairPoints> points_of(const std::vector<mesh::FacetPair>& pairs, std::size_t part_a, std::size_t part_b) {

@@ -3,6 +3,7 @@
 // Vectors of a body have three components for each node of its mesh.
 #pragma once
 
+#include "scabo/element/space/facet.hpp"
 #include "scabo/element/space/tetrahedron.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
 #include "scabo/mesh/space/solid_mesh.hpp"
@@ -23,6 +24,29 @@ Vector traction_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::Soli
                        const Eigen::Vector3d& traction);
 /// Of a pressure on facets, against their outward normal.
 Vector pressure_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets, double pressure);
+
+/// Of a traction that varies.
+Vector varying_traction_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets,
+                               const element::TractionAt& traction);
+/// Of a moment on facets: the traction w x (point - their centroid), which has no resultant.
+Vector moment_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets,
+                     const Eigen::Vector3d& moment);
+double area_of_facets(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets);
+
+/// Volume and centroid of a body, and the weight of every node in integrals over it.
+struct SolidVolume {
+  Vector weights;  ///< int N dV
+  double volume = 0.0;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+};
+SolidVolume volume_of(const mesh::SolidMesh& mesh);
+/// Nodal forces of a force at the centroid of a rigid body and a moment on it.
+Vector forces_on_rigid(const mesh::SolidMesh& mesh, const Eigen::Vector3d& force, const Eigen::Vector3d& moment);
+
+/// Nodal forces of changes of temperature of the nodes that would strain a free body by `expansion` times them.
+Vector thermal_forces(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion, const Vector& change);
+/// What they store while all nodes are held.
+double held_thermal_energy(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion, const Vector& change);
 
 /// The pairs of two faces, those of `a` on part `part_a` and so on.
 std::vector<PairPoints> points_of(const std::vector<mesh::FacetPair>& pairs, std::size_t part_a, std::size_t part_b);

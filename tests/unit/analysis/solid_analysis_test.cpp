@@ -25,6 +25,18 @@ void hold_plane(SolidBody& body, int axis, double value, const std::vector<int>&
     }
 }
 
+/// All increments that are made.
+std::vector<SolidIncrement> increments_of(const SolidModel& model, const std::vector<SolidFactors>& factors,
+                                          SolidOptions options = {}) {
+  std::vector<SolidIncrement> made;
+  options.on_increment = [&, also = options.on_increment](const SolidIncrement& one, const SolidState& state) {
+    made.push_back(one);
+    if (also) also(one, state);
+  };
+  solve_solids(model, factors, options);
+  return made;
+}
+
 /// A block on another one; the lower one is 2 x 2 x 1, the upper one of size `size` in the middle of it.
 struct Stack {
   explicit Stack(int nodes_of_cell, double size = 2.0, double moved = 0.2) {
@@ -46,7 +58,7 @@ struct Stack {
   std::vector<SolidIncrement> solve(const std::vector<Vector>& factors) const {
     std::vector<SolidFactors> increments;
     for (const Vector& of_loads : factors) increments.push_back({of_loads, Vector::Ones(1)});
-    return solve_solids(model, increments);
+    return increments_of(model, increments);
   }
 
   SolidModel model;
@@ -133,7 +145,7 @@ TEST_P(Stacks, GoOnFromAnyStateWithTheSameBits) {
   std::vector<SolidState> states;
   SolidOptions options;
   options.on_increment = [&](const SolidIncrement&, const SolidState& state) { states.push_back(state); };
-  const std::vector<SolidIncrement> whole = solve_solids(stack.model, increments, options);
+  const std::vector<SolidIncrement> whole = increments_of(stack.model, increments, options);
   ASSERT_EQ(whole.back().status, contact::Status::solved) << whole.back().reason;
   int compared = 0;
   for (std::size_t k = 0; k < whole.size(); ++k) {
@@ -150,7 +162,7 @@ TEST_P(Stacks, GoOnFromAnyStateWithTheSameBits) {
     SolidOptions on;
     on.first = k + 1;
     on.from = &states[k];
-    const std::vector<SolidIncrement> rest = solve_solids(stack.model, increments, on);
+    const std::vector<SolidIncrement> rest = increments_of(stack.model, increments, on);
     ASSERT_EQ(rest.size(), whole.size() - k - 1);
     EXPECT_EQ(rest.back().u[1], whole.back().u[1]);
     EXPECT_EQ(rest.back().energy.external, whole.back().energy.external);
@@ -229,6 +241,31 @@ TEST_P(Stacks, HangOnATie) {
 
 INSTANTIATE_TEST_SUITE_P(LinearAndQuadratic, Stacks, testing::Values(4, 10));
 
+/// Held at six degrees of freedom only: no stress, so no energy, and no reactions.
+TEST(BlockInSpace, ExpandsFreelyUnderALinearTemperature) {
+  SolidModel model;
+  model.bodies.push_back({test::solid_block({0, 0, 0}, {2, 1, 1}, {2, 2, 2}, 10, 0.2), steel, 0.3, {}});
+  SolidBody& block = model.bodies[0];
+  block.expansion = 1e-5;
+  const Eigen::Matrix3d held{{0, 2, 0}, {0, 0, 1}, {0, 0, 0}};  // corners: all axes, y and z, z
+  for (int corner = 0; corner < 3; ++corner)
+    for (Eigen::Index i = 0; i < block.mesh.nodes.cols(); ++i)
+      for (int axis = corner; (block.mesh.nodes.col(i) - held.col(corner)).norm() < 1e-9 && axis < 3; ++axis) {
+        block.supports.push_back(system::held_along_axis(static_cast<int>(i), axis));
+        block.supports.back().support = 0;
+      }
+  ASSERT_EQ(block.supports.size(), 6);
+  const Vector change = (block.mesh.nodes.transpose() * Eigen::Vector3d(3, -20, 11)).array() + 50.0;
+  const element::Mat6 D = element::elasticity_in_space(steel, 0.3);
+  model.loads.push_back({system::thermal_forces(block.mesh, D, block.expansion, change)});
+  model.temperatures.push_back({change});
+  const SolidIncrement increment = increments_of(model, {{Vector::Ones(1), Vector::Ones(1)}}).back();
+  ASSERT_EQ(increment.status, contact::Status::solved) << increment.reason;
+  EXPECT_LT(std::abs(increment.energy.elastic),
+            1e-10 * system::held_thermal_energy(block.mesh, D, block.expansion, change));
+  EXPECT_LT(increment.reactions[0].lpNorm<Eigen::Infinity>(), 1e-9 * model.loads[0][0].lpNorm<Eigen::Infinity>());
+}
+
 /// A bar between two supports that move apart: constant strain, and the force E A strain.
 TEST(BarInSpace, IsInTension) {
   SolidModel model;
@@ -237,7 +274,7 @@ TEST(BarInSpace, IsInTension) {
   hold_plane(bar, 0, 0.0, {0}), hold_plane(bar, 1, 0.0, {1}), hold_plane(bar, 2, 0.0, {2});
   const std::size_t held = bar.supports.size();
   hold_plane(bar, 0, 4.0, {0}, 4e-3);
-  const SolidIncrement increment = solve_solids(model, {{Vector(), Vector::Constant(1, 0.5)}}).back();
+  const SolidIncrement increment = increments_of(model, {{Vector(), Vector::Constant(1, 0.5)}}).back();
   ASSERT_EQ(increment.status, contact::Status::solved) << increment.reason;
   double force = 0.0;
   for (std::size_t c = held; c < bar.supports.size(); ++c)

@@ -8,6 +8,7 @@
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
 #include "scabo/model/limits.hpp"
+#include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
 namespace scabo::analysis {
@@ -23,7 +24,12 @@ class Posing {
   void add_body(const model::SpaceBody& body);
   std::vector<mesh::SolidFacet> facets(const model::SpaceFace& face);
   void add_support(std::size_t number);
+  void add_rigid_support(std::size_t number);
+  std::optional<double> displacement_at(const model::SpaceSupport& support, std::size_t axis, int node);
   void add_load(const model::SpaceLoad& load);
+  void add_load_on_bodies(const model::SpaceLoad& load, std::vector<Vector>& forces);
+  Vector load_on_face(const model::SpaceLoad& load);
+  Vector varying_load(const model::SpaceLoad& load, const std::vector<mesh::SolidFacet>& on);
   void add_contact(const model::SpaceContact& contact);
   void add_steps();
   SolidBody& body(int index) { return posed_.model.bodies[static_cast<std::size_t>(index)]; }
@@ -32,12 +38,13 @@ class Posing {
   PosedSolids posed_;
   std::vector<std::vector<mesh::SolidFacet>> boundaries_;                        // of each body
   std::vector<std::map<std::string, std::vector<mesh::SolidFacet>>> of_shapes_;  // faces of each body with a shape
-  std::map<std::pair<int, int>, std::size_t> held_;  // body and degree of freedom: its support
+  /// By body and degree of freedom: its support, and the displacement at factor 1.
+  std::map<std::pair<int, int>, std::pair<std::size_t, double>> held_;
+  std::map<int, std::pair<std::size_t, Eigen::Vector3d>> first_on_;  // rigid body: its first support, and its centroid
   std::vector<Diagnostic> mistakes_;
 };
 
 void Posing::add_body(const model::SpaceBody& of) {
-  const auto& material = model_.materials[static_cast<std::size_t>(of.material)];
   mesh::ShapedSolid shaped;
   if (of.shape) {
     const double nodes = mesh::count_nodes(*of.shape, of.sizes);
@@ -51,7 +58,13 @@ void Posing::add_body(const model::SpaceBody& of) {
   } else {
     shaped.mesh = mesh::solid_mesh_of(*of.mesh);
   }
-  SolidBody body{std::move(shaped.mesh), material.young, material.poisson, {}};
+  SolidBody body{std::move(shaped.mesh)};
+  if (of.rigid) {
+    body.rigid_at = system::volume_of(body.mesh).centroid;
+  } else {
+    const auto& material = model_.materials[static_cast<std::size_t>(of.material)];
+    body.young = material.young, body.poisson = material.poisson, body.expansion = material.expansion;
+  }
   for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
     if (const double least = element::least_jacobian(mesh::nodes_of(body.mesh, body.mesh.cells[c])); !(least > 0.0)) {
       mistakes_.push_back(
@@ -81,21 +94,37 @@ std::vector<mesh::SolidFacet> Posing::facets(const model::SpaceFace& face) {
   return found;
 }
 
+/// A formula without a number there is reported, once.
+std::optional<double> Posing::displacement_at(const model::SpaceSupport& support, std::size_t axis, int node) {
+  const double value = *support.displacement[axis];
+  if (!support.shape[axis]) return value;
+  const Eigen::Vector3d x = body(support.on.body).mesh.nodes.col(node);
+  const auto shape = support.shape[axis](x);
+  if (const double* number = std::get_if<double>(&shape)) return value * *number;
+  mistakes_.push_back(
+      {support.on.source,
+       fmt::format("the formula of the displacement along {} has no value at ({:.6g}, {:.6g}, {:.6g}): {}", "xyz"[axis],
+                   x.x(), x.y(), x.z(), std::get<std::string>(shape))});
+  return {};
+}
+
 void Posing::add_support(std::size_t number) {
   const model::SpaceSupport& support = model_.supports[number];
+  if (support.on.is_body()) return add_rigid_support(number);
   std::set<int> nodes;
   for (const mesh::SolidFacet& facet : facets(support.on)) nodes.insert(facet.begin(), facet.end());
   for (const int node : nodes)
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto& value = support.displacement[static_cast<std::size_t>(axis)];
-      if (!value) continue;
-      const auto [held, is_new] = held_.try_emplace({support.on.body, 3 * node + axis}, number);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!support.displacement[axis]) continue;
+      const auto value = displacement_at(support, axis, node);
+      if (!value) return;
+      const auto [held, is_new] =
+          held_.try_emplace({support.on.body, 3 * node + static_cast<int>(axis)}, number, *value);
       if (is_new) {
-        body(support.on.body).supports.push_back(system::held_along_axis(node, axis, *value));
+        body(support.on.body).supports.push_back(system::held_along_axis(node, static_cast<int>(axis), *value));
         body(support.on.body).supports.back().support = static_cast<int>(number);
-      } else if (const auto& other = model_.supports[held->second];
-                 other.displacement[static_cast<std::size_t>(axis)] != value ||
-                 (*value != 0.0 && (other.named || support.named))) {
+      } else if (const auto& other = model_.supports[held->second.first];
+                 held->second.second != *value || (*value != 0.0 && (other.named || support.named))) {
         mistakes_.push_back(
             {support.on.source, fmt::format("support '{}' prescribes another displacement along {} of a node than "
                                             "support '{}': let only one of them hold it",
@@ -105,21 +134,99 @@ void Posing::add_support(std::size_t number) {
     }
 }
 
-void Posing::add_load(const model::SpaceLoad& load) {
-  std::vector<Vector>& forces = posed_.model.loads.emplace_back(model_.bodies.size());
-  using Kind = model::SpaceLoad::Kind;
-  if (load.kind == Kind::gravity) {
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const double density = model_.materials[static_cast<std::size_t>(model_.bodies[b].material)].density;
-      forces[b] = system::volume_forces(posed_.model.bodies[b].mesh, density * load.vector);
-    }
-    return;
+void Posing::add_rigid_support(std::size_t number) {
+  const model::SpaceSupport& support = model_.supports[number];
+  SolidBody& of = body(support.on.body);
+  const auto [given, is_first] = first_on_.try_emplace(support.on.body, number, *of.rigid_at);
+  const auto& [first, centroid] = given->second;
+  const Eigen::Vector3d at = support.at.value_or(centroid);
+  if (is_first)
+    of.rigid_at = at;
+  else if (*of.rigid_at != at)
+    return mistakes_.push_back(
+        {support.on.source,
+         fmt::format("support '{}' and support '{}' hold body '{}' at two points: give both the same 'at'",
+                     support.name, model_.supports[first].name, support.on.text)});
+  for (int motion = 0; motion < 6; ++motion) {
+    const auto& value = motion < 3 ? support.displacement[static_cast<std::size_t>(motion)]
+                                   : support.rotation[static_cast<std::size_t>(motion - 3)];
+    if (!value) continue;
+    const auto [held, is_new] = held_.try_emplace({support.on.body, motion}, number, *value);
+    if (!is_new)
+      return mistakes_.push_back(
+          {support.on.source,
+           fmt::format("support '{}' holds the {} {} of body '{}', as does support '{}': let only one "
+                       "of them hold it",
+                       support.name, motion < 3 ? "displacement along" : "rotation about", "xyz"[motion % 3],
+                       support.on.text, model_.supports[held->second.first].name)});
+    of.supports.push_back(system::held_motion(motion, *value));
+    of.supports.back().support = static_cast<int>(number);
   }
+}
+
+/// Gravity and changes of temperature, on one body or all.
+void Posing::add_load_on_bodies(const model::SpaceLoad& load, std::vector<Vector>& forces) {
+  const bool heats = load.kind == model::SpaceLoad::Kind::temperature;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    if (load.on.body >= 0 && load.on.body != static_cast<int>(b)) continue;
+    const model::SpaceBody& of = model_.bodies[b];
+    const SolidBody& posed = posed_.model.bodies[b];
+    if (heats && !of.rigid) {
+      Vector change = (posed.mesh.nodes.transpose() * load.vector).array() + load.constant;
+      forces[b] = system::thermal_forces(posed.mesh, element::elasticity_in_space(posed.young, posed.poisson),
+                                         posed.expansion, change);
+      posed_.model.temperatures.back()[b] = std::move(change);
+    } else if (!heats) {
+      const double density = of.rigid ? of.density : model_.materials[static_cast<std::size_t>(of.material)].density;
+      forces[b] = system::volume_forces(posed.mesh, density * load.vector);
+    }
+  }
+}
+
+/// A traction or pressure by formula.
+Vector Posing::varying_load(const model::SpaceLoad& load, const std::vector<mesh::SolidFacet>& on) {
+  std::string wrong;
+  const auto value = [&](std::size_t k, const Eigen::Vector3d& x) {
+    if (!load.formula[k]) return 0.0;
+    const auto found = load.formula[k](x);
+    if (const double* number = std::get_if<double>(&found)) return *number;
+    if (wrong.empty())
+      wrong = fmt::format("the formula of load '{}' has no value at ({:.6g}, {:.6g}, {:.6g}): {}", load.name, x.x(),
+                          x.y(), x.z(), std::get<std::string>(found));
+    return 0.0;
+  };
+  Vector forces = system::varying_traction_forces(
+      body(load.on.body).mesh, on, [&](const Eigen::Vector3d& x, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
+        if (load.kind == model::SpaceLoad::Kind::pressure) return -value(0, x) * normal;
+        return {value(0, x), value(1, x), value(2, x)};
+      });
+  if (!wrong.empty()) mistakes_.push_back({load.on.source, wrong});
+  return forces;
+}
+
+Vector Posing::load_on_face(const model::SpaceLoad& load) {
+  using Kind = model::SpaceLoad::Kind;
   const mesh::SolidMesh& mesh = body(load.on.body).mesh;
+  if (load.on.is_body())
+    return system::forces_on_rigid(mesh, load.kind == Kind::force ? load.vector : Eigen::Vector3d::Zero(),
+                                   load.kind == Kind::moment ? load.vector : Eigen::Vector3d::Zero());
   const std::vector<mesh::SolidFacet> on = facets(load.on);
-  forces[static_cast<std::size_t>(load.on.body)] = load.kind == Kind::pressure
-                                                       ? system::pressure_forces(mesh, on, load.pressure)
-                                                       : system::traction_forces(mesh, on, load.vector);
+  if (on.empty()) return {};
+  if (load.varies()) return varying_load(load, on);
+  if (load.kind == Kind::pressure) return system::pressure_forces(mesh, on, load.pressure);
+  if (load.kind == Kind::moment) return system::moment_forces(mesh, on, load.vector);
+  if (load.kind == Kind::traction) return system::traction_forces(mesh, on, load.vector);
+  return system::traction_forces(mesh, on, load.vector / system::area_of_facets(mesh, on));
+}
+
+void Posing::add_load(const model::SpaceLoad& load) {
+  using Kind = model::SpaceLoad::Kind;
+  std::vector<Vector>& forces = posed_.model.loads.emplace_back(model_.bodies.size());
+  posed_.model.temperatures.emplace_back(model_.bodies.size());
+  if (load.kind == Kind::gravity || load.kind == Kind::temperature)
+    add_load_on_bodies(load, forces);
+  else
+    forces[static_cast<std::size_t>(load.on.body)] = load_on_face(load);
 }
 
 void Posing::add_contact(const model::SpaceContact& contact) {
@@ -144,14 +251,27 @@ void Posing::add_steps() {
   const auto vector = [](const std::vector<double>& of) {
     return Vector(Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size())));
   };
+  const auto follow = [&](const std::vector<int>& curves, double s, Vector& factors) {
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      if (curves[i] >= 0)
+        factors[static_cast<Eigen::Index>(i)] = model::value_of(model_.curves[static_cast<std::size_t>(curves[i])], s);
+  };
   Vector loads = Vector::Zero(static_cast<Eigen::Index>(model_.loads.size())),
          supports = Vector::Zero(static_cast<Eigen::Index>(model_.supports.size()));
   for (std::size_t s = 0; s < model_.steps.size(); ++s) {
-    const model::SpaceStep& step = model_.steps[s];
+    const model::Step& step = model_.steps[s];
     const Vector last_loads = vector(step.load_factors), last_supports = vector(step.support_factors);
     for (int k = 1; k <= step.increments; ++k) {
-      const double t = static_cast<double>(k) / step.increments;
-      posed_.increments.push_back({(1.0 - t) * loads + t * last_loads, (1.0 - t) * supports + t * last_supports});
+      const double t =
+          step.ends.empty() ? static_cast<double>(k) / step.increments : step.ends[static_cast<std::size_t>(k - 1)];
+      SolidFactors factors{(1.0 - t) * loads + t * last_loads, (1.0 - t) * supports + t * last_supports};
+      follow(step.load_curves, t, factors.loads);
+      follow(step.support_curves, t, factors.supports);
+      factors.fits = Vector::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
+      for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+        if (const int fit = model_.contacts[c].fit_in; fit >= static_cast<int>(s))
+          factors.fits[static_cast<Eigen::Index>(c)] = fit == static_cast<int>(s) ? t : 0.0;
+      posed_.increments.push_back(std::move(factors));
       posed_.step_and_number.emplace_back(s, k);
     }
     loads = last_loads;

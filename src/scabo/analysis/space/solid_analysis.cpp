@@ -7,10 +7,12 @@
 #include <memory>
 
 #include "scabo/analysis/state/friction_work.hpp"
+#include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/contact/laws/bonded.hpp"
 #include "scabo/contact/laws/coulomb.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
 namespace scabo::analysis {
@@ -27,16 +29,28 @@ struct PairedFaces {
   contact::JointLaws laws;
 };
 
+const SolidBody& body_of(const SolidModel& model, const SolidContact::Side& side) {
+  return model.bodies[static_cast<std::size_t>(side.body)];
+}
+
+/// A rigid side has no pairs.
+bool has_pairs_on_first(const SolidModel& model, const SolidContact& contact, const mesh::Face& a,
+                        const mesh::Face& b) {
+  ensure(!body_of(model, contact.a).rigid_at || !body_of(model, contact.b).rigid_at, "one of two bodies is elastic");
+  if (body_of(model, contact.a).rigid_at) return false;
+  return body_of(model, contact.b).rigid_at || !mesh::has_pairs_on_second(a, b);
+}
+
 PairedFaces paired_faces(const SolidModel& model) {
   PairedFaces paired;
   std::vector<double> areas;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const SolidContact& contact = model.contacts[c];
     const auto face_of = [&](const SolidContact::Side& side) {
-      return mesh::Face{model.bodies[static_cast<std::size_t>(side.body)].mesh, side.facets};
+      return mesh::Face{body_of(model, side).mesh, side.facets};
     };
     const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
-    const bool turned = !mesh::has_pairs_on_second(a, b);
+    const bool turned = has_pairs_on_first(model, contact, a, b);
     const std::vector<mesh::FacetPair> found = turned ? mesh::facet_pairs(b, a) : mesh::facet_pairs(a, b);
     const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),
                second = static_cast<std::size_t>(turned ? contact.a.body : contact.b.body);
@@ -64,6 +78,8 @@ PairedFaces paired_faces(const SolidModel& model) {
   return paired;
 }
 
+element::Mat6 elasticity_of(const SolidBody& body) { return element::elasticity_in_space(body.young, body.poisson); }
+
 /// What stays over all increments.
 struct PreparedSolids {
   const SolidModel& model;
@@ -76,35 +92,72 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
   PreparedSolids prepared{model, paired_faces(model), {}, {}};
   std::vector<system::ElasticPart> parts;
   for (const SolidBody& body : model.bodies)
-    parts.push_back({system::solid_stiffness(body.mesh, element::elasticity_in_space(body.young, body.poisson)),
-                     system::Positions(body.mesh.nodes), body.supports});
-  prepared.structure.parts = system::elastic_bodies(std::move(parts), threads);
+    if (!body.rigid_at)
+      parts.push_back(
+          {system::solid_stiffness(body.mesh, elasticity_of(body)), system::Positions(body.mesh.nodes), body.supports});
+  std::vector<std::unique_ptr<system::BodySystem>> elastic = system::elastic_bodies(std::move(parts), threads);
+  auto next = elastic.begin();
+  for (const SolidBody& body : model.bodies)
+    prepared.structure.parts.push_back(
+        body.rigid_at ? system::rigid_solid(body.mesh.nodes, *body.rigid_at, body.supports) : std::move(*next++));
   prepared.contact = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
   return prepared;
 }
 
-/// Loads and prescribed displacements of all bodies.
+/// Loads and prescribed displacements of all bodies, and of each the sum of the sizes of all its loads.
 struct AppliedToSolids {
-  std::vector<Vector> forces, prescribed;
+  std::vector<Vector> forces, prescribed, heated;
+  std::vector<double> sums;
 };
-AppliedToSolids applied_to_solids(const SolidModel& model, const SolidFactors& factors) {
+AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFactors& factors) {
+  const SolidModel& model = prepared.model;
   AppliedToSolids applied;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const SolidBody& body = model.bodies[b];
-    applied.forces.push_back(Vector::Zero(in_space.count(body.mesh.nodes.cols())));
-    for (std::size_t load = 0; load < model.loads.size(); ++load)
-      if (model.loads[load][b].size() > 0)
-        applied.forces[b] += factors.loads[static_cast<Eigen::Index>(load)] * model.loads[load][b];
+    Vector forces = Vector::Zero(in_space.count(body.mesh.nodes.cols())), heated;
+    double sum = 0.0;
+    for (std::size_t load = 0; load < model.loads.size(); ++load) {
+      const double factor = factors.loads[static_cast<Eigen::Index>(load)];
+      if (model.loads[load][b].size() > 0) {
+        forces += factor * model.loads[load][b];
+        sum += std::abs(factor) * model.loads[load][b].lpNorm<1>();
+      }
+      if (model.temperatures.empty() || model.temperatures[load][b].size() == 0) continue;
+      if (heated.size() == 0) heated = Vector::Zero(body.mesh.nodes.cols());
+      heated += factor * model.temperatures[load][b];
+    }
+    if (const Matrix& rigid = prepared.structure.parts[b]->rigid_motions(); rigid.cols() > 0 && !body.rigid_at)
+      take_out_rounding(rigid, sum, forces);
     Vector values(static_cast<Eigen::Index>(body.supports.size()));
     for (std::size_t c = 0; c < body.supports.size(); ++c)
       values[static_cast<Eigen::Index>(c)] = body.supports[c].value * factors.supports[body.supports[c].support];
+    applied.forces.push_back(std::move(forces));
     applied.prescribed.push_back(std::move(values));
+    applied.heated.push_back(std::move(heated));
+    applied.sums.push_back(sum);
   }
   return applied;
 }
 
+/// Resultants of the loads on a part along its free motions; what is rounding of their sum is 0.
+Vector resultants_of_loads(const system::BodySystem& part, const Vector& forces, double sum) {
+  constexpr double rounding_of_sums = 1e-12;
+  Vector f = part.rigid_motions().transpose() * forces;
+  for (double& resultant : f)
+    if (std::abs(resultant) <= rounding_of_sums * sum) resultant = 0.0;
+  return f;
+}
+
+/// The gap of pair i of the model; of an interference, the part that is there.
+double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t i) {
+  const double gap = prepared.paired.points[i].gap;
+  if (gap >= 0.0 || factors.fits.size() == 0) return gap;
+  return gap * factors.fits[prepared.paired.pairs[i].contact];
+}
+
 /// The contact problem of the pairs that move; `slip`: (d - 1) numbers of each so far.
-contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied, const Vector& slip) {
+contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied,
+                                   const SolidFactors& factors, const Vector& slip) {
   const system::ContactSystem& system = prepared.contact;
   const Eigen::Index pairs = system.gap.size();
   contact::Problem problem;
@@ -113,13 +166,18 @@ contact::Problem problem_of_solids(const PreparedSolids& prepared, const Applied
   problem.G = system.G;
   problem.q = Vector::Zero(in_space.count(pairs));
   problem.f = Vector::Zero(system.rigid_motions());
-  for (Eigen::Index i = 0; i < pairs; ++i)
-    problem.q.segment<3>(in_space.of(i)) << system.gap[i], -slip.segment<2>(2 * i);
+  for (Eigen::Index i = 0; i < pairs; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double gap = system.gap[i] < 0.0
+                           ? gap_of_solids(prepared, factors, static_cast<std::size_t>(system.pairs[k].index))
+                           : system.gap[i];  // that of a pair that keeps its gap is 0
+    problem.q.segment<3>(in_space.of(i)) << gap, -slip.segment<2>(2 * i);
+  }
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];
     problem.q += system.motion[p] * part.displacement(applied.forces[p], applied.prescribed[p]);
     problem.f.segment(system.first_rigid[p], part.rigid_motions().cols()) =
-        part.rigid_motions().transpose() * applied.forces[p];
+        resultants_of_loads(part, applied.forces[p], applied.sums[p]);
   }
   contact::set_limits(system.laws, contact::History(static_cast<std::size_t>(pairs)), problem);
   return problem;
@@ -149,6 +207,7 @@ MovedSolids solids_at_rest(const PreparedSolids& prepared) {
   for (const SolidBody& body : prepared.model.bodies) {
     rest.applied.forces.push_back(Vector::Zero(in_space.count(body.mesh.nodes.cols())));
     rest.applied.prescribed.push_back(Vector::Zero(static_cast<Eigen::Index>(body.supports.size())));
+    rest.applied.heated.emplace_back();
     rest.u.push_back(rest.applied.forces.back());
     rest.reactions.push_back(rest.applied.prescribed.back());
   }
@@ -198,7 +257,7 @@ std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
     const auto i = static_cast<std::size_t>(held[k].index);
     const Eigen::Vector3d moved = motion.segment<3>(in_space.of(static_cast<Eigen::Index>(k)));
     SolidPair& pair = to.pairs[i];
-    pair.gap = prepared.paired.points[i].gap + moved[0];
+    pair.gap = gap_of_solids(prepared, to.factors, i) + moved[0];
     const bool tied = !prepared.model.contacts[static_cast<std::size_t>(pair.contact)].friction;
     const double wrong = tied ? moved.norm() : -pair.gap;
     constexpr double rounding = 1e-12;
@@ -243,9 +302,21 @@ FrictionWork friction_work_of_solids(const PreparedSolids& prepared, const Solid
   return total;
 }
 
+/// What temperatures add to 1/2 u'K u: the strain they cause in a free body takes no energy.
+double thermal_energy_of_solid(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t b,
+                               const AppliedToSolids& applied, const Vector& u) {
+  if (applied.heated[b].size() == 0) return 0.0;
+  const SolidBody& body = prepared.model.bodies[b];
+  double energy = system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b]);
+  for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
+    if (prepared.model.temperatures[load][b].size() > 0)
+      energy -= factors.loads[static_cast<Eigen::Index>(load)] * u.dot(prepared.model.loads[load][b]);
+  return energy;
+}
+
 /// The energy of `from` and what an increment adds to it.
 Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, const MovedSolids& before,
-                        const MovedSolids& after, const contact::Solution& solution) {
+                        const SolidFactors& factors, const MovedSolids& after, const contact::Solution& solution) {
   Energy energy = from.energy;
   energy.elastic = 0.0;
   for (std::size_t i = 0; i < after.u.size(); ++i) {
@@ -254,6 +325,9 @@ Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, 
         0.5 *
         (before.reactions[i] + after.reactions[i]).dot(after.applied.prescribed[i] - before.applied.prescribed[i]);
     energy.elastic += prepared.structure.parts[i]->elastic_energy(after.u[i], after.forces[i], after.unbalanced[i]);
+    const double thermal = thermal_energy_of_solid(prepared, factors, i, after.applied, after.u[i]);
+    energy.elastic += thermal;
+    energy.external += thermal - thermal_energy_of_solid(prepared, from.factors, i, before.applied, before.u[i]);
   }
   const FrictionWork friction = friction_work_of_solids(prepared, from, solution);
   energy.friction += friction.work;
@@ -278,7 +352,7 @@ class SolidMarch {
       return;
     }
     state_ = *options.from;
-    before_ = moved_solids(prepared_, applied_to_solids(model, state_.factors), state_.p, state_.a);
+    before_ = moved_solids(prepared_, applied_to_solids(prepared_, state_.factors), state_.p, state_.a);
   }
 
   SolidIncrement next(const SolidFactors& factors);
@@ -292,12 +366,12 @@ class SolidMarch {
 };
 
 SolidIncrement SolidMarch::next(const SolidFactors& factors) {
-  AppliedToSolids applied = applied_to_solids(prepared_.model, factors);
+  AppliedToSolids applied = applied_to_solids(prepared_, factors);
   for (const Vector& forces : applied.forces)
     state_.force_scale = std::max(state_.force_scale, forces.lpNorm<Eigen::Infinity>());
   solver_.force_scale = state_.force_scale;
   const contact::Solution solution =
-      contact::solve(problem_of_solids(prepared_, applied, state_.slip), {state_.p, state_.a}, solver_);
+      contact::solve(problem_of_solids(prepared_, applied, factors, state_.slip), {state_.p, state_.a}, solver_);
   SolidIncrement to;
   to.factors = factors;
   to.status = solution.status;
@@ -309,7 +383,8 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   to.certificate.equilibrium = imbalance_of(prepared_, moved, solution.p);
   to.u = moved.u;
   to.reactions = moved.reactions;
-  to.energy = energy_of_solids(prepared_, state_, before_, moved, solution);
+  to.heated = moved.applied.heated;
+  to.energy = energy_of_solids(prepared_, state_, before_, factors, moved, solution);
   const Vector slip = state_.slip + solution.slip_increment;
   to.pairs = solid_pairs(prepared_, solution, slip);
   if (std::string reason = add_held_gaps(prepared_, to); !reason.empty()) {
@@ -327,16 +402,13 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
 
 }  // namespace
 
-std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
-                                         const SolidOptions& options) {
+void solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments, const SolidOptions& options) {
   SolidMarch march(model, options);
-  std::vector<SolidIncrement> made;
   for (std::size_t k = options.first; k < increments.size(); ++k) {
-    made.push_back(march.next(increments[k]));
-    if (options.on_increment) options.on_increment(made.back(), march.state());
-    if (made.back().status != contact::Status::solved) break;
+    const SolidIncrement made = march.next(increments[k]);
+    if (options.on_increment) options.on_increment(made, march.state());
+    if (made.status != contact::Status::solved) break;
   }
-  return made;
 }
 
 }  // namespace scabo::analysis

@@ -1,8 +1,10 @@
-// Static analysis of elastic bodies in space with frictional contact and ties between plane faces that do not match.
+// Static analysis of elastic and rigid bodies in space with frictional contact and ties between faces that do not
+// match.
 //
-// Bodies are tetrahedra as finite elements. Every contact gives pairs (mesh/space/facet_pairs.hpp); the bodies are
-// condensed to them, and an increment is one contact problem (contact/problem.hpp) in which q holds the gaps, the
-// motion under loads and supports, and less the slip so far. Small displacements and rotations.
+// Bodies are tetrahedra as finite elements, or rigid (system/rigid_solid.hpp). Every contact gives pairs
+// (mesh/space/facet_pairs.hpp); the bodies are condensed to them, and an increment is one contact problem
+// (contact/problem.hpp) in which q holds the gaps, the motion under loads and supports, and less the slip so far. Small
+// displacements and rotations.
 #pragma once
 
 #include <functional>
@@ -20,11 +22,14 @@ namespace scabo::analysis {
 
 struct SolidBody {
   mesh::SolidMesh mesh;
-  double young = 0.0, poisson = 0.0;         ///< force / length^2, > 0; -1 < poisson < 1/2
-  std::vector<system::Constraint> supports;  ///< along the axes; `support`: which factor they have
+  double young = 0.0, poisson = 0.0;              ///< force / length^2, > 0; -1 < poisson < 1/2
+  std::vector<system::Constraint> supports = {};  ///< along the axes; `support`: which factor they have
+  double expansion = 0.0;                         ///< strain per change of temperature
+  /// It does not deform; `supports` are system::held_motion of this point.
+  std::optional<Eigen::Vector3d> rigid_at = {};
 };
 
-/// Two faces of different bodies.
+/// Two faces of different bodies, one of which is elastic.
 struct SolidContact {
   struct Side {
     int body = -1;
@@ -32,18 +37,23 @@ struct SolidContact {
   };
   Side a, b;
   std::optional<double> friction;  ///< >= 0; none: the faces are tied, and keep their gap
-  double gap = 0.0;                ///< added to that of the meshes
+  double gap = 0.0;                ///< added to that of the meshes; negative: an interference
 };
 
 struct SolidModel {
   std::vector<SolidBody> bodies;
   std::vector<SolidContact> contacts;
   std::vector<std::vector<Vector>> loads;  ///< [load][body]: nodal forces at factor 1; empty where there are none
+  /// [load][body]: of a change of temperature, that of the nodes at factor 1; empty where there is none. `loads` has
+  /// its forces. As long as `loads`, or empty.
+  std::vector<std::vector<Vector>> temperatures = {};
 };
 
-/// Factors of loads and supports at the end of an increment.
+/// Factors of loads, supports and interferences at the end of an increment.
 struct SolidFactors {
   Vector loads, supports;
+  /// For each contact the part of the negative gaps of its pairs that is there, 0 to 1; empty: all of them.
+  Vector fits = Vector();
 };
 
 /// A pair in a solution; vectors along the axes.
@@ -66,6 +76,7 @@ struct SolidIncrement {
   std::string reason;             ///< why it is not solved
   std::vector<Vector> u;          ///< [body], three numbers for each node
   std::vector<Vector> reactions;  ///< [body], of its constraints
+  std::vector<Vector> heated;     ///< [body], change of temperature of the nodes; empty: none
   std::vector<SolidPair> pairs;
   contact::Certificate certificate;
   Energy energy;
@@ -91,9 +102,8 @@ struct SolidOptions {
   std::function<void(const SolidIncrement&, const SolidState&)> on_increment;
 };
 
-/// The increments from `first`, in their order; the last one may be unsolved, and ends the analysis. Contacts have
-/// faces for which mesh::why_no_pairs gives no reason.
-std::vector<SolidIncrement> solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments,
-                                         const SolidOptions& options = {});
+/// Solves the increments from `first`, in their order; one that is not solved ends the analysis. None of them is kept.
+/// Contacts have faces for which mesh::why_no_pairs gives no reason.
+void solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments, const SolidOptions& options);
 
 }  // namespace scabo::analysis

@@ -34,4 +34,13 @@ Matrix normal_weights(const Matrix& nodes) {
   return weights;
 }
 
+Matrix traction_integrals(const Matrix& nodes, const TractionAt& traction) {
+  Matrix forces = Matrix::Zero(3, nodes.cols());
+  over_facet(nodes, [&](const Vector& N, const Eigen::Vector3d& area) {  // N times the weight of the point
+    const Eigen::Vector3d point = nodes * N / N.sum();
+    forces += area.norm() * traction(point, area.normalized()) * N.transpose();
+  });
+  return forces;
+}
+
 }  // namespace scabo::element

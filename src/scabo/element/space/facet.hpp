@@ -4,6 +4,8 @@
 // Of plane facets with straight edges exact; of curved ones the sums over the nodes are.
 #pragma once
 
+#include <functional>
+
 #include "scabo/base/types.hpp"
 
 namespace scabo::element {
@@ -13,5 +15,12 @@ Vector area_weights(const Matrix& nodes);
 
 /// int N normal dA, 3 x n, the normal outwards: times -1 and a pressure, the nodal forces of it.
 Matrix normal_weights(const Matrix& nodes);
+
+/// A traction at a point of a facet with an outward unit normal.
+using TractionAt = std::function<Eigen::Vector3d(const Eigen::Vector3d& point, const Eigen::Vector3d& normal)>;
+
+/// int N traction dA, 3 x n: the nodal forces. Exact for tractions that are linear, of plane facets with straight
+/// edges.
+Matrix traction_integrals(const Matrix& nodes, const TractionAt& traction);
 
 }  // namespace scabo::element

@@ -74,6 +74,31 @@ Vector volume_weights(const Matrix& nodes) {
   return weights;
 }
 
+Vector forces_of_stress(const Matrix& nodes, const Vec6& stress, const Vector& T) {
+  const geometry::SimplexBasis& basis = tetrahedron_basis(nodes);
+  const geometry::SimplexRule& rule = basis.rule();
+  Vector forces = Vector::Zero(space.count(nodes.cols()));
+  for (Eigen::Index i = 0; i < rule.weights.size(); ++i) {
+    const Vector lambda = rule.points.col(i);
+    const Gradients at = gradients_at(nodes, lambda);
+    forces += (rule.weights[i] * at.jacobian / 6.0 * T.dot(basis.values(lambda))) *
+              (strain_matrix_in_space(at.values).transpose() * stress);
+  }
+  return forces;
+}
+
+double integral_of_square(const Matrix& nodes, const Vector& T) {
+  const geometry::SimplexBasis& basis = tetrahedron_basis(nodes);
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < basis.rule().weights.size(); ++i) {
+    const Vector lambda = basis.rule().points.col(i);
+    const Eigen::Matrix3d J = nodes * basis.derivatives(lambda);
+    const double value = T.dot(basis.values(lambda));
+    sum += basis.rule().weights[i] * J.determinant() / 6.0 * value * value;
+  }
+  return sum;
+}
+
 double least_jacobian(const Matrix& nodes) {
   const geometry::SimplexBasis& basis = tetrahedron_basis(nodes);
   Matrix points(4, 4 + static_cast<Eigen::Index>(basis.edges().size()) + basis.rule().weights.size());

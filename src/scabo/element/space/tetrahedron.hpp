@@ -25,6 +25,12 @@ Matrix tetrahedron_stiffness(const Matrix& nodes, const Mat6& D);
 /// int N dV, n numbers: times a force per volume, the nodal forces of it.
 Vector volume_weights(const Matrix& nodes);
 
+/// int B' stress T dV, 3n numbers: nodal forces of a stress times T, which has a value at every node.
+Vector forces_of_stress(const Matrix& nodes, const Vec6& stress, const Vector& T);
+
+/// int T^2 dV of T with a value at every node.
+double integral_of_square(const Matrix& nodes, const Vector& T);
+
 /// The least Jacobian at nodes and points of the rule, over the cube of the size of the box around it; positive: the
 /// element is not folded.
 double least_jacobian(const Matrix& nodes);

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "scabo/input/formula.hpp"
+#include "scabo/input/suggestions.hpp"
+
 namespace scabo::input {
 
 using namespace model;
@@ -108,6 +111,21 @@ Vector3d read_vector_in_space(Report& report, const Value& value) {
   Vector3d read;
   for (int k = 0; k < 3; ++k) read[k] = read_number(report, value.item(static_cast<std::size_t>(k))).value_or(0.0);
   return read;
+}
+
+SpaceFormula read_formula_in_space(Report& report, const Value& value) {
+  const auto text = read_text(report, value);
+  if (!text) return {};
+  for (const std::string& name : names_in_formula(*text))
+    if (name != "x" && name != "y" && name != "z") {
+      report.error(value, fmt::format("the formula {} has the name {}: besides parameters in ${{}} there are x, y and "
+                                      "z, the coordinates",
+                                      quoted_name(*text), quoted_name(name)));
+      return {};
+    }
+  return [text = *text](const Vector3d& at) {
+    return value_of_formula(text, {{"x", at.x()}, {"y", at.y()}, {"z", at.z()}});
+  };
 }
 
 std::optional<SolidShape> read_solid_shape(Report& report, const Value& value) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scabo/input/reader.hpp"
-#include "scabo/model/solid_shape.hpp"
+#include "scabo/model/solid_model.hpp"
 
 namespace scabo::input {
 
@@ -17,6 +17,9 @@ double read_number_from(Report& report, const std::optional<Value>& value, doubl
 
 /// `[x, y, z]`; zero if it is anything else, which is reported.
 Eigen::Vector3d read_vector_in_space(Report& report, const Value& value);
+
+/// A formula of the coordinates x, y and z, or a number; none if it is broken.
+model::SpaceFormula read_formula_in_space(Report& report, const Value& value);
 
 /// `{box: {corner: [0, 0, 0], size: [1, 1, 1]}}`; nothing after a mistake.
 std::optional<model::SolidShape> read_solid_shape(Report& report, const Value& value);

@@ -24,11 +24,12 @@ Matrix places_of_nodes(std::size_t nodes) {
   return places;
 }
 
-/// 6 x N: xx, yy, zz, xy, yz, zx.
-Matrix stresses_at_nodes(const analysis::SolidBody& body, const Vector& u) {
+/// 6 x N: xx, yy, zz, xy, yz, zx; 0 of a rigid body. `heated`: change of temperature of the nodes, or empty.
+Matrix stresses_at_nodes(const analysis::SolidBody& body, const Vector& u, const Vector& heated) {
   const mesh::SolidMesh& mesh = body.mesh;
   const element::Mat6 D = element::elasticity_in_space(body.young, body.poisson);
   Matrix sum = Matrix::Zero(6, mesh.nodes.cols());
+  if (body.rigid_at) return sum;
   Vector count = Vector::Zero(mesh.nodes.cols());
   for (const std::vector<int>& cell : mesh.cells) {
     const Matrix nodes = mesh::nodes_of(mesh, cell), places = places_of_nodes(cell.size());
@@ -43,6 +44,7 @@ Matrix stresses_at_nodes(const analysis::SolidBody& body, const Vector& u) {
   }
   for (Eigen::Index i = 0; i < sum.cols(); ++i)
     if (count[i] > 0.0) sum.col(i) /= count[i];
+  if (heated.size() > 0) sum -= body.expansion * D.leftCols<3>().rowwise().sum() * heated.transpose();
   return sum;
 }
 
@@ -60,7 +62,8 @@ void add_stress(const element::Vec6& s, SolidCells& cells) {
 
 }  // namespace
 
-SolidCells solid_cells(const analysis::SolidModel& model, const std::vector<Vector>& u) {
+SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidIncrement& increment) {
+  const std::vector<Vector>& u = increment.u;
   SolidCells cells;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const mesh::SolidMesh& mesh = model.bodies[b].mesh;
@@ -68,7 +71,7 @@ SolidCells solid_cells(const analysis::SolidModel& model, const std::vector<Vect
     cells.points.insert(cells.points.end(), mesh.nodes.data(), mesh.nodes.data() + mesh.nodes.size());
     cells.displacement.insert(cells.displacement.end(), u[b].data(), u[b].data() + u[b].size());
     cells.point_body.insert(cells.point_body.end(), static_cast<std::size_t>(mesh.nodes.cols()), number);
-    const Matrix stresses = stresses_at_nodes(model.bodies[b], u[b]);
+    const Matrix stresses = stresses_at_nodes(model.bodies[b], u[b], increment.heated[b]);
     for (Eigen::Index i = 0; i < stresses.cols(); ++i) add_stress(stresses.col(i), cells);
     for (const std::vector<int>& cell : mesh.cells) {
       for (const int node : cell) cells.connectivity.push_back(first + node);

@@ -20,7 +20,7 @@ struct SolidCells {
 };
 
 /// At the nodes of all bodies; stresses are the mean of those of the elements around a node of a body.
-SolidCells solid_cells(const analysis::SolidModel& model, const std::vector<Vector>& u);
+SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidIncrement& increment);
 
 /// Content of a .vtu file (vtu.cpp).
 std::string vtu_content(const SolidCells& cells, int threads = 1);

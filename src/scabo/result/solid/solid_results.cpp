@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -28,18 +29,20 @@ Json json_of(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), ve
 
 /// Of the pairs of one contact; forces on side b.
 struct SolidTotals {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero(), tangential = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(), tangential = Eigen::Vector3d::Zero(),
+                  moment = Eigen::Vector3d::Zero();
   double largest_pressure = 0.0, largest_gap = 0.0;
   int open = 0, stick = 0, slip = 0;
 };
 
-SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t contact) {
+SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t contact, const Eigen::Vector3d& about) {
   SolidTotals totals;
   for (const analysis::SolidPair& pair : increment.pairs) {
     if (pair.contact != static_cast<int>(contact)) continue;
     const Eigen::Vector3d normal = pair.normal_force() * pair.normal;
     totals.normal += normal;
     totals.tangential += pair.force - normal;
+    totals.moment += (pair.point - about).cross(pair.force);
     totals.largest_pressure = std::max(totals.largest_pressure, pair.normal_force() / pair.area);
     totals.largest_gap = std::max(totals.largest_gap, pair.gap);
     totals.open += pair.state == contact::ContactState::open;
@@ -52,6 +55,7 @@ SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t con
 Json json_of(const SolidTotals& totals) {
   return {{"normal_force", json_of(totals.normal)},
           {"tangential_force", json_of(totals.tangential)},
+          {"moment", json_of(totals.moment)},
           {"max_pressure", totals.largest_pressure},
           {"max_gap", totals.largest_gap},
           {"open", totals.open},
@@ -59,15 +63,27 @@ Json json_of(const SolidTotals& totals) {
           {"slip", totals.slip}};
 }
 
-/// Forces of the supports on the bodies.
-std::vector<Eigen::Vector3d> reactions_of(const analysis::PosedSolids& posed, std::size_t supports,
-                                          const analysis::SolidIncrement& increment) {
-  std::vector<Eigen::Vector3d> sums(supports, Eigen::Vector3d::Zero());
+/// What a support exerts on its body.
+struct SolidReaction {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< the latter about the origin
+};
+std::vector<SolidReaction> reactions_of(const analysis::PosedSolids& posed, std::size_t supports,
+                                        const analysis::SolidIncrement& increment) {
+  std::vector<SolidReaction> sums(supports);
   for (std::size_t b = 0; b < increment.reactions.size(); ++b)
     for (std::size_t c = 0; c < posed.model.bodies[b].supports.size(); ++c) {
-      const system::Constraint& held = posed.model.bodies[b].supports[c];
-      sums[static_cast<std::size_t>(held.support)][held.component] +=
-          increment.reactions[b][static_cast<Eigen::Index>(c)];
+      const analysis::SolidBody& body = posed.model.bodies[b];
+      const system::Constraint& held = body.supports[c];
+      const Eigen::Vector3d value =
+          increment.reactions[b][static_cast<Eigen::Index>(c)] * Eigen::Vector3d::Unit(held.component);
+      SolidReaction& sum = sums[static_cast<std::size_t>(held.support)];
+      if (held.rotation) {
+        sum.moment += value;
+        continue;
+      }
+      const Eigen::Vector3d at = body.rigid_at ? *body.rigid_at : Eigen::Vector3d(body.mesh.nodes.col(held.dof / 3));
+      sum.force += value;
+      sum.moment += at.cross(value);
     }
   return sums;
 }
@@ -86,10 +102,12 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
              const analysis::SolidIncrement& increment, std::size_t number) {
   const auto& [step, of_step] = posed.step_and_number[number];
   const bool solved = increment.status == contact::Status::solved;
-  Json json = {{"step", step + 1},
-               {"increment", of_step},
-               {"reached", static_cast<double>(of_step) / model.steps[step].increments},
-               {"factors", Json::object()}};
+  Json json = {
+      {"step", step + 1},
+      {"increment", of_step},
+      {"reached", model.steps[step].ends.empty() ? static_cast<double>(of_step) / model.steps[step].increments
+                                                 : model.steps[step].ends[static_cast<std::size_t>(of_step - 1)]},
+      {"factors", Json::object()}};
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     json["factors"][model.loads[i].name] = increment.factors.loads[static_cast<Eigen::Index>(i)];
   for (std::size_t i = 0; i < model.supports.size(); ++i)
@@ -99,13 +117,17 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   json["newton_iterations"] = increment.iterations;
   json["contacts"] = Json::object();
   json["reactions"] = Json::object();
+  json["moments"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
   if (!solved) return json;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    json["contacts"][model.contacts[c].name] = json_of(totals_of(increment, c));
-  const std::vector<Eigen::Vector3d> reactions = reactions_of(posed, model.supports.size(), increment);
-  for (std::size_t i = 0; i < reactions.size(); ++i) json["reactions"][model.supports[i].name] = json_of(reactions[i]);
+    json["contacts"][model.contacts[c].name] = json_of(totals_of(increment, c, model.contacts[c].about));
+  const std::vector<SolidReaction> reactions = reactions_of(posed, model.supports.size(), increment);
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    json["reactions"][model.supports[i].name] = json_of(reactions[i].force);
+    json["moments"][model.supports[i].name] = json_of(reactions[i].moment);
+  }
   const analysis::Energy& energy = increment.energy;
   json["energy"] = {{"external", energy.external},
                     {"elastic", energy.elastic},
@@ -166,7 +188,7 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
   json["reason"] = nullptr;
   json["warnings"] = texts_of(model.warnings);
   json["model"] = {{"nodes", nodes}, {"dofs", 3 * nodes}, {"finite_elements", cells}, {"steps", Json::array()}};
-  for (const model::SpaceStep& step : model.steps) json["model"]["steps"].push_back(step.name);
+  for (const model::Step& step : model.steps) json["model"]["steps"].push_back(step.name);
   json["increments"] = Json::array();
   return json;
 }
@@ -189,7 +211,7 @@ std::string log_header(const model::SpaceModel& model, const Json& summary) {
 
 /// `step press, increment 2 of 10: tip = 0.2; 4 iterations, certificate 2.2e-14`
 std::string log_line(const model::SpaceModel& model, const Json& json, const analysis::SolidIncrement& increment) {
-  const model::SpaceStep& step = model.steps[json["step"].get<std::size_t>() - 1];
+  const model::Step& step = model.steps[json["step"].get<std::size_t>() - 1];
   std::string text =
       fmt::format("step {}, increment {} of {}:", step.name, json["increment"].get<int>(), step.increments);
   for (const auto& [name, factor] : json["factors"].items())
@@ -295,11 +317,34 @@ void SolidResults::add_fields(const analysis::SolidIncrement& increment) {
     collection.add(static_cast<double>(finished_), file);
     not_synchronised_.push_back(path_ / file);
   };
-  write("fields", vtu_content(solid_cells(posed_.model, increment.u)), *collection_);
+  write("fields", vtu_content(solid_cells(posed_.model, increment)), *collection_);
   if (faces_) write("contact", vtu_content(solid_faces(posed_.model, increment)), *faces_);
 }
 
 void SolidResults::add(const analysis::SolidIncrement& increment) {
+  std::vector<long long> sizes;
+  for (const GrowingFile* file : growing_files()) sizes.push_back(file->size());
+  const int finished = finished_;
+  const std::size_t not_synchronised = not_synchronised_.size();
+  try {
+    add_files(increment);
+  } catch (const WriteError&) {  // nothing is left of the increment
+    const std::vector<GrowingFile*> files = growing_files();
+    for (std::size_t i = 0; i < files.size(); ++i) files[i]->cut_back(sizes[i]);
+    finished_ = finished;
+    not_synchronised_.resize(not_synchronised);
+    remove_later_fields(path_, finished_);
+    Json& made = summary_->json["increments"];
+    made.erase(made.size() - 1);
+    try {  // there is room for what was removed
+      replace_summary();
+    } catch (const WriteError&) {
+    }
+    throw;
+  }
+}
+
+void SolidResults::add_files(const analysis::SolidIncrement& increment) {
   Json& made = summary_->json["increments"];
   const std::size_t number = made.size();
   made.push_back(json_of(model_, posed_, increment, number));

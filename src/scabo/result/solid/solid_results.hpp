@@ -34,7 +34,7 @@ class SolidResults {
                const analysis::PosedSolids& posed, const analysis::WrittenResults& written);
   ~SolidResults();
 
-  /// Of one that is not solved, only summary and log. Throws WriteError.
+  /// Of one that is not solved, only summary and log. Throws WriteError, with nothing left of the increment.
   void add(const analysis::SolidIncrement& increment);
   /// What is written is on the disk.
   analysis::WrittenResults written();
@@ -45,6 +45,7 @@ class SolidResults {
   struct Summary;
   void open_files(const analysis::WrittenResults* written);
   std::vector<GrowingFile*> growing_files();
+  void add_files(const analysis::SolidIncrement& increment);
   void add_fields(const analysis::SolidIncrement& increment);
   void replace_summary() const;
 

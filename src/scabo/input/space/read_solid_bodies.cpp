@@ -1,0 +1,174 @@
+// `bodies` of models in space, and places on them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scabo/files/read_mesh_file.hpp"
+#include "scabo/input/space/space_reader.hpp"
+#include "scabo/input/suggestions.hpp"
+#include "scabo/model/imported_body.hpp"
+#include "scabo/model/solid_bodies.hpp"
+#include "scabo/model/wording.hpp"
+
+namespace scabo::input {
+
+using namespace model;
+
+std::shared_ptr<const files::ImportedSolidMesh> SpaceReader::mesh_of_file(const Value& value) {
+  const auto name = read_text(report_, value);
+  if (!name) return nullptr;
+  const std::string path = (std::filesystem::path(model_.file).parent_path() / *name).string();
+  const auto [found, is_new] = meshes_.try_emplace(path);
+  if (!is_new) {
+    if (!found->second) report_.told_elsewhere(value);
+    return found->second;
+  }
+  try {
+    files::ImportedSolidMesh mesh = files::read_solid_mesh_file(path);
+    for (const std::string& remark : mesh.remarks)
+      model_.warnings.push_back({WarningKind::input, path, as_given(remark, path, *name)});
+    found->second = std::make_shared<const files::ImportedSolidMesh>(std::move(mesh));
+    model_.files.push_back(path);
+  } catch (const InputError& error) {
+    report_.error(value, as_given(format_diagnostic(error.file(), error.diagnostics().front()), path, *name));
+  }
+  return found->second;
+}
+
+int SpaceReader::material_of(const Value& value) {
+  std::vector<std::string> known;
+  for (const SpaceMaterial& material : model_.materials) known.push_back(material.name);
+  const auto text = read_text(report_, value);
+  const auto found = text ? std::find(known.begin(), known.end(), *text) : known.end();
+  if (found != known.end()) return static_cast<int>(found - known.begin());
+  if (text)
+    report_.error(value, fmt::format("there is no material named {}{}", quoted_name(*text), suggestion(*text, known)));
+  return -1;
+}
+
+void SpaceReader::body(const Entry& entry) {
+  const MapReader map(report_, entry.value, {"material", "shape", "mesh", "rigid", "density"},
+                      "{material: steel, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.1}}",
+                      only_in_the_plane({"holes", "regions", "sectors", "materials", "outside", "reference", "cracks",
+                                         "crack", "copies", "repeat", "image", "added", "removed", "join", "corners"}));
+  SpaceBody body;
+  body.name = entry.key;
+  body.source = entry.value.source();
+  if (const auto rigid = map.get("rigid")) body.rigid = read_flag(report_, *rigid).value_or(false);
+  if (body.rigid) {
+    map.refuse("material", "a rigid body has no material: leave it out, or 'rigid'");
+    body.density = number_from(map.get("density"), 0.0, true);
+  } else {
+    map.refuse("density", "is that of a rigid body: give it to the material");
+    if (const auto name = map.need("material")) body.material = material_of(*name);
+  }
+  const auto shape = map.get("shape"), mesh = map.need("mesh");
+  if (shape) body.shape = read_solid_shape(report_, *shape);
+  if (mesh && !shape) return add_bodies_of_file(*mesh, std::move(body));
+  if (mesh) body.sizes = read_solid_sizes(report_, *mesh);
+  model_.bodies.push_back(body);
+}
+
+/// Index of a set of cells.
+std::optional<int> SpaceReader::region_of(const Value& value, const files::ImportedSolidMesh& mesh) const {
+  const auto text = read_text(report_, value);
+  if (!text) return {};
+  std::vector<std::string> known;
+  for (const files::CellSet& set : mesh.cell_sets) {
+    if (set.name == *text || name_from(set.name) == *text) return static_cast<int>(known.size());
+    known.push_back(set.name);
+  }
+  report_.error(value, fmt::format("the mesh file has no region or set of cells named {}{}", quoted_name(*text),
+                                   suggestion(*text, known)));
+  return {};
+}
+
+void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
+  Later later = only_in_the_plane({"kind", "order", "centre", "tolerance", "min_size", "elements"});
+  for (const char* key : {"size", "refine"})
+    later.emplace_back(key, "it divides a 'shape', and the body has none: give it one, or leave the key out");
+  const MapReader keys(report_, mesh, {"file", "region"}, "{file: part.msh}", later);
+  const auto name = keys.need("file"), region = keys.get("region");
+  const auto file = name ? mesh_of_file(*name) : nullptr;
+  const auto choice = file && region ? region_of(*region, *file) : std::optional(-1);
+  if (!file || !choice) return model_.bodies.push_back(body);
+  std::vector<files::ImportedSolidMesh> parts = solid_bodies(*file, *choice);
+  std::vector<std::string> told;
+  const std::string whole = body.name;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts.size() > 1) body.name = fmt::format("{}_{}", whole, k + 1);
+    const Eigen::Vector3d centre = parts[k].nodes.rowwise().mean();
+    constexpr std::size_t most_told = 8;
+    if (k < most_told)
+      told.push_back(fmt::format("{} at ({:.4g}, {:.4g}, {:.4g})", body.name, centre.x(), centre.y(), centre.z()));
+    body.mesh = std::make_shared<const files::ImportedSolidMesh>(std::move(parts[k]));
+    for (const SpaceBody& other : model_.bodies)
+      if (other.name == body.name)
+        report_.error(
+            mesh,
+            fmt::format("a part of this file is called '{0}', as is another body: give that another name", body.name));
+    model_.bodies.push_back(body);
+  }
+  if (parts.size() > 1)
+    model_.warnings.push_back(
+        {WarningKind::input, whole + " parts",
+         fmt::format("body '{}': its cells have {} parts that have no side in common, which "
+                     "become bodies of their own: {}{}",
+                     whole, parts.size(), fmt::join(told, ", "), parts.size() > told.size() ? ", ..." : "")});
+}
+
+std::optional<SpaceFace> SpaceReader::face(const Value& value, const char* or_body) {
+  const auto text = read_text(report_, value);
+  if (!text) return {};
+  const std::size_t dot = text->find('.');
+  const std::string name = text->substr(0, dot), part = dot == std::string::npos ? "" : text->substr(dot + 1);
+  std::vector<std::string> bodies;
+  for (const SpaceBody& body : model_.bodies) bodies.push_back(body.name);
+  const auto found = std::find(bodies.begin(), bodies.end(), name);
+  const bool is_body = part.empty() && or_body != nullptr;
+  if ((part.empty() && !is_body) || found == bodies.end()) {
+    report_.error(value, part.empty() && !is_body
+                             ? fmt::format("must be a face of a body, as in block.bottom, not {}", quoted_name(*text))
+                             : fmt::format("there is no body named {}{}", quoted_name(name), suggestion(name, bodies)));
+    return {};
+  }
+  SpaceFace face;
+  face.body = static_cast<int>(found - bodies.begin());
+  face.text = *text;
+  face.source = value.source();
+  const std::size_t before = report_.count();
+  if (is_body && !body_at(face.body).rigid)
+    report_.error(value,
+                  fmt::format("{} acts on a face of an elastic body, as in {}.bottom: name a face", or_body, name));
+  if (!part.empty()) find_face(value, part, face);
+  if (report_.count() > before || (face.is_body() && !part.empty())) return {};
+  return face;
+}
+
+void SpaceReader::find_face(const Value& value, const std::string& part, SpaceFace& face) {
+  const SpaceBody& of = body_at(face.body);
+  std::vector<std::string> known;
+  if (of.shape) {
+    known = face_names(*of.shape);
+    if (std::find(known.begin(), known.end(), part) != known.end())
+      face.of_shape = part;
+    else
+      report_.error(value, fmt::format("the shape of body '{}' has no face named {}{}", of.name, quoted_name(part),
+                                       suggestion(part, known)));
+  }
+  if (!of.mesh) return;
+  for (std::size_t i = 0; i < of.mesh->side_sets.size(); ++i) {
+    known.push_back(name_from(of.mesh->side_sets[i].name));
+    if (known.back() == part) face.side_set = static_cast<int>(i);
+  }
+  for (std::size_t i = 0; face.side_set < 0 && i < of.mesh->node_sets.size(); ++i) {
+    known.push_back(name_from(of.mesh->node_sets[i].name));
+    if (known.back() == part) face.node_set = static_cast<int>(i);
+  }
+  if (face.side_set < 0 && face.node_set < 0)
+    report_.error(value, fmt::format("the mesh of body '{}' has no face or set of nodes named {}{}", of.name,
+                                     quoted_name(part), suggestion(part, known)));
+}
+
+}  // namespace scabo::input

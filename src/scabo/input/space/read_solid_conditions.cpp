@@ -1,0 +1,281 @@
+// `supports`, `loads`, `contacts` and `ties` of models in space.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "scabo/input/space/space_reader.hpp"
+#include "scabo/input/suggestions.hpp"
+#include "scabo/model/wording.hpp"
+
+namespace scabo::input {
+
+using namespace model;
+
+namespace {
+
+constexpr std::array<const char*, 3> names_of_axes{"x", "y", "z"};
+
+}  // namespace
+
+SpaceReader::Components SpaceReader::fixed(const Value& value) {
+  Components fixed;
+  std::vector<Value> items{value};
+  if (value.node->kind == Node::Kind::sequence) items = *read_list(report_, value, "[x, y, z]");
+  if (items.empty()) report_.error(value, "must be x, y, z or a list of them, not an empty list");
+  for (const Value& item : items) {
+    const auto name = std::find(names_of_axes.begin(), names_of_axes.end(), item.node->text);
+    if (item.node->kind != Node::Kind::scalar || name == names_of_axes.end())
+      report_.error(item, fmt::format("must be x, y, z or a list of them, not {}", describe(*item.node)));
+    else if (auto& component = fixed[static_cast<std::size_t>(name - names_of_axes.begin())]; component)
+      report_.error(item, fmt::format("{} is given twice: remove one of the two", *name));
+    else
+      component = 0.0;
+  }
+  return fixed;
+}
+
+SpaceReader::Components SpaceReader::components(const Value& value, const char* names) {
+  Components read;
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::sequence || node.items.size() != 3) {
+    report_.error(value, fmt::format("must be {}, with null for a free component, not {}", names,
+                                     node.kind == Node::Kind::sequence ? fmt::format("a list of {}", node.items.size())
+                                                                       : describe(node)));
+    return read;
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node.items[k]->kind != Node::Kind::null) read[k] = read_number(report_, value.item(k));
+  return read;
+}
+
+/// `[f, g, h]`, each a formula of x, y and z, a number or null.
+SpaceReader::Formulas SpaceReader::formulas(const Value& value) {
+  Formulas formulas;
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::sequence || node.items.size() != 3) {
+    report_.error(value, R"(must be three formulas, as in ["0.1 * x", null, "2 * z"], with null for none)");
+    return formulas;
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node.items[k]->kind != Node::Kind::null) formulas[k] = read_formula_in_space(report_, value.item(k));
+  return formulas;
+}
+
+/// `[ux, uy, uz]`, or `{formula: [ux, uy, uz]}` of a face.
+void SpaceReader::displacement(const Value& value, SpaceSupport& support) {
+  if (value.node->kind != Node::Kind::map) {
+    support.displacement = components(value, "[ux, uy, uz]");
+    return;
+  }
+  const MapReader map(report_, value, {"formula"}, R"({formula: ["0.1 * x", null, null]})",
+                      only_in_the_plane({"normal", "tangent", "along", "value"}));
+  const auto given = map.need("formula");
+  if (!given) return;
+  if (support.on.body >= 0 && support.on.is_body())
+    map.refuse("formula", "is that of a face: a rigid body has one displacement");
+  support.shape = formulas(*given);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (support.shape[k]) support.displacement[k] = 1.0;
+}
+
+/// Without `rotation` all points of the body are held: what would move them along a held axis is 0.
+void SpaceReader::rigid_support(const MapReader& map, SpaceSupport& support) {
+  if (const auto at = map.get("at")) support.at = vector(*at);
+  if (const auto rotation = map.get("rotation")) {
+    support.rotation = components(*rotation, "[rx, ry, rz]");
+    constexpr double most = 0.1;
+    for (const auto& angle : support.rotation)
+      if (angle && std::abs(*angle) > most)
+        report_.error(*rotation, fmt::format("must be from -{0} to {0} rad, since rotations are small", most));
+    return;
+  }
+  map.refuse("at", "needs 'rotation' beside it");
+  for (std::size_t k = 0; k < 3; ++k)
+    if (support.displacement[(k + 1) % 3] || support.displacement[(k + 2) % 3]) support.rotation[k] = 0.0;
+}
+
+void SpaceReader::support(const Value& value) {
+  const MapReader map(report_, value, {"on", "fix", "displacement", "rotation", "at", "name"},
+                      "{on: block.bottom, fix: [x, y, z]}", only_in_the_plane({"symmetry"}));
+  if (!map.is_map()) return;
+  SpaceSupport support;
+  support.name = fmt::format("support_{}", model_.supports.size() + 1);
+  if (const auto name = map.get("name")) {
+    const auto text = read_text(report_, *name);
+    if (text && check_name(report_, name->source(), *text)) {
+      support.named = true;
+      support.name = *text;
+      for (const SpaceSupport& other : model_.supports)
+        if (other.name == *text) report_.error(*name, fmt::format("two supports are called '{}'", *text));
+    }
+  }
+  const auto on = map.need("on");
+  const auto place = on ? face(*on, "a support") : std::nullopt;
+  if (place) support.on = *place;
+  const auto fix = map.get("fix"), given = map.get("displacement");
+  if (fix && given)
+    map.refuse("displacement", "does not go together with 'fix': write 0 for the components that are fixed");
+  else if (fix)
+    support.displacement = fixed(*fix);
+  else if (given)
+    displacement(*given, support);
+  else if (!map.has("rotation") && map.all_known())
+    report_.error(value, "needs 'fix' or 'displacement'");
+  if (fix)
+    map.refuse("rotation", "does not go together with 'fix': write 'displacement', with null for free components");
+  if (place && body_at(place->body).rigid && place->is_body()) {
+    rigid_support(map, support);
+  } else if (place) {
+    for (const char* key : {"rotation", "at"})
+      map.refuse(key, "is that of a rigid body as a whole: name the body alone");
+    if (body_at(place->body).rigid)
+      report_.error(*on, fmt::format("is a face of a rigid body, which is held as a whole: write '{}'",
+                                     body_at(place->body).name));
+  }
+  model_.supports.push_back(support);
+}
+
+void SpaceReader::check_gravity(const Entry& entry, const SpaceLoad& load) {
+  const bool by_temperature = load.kind == SpaceLoad::Kind::temperature;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const SpaceBody& body = model_.bodies[b];
+    if (load.on.body >= 0 && load.on.body != static_cast<int>(b)) continue;
+    if (body.rigid) {
+      if (load.on.body >= 0 && (by_temperature || body.density == 0.0))
+        report_.error(
+            entry.value,
+            by_temperature
+                ? fmt::format("body '{}' is rigid, so that no temperature changes it: leave the load out", body.name)
+                : fmt::format("the rigid body '{}' has no 'density', so that gravity has no effect on it: give it one",
+                              body.name));
+      continue;
+    }
+    if (body.material < 0) continue;
+    const SpaceMaterial& material = model_.materials[static_cast<std::size_t>(body.material)];
+    if (by_temperature && material.expansion == 0.0)
+      report_.error(entry.value, fmt::format("the material of body '{}' has no 'expansion', so that a temperature has "
+                                             "no effect on it: give it one",
+                                             body.name));
+    if (!by_temperature && material.density == 0.0)
+      report_.error(entry.value, fmt::format("the material of body '{}' has no 'density', so that gravity has no "
+                                             "effect on it: give it one",
+                                             body.name));
+  }
+}
+
+void SpaceReader::load_value(const std::string& kind, const Value& value, SpaceLoad& load) {
+  using Kind = SpaceLoad::Kind;
+  const bool is_map = value.node->kind == Node::Kind::map;
+  if (kind == "temperature") {
+    load.kind = Kind::temperature;
+    if (!is_map) return void(load.constant = number(value));
+    const MapReader map(report_, value, {"constant", "x", "y", "z"}, "{constant: 20, z: -2.5}",
+                        only_in_the_plane({"over", "at", "values"}));
+    if (map.is_map() && value.node->entries.empty()) report_.error(value, "needs constant, x, y or z");
+    load.constant = number(map.get("constant"));
+    for (int k = 0; k < 3; ++k) load.vector[k] = number(map.get(names_of_axes[static_cast<std::size_t>(k)]));
+    return;
+  }
+  load.kind = kind == "pressure"   ? Kind::pressure
+              : kind == "traction" ? Kind::traction
+              : kind == "force"    ? Kind::force
+              : kind == "moment"   ? Kind::moment
+                                   : Kind::gravity;
+  if (is_map && (load.kind == Kind::pressure || load.kind == Kind::traction)) {
+    const MapReader map(report_, value, {"formula"},
+                        load.kind == Kind::pressure ? R"text({formula: "10e3 * (4 - z)"})text"
+                                                    : R"text({formula: ["1e3 * z", 0, 0]})text",
+                        only_in_the_plane({"over", "at", "values", "powers", "points"}));
+    const auto formula = map.need("formula");
+    if (formula && load.kind == Kind::pressure) load.formula[0] = read_formula_in_space(report_, *formula);
+    if (formula && load.kind == Kind::traction) load.formula = formulas(*formula);
+  } else if (load.kind == Kind::pressure) {
+    load.pressure = number(value);
+  } else {
+    load.vector = vector(value);
+  }
+}
+
+void SpaceReader::place_of_load(const MapReader& map, const Entry& entry, SpaceLoad& load) {
+  using Kind = SpaceLoad::Kind;
+  if (load.kind != Kind::gravity && load.kind != Kind::temperature) {
+    const auto on = map.need("on");
+    const bool of_bodies = load.kind == Kind::force || load.kind == Kind::moment;
+    if (const auto place = on ? face(*on, of_bodies ? "a force or moment" : nullptr) : std::nullopt) load.on = *place;
+    return;
+  }
+  if (const auto on = map.get("on")) {
+    const auto name = read_text(report_, *on);
+    for (std::size_t b = 0; name && b < model_.bodies.size(); ++b)
+      if (model_.bodies[b].name == *name) load.on.body = static_cast<int>(b);
+    if (name && load.on.body < 0)
+      report_.error(*on, fmt::format("must be a body, on all of which {} acts, not {}",
+                                     load.kind == Kind::gravity ? "gravity" : "a temperature", quoted_name(*name)));
+    if (load.on.body < 0) return;
+  }
+  check_gravity(entry, load);
+}
+
+void SpaceReader::load(const Entry& entry) {
+  const std::vector<std::string> kinds{"pressure", "traction", "force", "moment", "gravity", "temperature"};
+  std::vector<std::string> known = kinds;
+  known.emplace_back("on");
+  const MapReader map(
+      report_, entry.value, known, "{on: block.top, pressure: 1e6}",
+      only_in_the_plane({"water", "in", "field", "body_force", "rotation", "spin", "level", "weight", "at"}));
+  if (!map.is_map()) return;
+  SpaceLoad load;
+  load.name = entry.key;
+  std::vector<std::string> given;
+  for (const std::string& kind : kinds)
+    if (map.has(kind)) given.push_back(kind);
+  if (given.size() == 1) {
+    load_value(given.front(), *map.get(given.front()), load);
+    place_of_load(map, entry, load);
+  } else if (map.all_known()) {
+    report_.error(entry.value, "needs one of 'pressure', 'traction', 'force', 'moment', 'gravity' and 'temperature'");
+  }
+  model_.loads.push_back(load);
+}
+
+void SpaceReader::pair_of_faces(const Entry& entry, bool tied) {
+  const Later later =
+      only_in_the_plane({"property", "cohesion", "tension", "bond", "shear_strength", "slip", "interference", "fit",
+                         "reach", "matching", "residual_friction", "slip_distance", "dynamic_friction"});
+  const MapReader map(
+      report_, entry.value,
+      tied ? std::vector<std::string>{"between"}
+           : std::vector<std::string>{"between", "friction", "gap", "fit_in", "about"},
+      tied ? "{between: [base.top, block.bottom]}" : "{between: [base.top, block.bottom], friction: 0.3}", later);
+  if (!map.is_map()) return;
+  SpaceContact contact;
+  contact.name = entry.key;
+  if (!tied) {
+    contact.friction = number_from(map.need("friction"), 0.0, true);
+    contact.gap = number(map.get("gap"));
+    if (const auto fit = map.get("fit_in")) fits_.emplace_back(model_.contacts.size(), *fit);
+  }
+  if (const auto about = map.get("about")) contact.about = vector(*about);
+  for (const SpaceContact& other : model_.contacts)
+    if (other.name == entry.key)
+      report_.error(entry.key_source,
+                    fmt::format("a contact is called '{}' already: give the tie another name", entry.key));
+  if (const auto between = map.need("between")) {
+    const auto items = read_list(report_, *between, "[base.top, block.bottom]");
+    if (items && items->size() != 2)
+      report_.error(*between,
+                    fmt::format("must be two faces, as in [base.top, block.bottom], not a list of {}", items->size()));
+    else if (items) {
+      const auto a = face((*items)[0]), b = face((*items)[1]);
+      if (a && b && a->body == b->body)
+        report_.error(*between, "both faces belong to the same body: name faces of two bodies");
+      else if (a && b && body_at(a->body).rigid && body_at(b->body).rigid)
+        report_.error(*between, "both bodies are rigid: in space one of two bodies in contact is elastic");
+      if (a && b) contact.a = *a, contact.b = *b;
+    }
+  }
+  model_.contacts.push_back(contact);
+}
+
+}  // namespace scabo::input

@@ -1,0 +1,141 @@
+// `curves` and `steps` of models in space.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scabo/input/curves.hpp"
+#include "scabo/input/space/space_reader.hpp"
+#include "scabo/input/suggestions.hpp"
+#include "scabo/model/limits.hpp"
+#include "scabo/model/wording.hpp"
+
+namespace scabo::input {
+
+using namespace model;
+
+void SpaceReader::curves(const Value& value) {
+  constexpr double most_periods = 10'000.0;
+  for (const Entry& entry :
+       read_named(report_, value, "curves", "{cycle: {table: [[0, 0], [1, 1], [3, -1], [4, 0]]}}")) {
+    const MapReader map(report_, entry.value, {"table", "ramp", "sine"}, "{sine: {amplitude: 1, periods: 3}}",
+                        only_in_the_plane({"record", "over"}));
+    if (!map.is_map()) continue;
+    if (int{map.has("table")} + int{map.has("ramp")} + int{map.has("sine")} != 1) {
+      if (map.all_known()) report_.error(entry.value, "needs exactly one of table, ramp and sine");
+      continue;
+    }
+    Curve curve{entry.key, CurveTable{{{0.0, 0.0}}}, entry.key_source};
+    if (const auto kind = read_curve_kind(report_, map)) curve.kind = *kind;
+    if (const auto* sine = std::get_if<CurveSine>(&curve.kind);
+        sine && !(sine->periods > 0.0 && sine->periods <= most_periods))
+      report_.error(entry.value, fmt::format("'periods' must be more than 0 and at most {:g}", most_periods));
+    model_.curves.push_back(std::move(curve));
+  }
+}
+
+void SpaceReader::factor(const Entry& entry, Step& step) {
+  std::vector<std::string> known;
+  double* value = nullptr;
+  int* curve = nullptr;
+  for (std::size_t i = 0; i < model_.loads.size(); ++i) {
+    known.push_back(model_.loads[i].name);
+    if (known.back() == entry.key) value = &step.load_factors[i], curve = &step.load_curves[i];
+  }
+  for (std::size_t i = 0; i < model_.supports.size(); ++i) {
+    if (!model_.supports[i].named) continue;
+    known.push_back(model_.supports[i].name);
+    if (known.back() == entry.key) value = &step.support_factors[i], curve = &step.support_curves[i];
+  }
+  if (value == nullptr)
+    return report_.error(entry.key_source, fmt::format("there is no load or named support called {}{}",
+                                                       quoted_name(entry.key), suggestion(entry.key, known)));
+  const Node& node = *entry.value.node;
+  if (node.kind != Node::Kind::scalar || node.unreadable || !is_name(node.text)) {
+    *value = read_number(report_, entry.value).value_or(0.0);
+    return;
+  }
+  known.clear();
+  for (std::size_t i = 0; i < model_.curves.size(); ++i) {
+    known.push_back(model_.curves[i].name);
+    if (known.back() == node.text) *curve = static_cast<int>(i);
+  }
+  if (*curve < 0)
+    report_.error(entry.value, fmt::format("must be a number or the name of a curve, not {}{}", quoted_name(node.text),
+                                           known.empty() ? "; the model has no curves" : suggestion(node.text, known)));
+  else
+    *value = value_of(model_.curves[static_cast<std::size_t>(*curve)], 1.0);
+}
+
+/// The step that follows one that ends with the factors of `before`.
+Step SpaceReader::step(const Value& value, const Step& before, std::size_t number) {
+  const MapReader map(report_, value, {"name", "increments", "loads", "cycles"}, "{name: press, increments: 10}",
+                      only_in_the_plane({"dynamic", "friction", "growth", "limit", "reduce"}));
+  Step step;
+  step.load_factors = before.load_factors;
+  step.support_factors = before.support_factors;
+  step.load_curves.assign(step.load_factors.size(), -1);
+  step.support_curves.assign(step.support_factors.size(), -1);
+  step.name = fmt::format("step_{}", number);
+  step.source = value.source();
+  if (!map.is_map()) return step;
+  if (const auto name = map.get("name")) {
+    const auto text = read_text(report_, *name);
+    if (text && check_name(report_, name->source(), *text)) step.name = *text;
+  }
+  if (const auto increments = map.get("increments"))
+    step.increments = static_cast<int>(read_integer(report_, *increments, limits::increments).value_or(1));
+  if (const auto loads = map.get("loads")) {
+    for (std::size_t i = 0; i < model_.supports.size(); ++i)
+      if (!model_.supports[i].named) step.support_factors[i] = 1.0;
+    for (const Entry& entry : read_named(report_, *loads, "factors", "{tip: 1.0}")) factor(entry, step);
+    divide_at_corners(model_.curves, step);
+  } else {
+    std::fill(step.load_factors.begin(), step.load_factors.end(), 1.0);
+    std::fill(step.support_factors.begin(), step.support_factors.end(), 1.0);
+  }
+  return step;
+}
+
+void SpaceReader::steps(const std::optional<Value>& value) {
+  const auto items =
+      value ? read_list(report_, *value, "[{name: press, increments: 10}]") : std::optional(std::vector<Value>{});
+  Step last;
+  last.load_factors.assign(model_.loads.size(), 0.0);
+  last.support_factors.assign(model_.supports.size(), 0.0);
+  for (const Value& item : items.value_or(std::vector<Value>{})) {
+    last = step(item, last, model_.steps.size() + 1);
+    const bool follows =
+        std::any_of(last.load_curves.begin(), last.load_curves.end(), [](int c) { return c >= 0; }) ||
+        std::any_of(last.support_curves.begin(), last.support_curves.end(), [](int c) { return c >= 0; });
+    if (!follows) last.load_curves.clear(), last.support_curves.clear();
+    const long cycles = read_cycles(report_, item, last);
+    for (long k = 1; k <= cycles; ++k) {
+      Step copy = last;
+      if (cycles > 1) copy.name = fmt::format("{}_{}", last.name, k);
+      for (const Step& other : model_.steps)
+        if (other.name == copy.name) report_.error(item, fmt::format("two steps are called '{}'", copy.name));
+      model_.steps.push_back(std::move(copy));
+    }
+  }
+  if (!model_.steps.empty() || !items) return;
+  last.name = "step_1";
+  std::fill(last.load_factors.begin(), last.load_factors.end(), 1.0);
+  std::fill(last.support_factors.begin(), last.support_factors.end(), 1.0);
+  model_.steps.push_back(last);
+}
+
+void SpaceReader::find_fits() {
+  std::vector<std::string> known;
+  for (const Step& step : model_.steps) known.push_back(step.name);
+  for (const auto& [contact, value] : fits_) {
+    const auto text = read_text(report_, value);
+    if (!text) continue;
+    const auto found = std::find(known.begin(), known.end(), *text);
+    if (found == known.end())
+      report_.error(value, fmt::format("there is no step named {}{}", quoted_name(*text), suggestion(*text, known)));
+    else
+      model_.contacts[contact].fit_in = static_cast<int>(found - known.begin());
+  }
+}
+
+}  // namespace scabo::input

@@ -1,0 +1,75 @@
+// The reader of models in space: what is known so far, and its functions, one for each entry of a section.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scabo/input/space/solid_values.hpp"
+#include "scabo/model/solid_model.hpp"
+
+namespace scabo::input {
+
+class SpaceReader {
+ public:
+  SpaceReader(Report& report, const std::string& file) : report_(report) { model_.file = file; }
+  model::SpaceModel read(const Value& root);
+  std::vector<Warning>& warnings() { return model_.warnings; }
+
+ private:
+  using Components = std::array<std::optional<double>, 3>;
+  using Formulas = std::array<model::SpaceFormula, 3>;
+
+  void analysis(const Value& value);
+  void solver(const Value& value);
+  void material(const Entry& entry);
+
+  // read_solid_bodies.cpp
+  int material_of(const Value& value);
+  void body(const Entry& entry);
+  std::shared_ptr<const files::ImportedSolidMesh> mesh_of_file(const Value& value);
+  void add_bodies_of_file(const Value& mesh, model::SpaceBody body);
+  std::optional<int> region_of(const Value& value, const files::ImportedSolidMesh& mesh) const;
+  /// A face of a body; or the body, where `or_body` names what may be on a whole one, as in `a load`.
+  std::optional<model::SpaceFace> face(const Value& value, const char* or_body = nullptr);
+  void find_face(const Value& value, const std::string& part, model::SpaceFace& face);
+
+  // read_solid_conditions.cpp
+  Components fixed(const Value& value);
+  Components components(const Value& value, const char* names);
+  void displacement(const Value& value, model::SpaceSupport& support);
+  Formulas formulas(const Value& value);
+  void support(const Value& value);
+  void rigid_support(const MapReader& map, model::SpaceSupport& support);
+  void load(const Entry& entry);
+  void load_value(const std::string& kind, const Value& value, model::SpaceLoad& load);
+  void place_of_load(const MapReader& map, const Entry& entry, model::SpaceLoad& load);
+  void check_gravity(const Entry& entry, const model::SpaceLoad& load);
+  void pair_of_faces(const Entry& entry, bool tied);
+
+  // read_solid_steps.cpp
+  void curves(const Value& value);
+  void steps(const std::optional<Value>& value);
+  model::Step step(const Value& value, const model::Step& before, std::size_t number);
+  void factor(const Entry& entry, model::Step& step);
+  void find_fits();
+
+  double number(const std::optional<Value>& value, double otherwise = 0.0) const {
+    return value ? read_number(report_, *value).value_or(otherwise) : otherwise;
+  }
+  double number_from(const std::optional<Value>& value, double least, bool itself) const {
+    return read_number_from(report_, value, least, itself);
+  }
+  Eigen::Vector3d vector(const Value& value) const { return read_vector_in_space(report_, value); }
+  const model::SpaceBody& body_at(int index) const { return model_.bodies[static_cast<std::size_t>(index)]; }
+
+  Report& report_;
+  model::SpaceModel model_;
+  std::map<std::string, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
+  std::vector<std::pair<std::size_t, Value>> fits_;  ///< contacts, and the names of the steps of `fit_in`
+};
+
+}  // namespace scabo::input
