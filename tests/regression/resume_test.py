@@ -210,7 +210,7 @@ class Resume(unittest.TestCase):
                     self.assert_same(whole)
 
     def test_killed_while_a_closed_crack_grows(self):
-        closed = GROWTH.replace("steps: 12", "steps: 2").replace("traction: [0, 1e6]", "traction: [3e5, -1e6]").replace(
+        closed = GROWTH.replace(f"steps: {STEPS_OF_GROWTH}", "steps: 2").replace("traction: [0, 1e6]", "traction: [3e5, -1e6]").replace(
             "supports:", "contacts: {faces: {between: [plate.flaw.left, plate.flaw.right], friction: 0.2}}\nsupports:")
         self.model.write_text(closed.replace("LAW", "toughness: {K_Ic: 1e6}"), encoding="utf-8")
         run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
