@@ -146,14 +146,16 @@ Json json_of(const analysis::GrowthResult& growth) {
 
 Json json_of(const analysis::Limit& limit, const model::Model& model) {
   const model::LimitStep& step = *model.steps.back().limit;
-  Json loads = Json::array(), contacts = Json::array();
-  for (std::size_t i = 0; i < step.loads.size(); ++i)
-    if (step.loads[i]) loads.push_back(model.loads[i].name);
-  for (std::size_t c = 0; c < step.contacts.size(); ++c)
-    if (step.contacts[c]) contacts.push_back(model.contacts[c].name);
+  const auto names = [](const std::vector<char>& which, const auto& things) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < which.size(); ++i)
+      if (which[i]) list.push_back(things[i].name);
+    return list;
+  };
   const bool undecided = limit.outcome == analysis::Outcome::not_converged;
-  return {{"loads", loads},
-          {"friction", contacts},
+  return {{"loads", names(step.loads, model.loads)},
+          {"friction", names(step.friction, model.contacts)},
+          {"cohesion", names(step.cohesion, model.contacts)},
           {"solved", limit.solved},
           {"beyond", number_or_null(limit.beyond)},
           {"by", std::isinf(limit.beyond) ? Json() : Json(undecided ? "not_decided" : name_of(limit.outcome))},
