@@ -131,7 +131,7 @@ TEST(BrittleJoint, BreaksAtItsClosedFormLiftAndStaysBroken) {
 TEST(LastingCohesion, ActsOnClosedPairsAfterAnySlipAndLift) {
   const double mu = 0.2, c = 1e5, area = 2.0, normal = 1e9 * 1e-3 * area, bound = mu * normal + c * area;
   for (const int sense : {1, -1}) {
-    const auto solution = run(moved_block(1e-3, 5e-3 * sense, "friction: 0.2, cohesion: {lasting: 1e5}",
+    const auto solution = run(moved_block(5e-3 * sense, 1e-3, "friction: 0.2, cohesion: {lasting: 1e5}",
                                           "[{name: press, loads: {lift: -1, push: 0}}, {name: forth, increments: 2, "
                                           "loads: {push: 1}}, {name: back, loads: "
                                           "{push: -1}}, {name: up, loads: {lift: 1}}, {name: along, loads: {push: "
@@ -157,7 +157,7 @@ TEST(LastingCohesion, ActsOnClosedPairsAfterAnySlipAndLift) {
 TEST(LastingCohesion, BoundsTheShearOfEveryClosedPairOfAJointThatOpensPartly) {
   const double mu = 0.3, c = 6e5;
   const auto forces = [&](const std::string& steps, int sense) {
-    const auto solution = run(moved_block(3e-4, 2e-2 * sense, "friction: 0.3, cohesion: {lasting: 6e5}", steps));
+    const auto solution = run(moved_block(2e-2 * sense, 3e-4, "friction: 0.3, cohesion: {lasting: 6e5}", steps));
     const analysis::ContactResult& joint = contact_of(last(solution));
     EXPECT_GT(joint.open, 0);
     EXPECT_GT(joint.slip, 0);

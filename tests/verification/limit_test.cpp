@@ -110,19 +110,19 @@ TEST(ReducedFriction, StartsFromTheCoefficientsOfTheStepBefore) {
                  0.4 / 0.25, 1e-3);
 }
 
-// Of (mu N + c A) / T, with N = 2, c A = 0.5 and T = 0.25 in the units of the block; alone, the other stays.
+// Of (mu N + c A) / T, with mu N = 0.2, c A = 0.15 and T = 0.25 in the units of the block; alone, the other stays.
 TEST(ReducedStrength, OfFrictionAndLastingCohesionGivesTheFactorOfSafety) {
-  const auto safety = [](const std::string& reduced, double push, int sense = 1) {
-    std::string model = block(fmt::format("  - {{name: down, loads: {{down: 1, push: {}}}}}\n"
+  const auto safety = [](const std::string& reduced, int sense) {
+    std::string model = block(fmt::format("  - {{name: down, loads: {{down: 1, push: 0.25}}}}\n"
                                           "  - {{name: weaker, reduce: {{{}, relative: 1e-4}}}}\n",
-                                          push, reduced),
-                              0.3, 1.0, 1e6, sense);
-    return model.replace(model.find("friction: 0.3"), 13, "friction: 0.3, cohesion: {lasting: 2.5e5}");
+                                          reduced),
+                              0.1, 1.0, 1e6, sense);
+    return model.replace(model.find("friction: 0.1"), 13, "friction: 0.1, cohesion: {lasting: 7.5e4}");
   };
   for (const int sense : {1, -1}) {
-    expect_bracket(run(safety("friction: base, cohesion: base", 0.25, sense)), 1.1 / 0.25, 1e-4);
-    expect_bracket(run(safety("friction: base", 0.8, sense)), 0.6 / (0.8 - 0.5), 1e-4);
-    expect_bracket(run(safety("cohesion: base", 0.8, sense)), 0.5 / (0.8 - 0.6), 1e-4);
+    expect_bracket(run(safety("friction: base, cohesion: base", sense)), 0.35 / 0.25, 1e-4);
+    expect_bracket(run(safety("friction: base", sense)), 0.2 / (0.25 - 0.15), 1e-4);
+    expect_bracket(run(safety("cohesion: base", sense)), 0.15 / (0.25 - 0.2), 1e-4);
   }
 }
 

@@ -64,20 +64,17 @@ Ends ends_of(const Problem& problem, const Solution& solution, const Vector& dia
   return ends;
 }
 
-/// Updates the flags of the most overloaded pairs among those whose flags the solution changes, and of all whose
-/// strength comes and goes as they close and open: it comes back once in an increment. Returns whether there were any.
+/// Updates the flags of the most overloaded pairs among those whose flags the solution changes; once there are none,
+/// strength comes back where pairs have closed, once in an increment. Returns whether there were any.
 bool let_fall(const JointLaws& laws, const Ends& ends, int dimension, Compliance& compliance, History& trial,
               std::vector<char>& recovered) {
   History next = trial;
-  std::vector<std::size_t> fallen;
-  bool changed = false;
+  std::vector<std::size_t> fallen, closed;
   for (std::size_t i = 0; i < trial.size(); ++i) {
     next[i] = laws.of_pair[i]->after(trial[i], ends.of_pair[i]);
-    if (laws.of_pair[i]->recovers()) {
-      const bool was_broken = std::exchange(trial[i].broken, next[i].broken || (trial[i].broken && recovered[i]));
-      next[i].broken = trial[i].broken;
-      changed = changed || trial[i].broken != was_broken;
-      recovered[i] = recovered[i] || (was_broken && !trial[i].broken);
+    if (trial[i].broken && !next[i].broken) {
+      if (!recovered[i]) closed.push_back(i);
+      next[i].broken = true;
     }
     if (next[i].broken != trial[i].broken || next[i].slipped != trial[i].slipped) fallen.push_back(i);
   }
@@ -97,7 +94,9 @@ bool let_fall(const JointLaws& laws, const Ends& ends, int dimension, Compliance
       trial[fallen[k]].broken = next[fallen[k]].broken;
       trial[fallen[k]].slipped = next[fallen[k]].slipped;
     }
-  return changed || !fallen.empty();
+  if (!fallen.empty()) return true;
+  for (const std::size_t i : closed) trial[i].broken = false, recovered[i] = 1;
+  return !closed.empty();
 }
 
 /// Coefficients that depend on slip: Aitken's extrapolation of the slip of each pair from three rounds.

@@ -10,10 +10,10 @@
 //
 // with W under forces in balance (compliance.hpp), where the motions are those beyond the strength, which is kept
 // meanwhile; pairs within 1e-6 of the largest overload fail together (to preserve symmetry). A drop is permanent within
-// the increment. A strength that pairs have while they are closed comes and goes with all pairs at once, and comes back
-// once within the increment. Coefficients that decrease gradually follow the slip of the solution by fixed-point
-// iteration with Aitken's extrapolation. The number of rounds is limited by the number of strengths that can drop;
-// beyond that the increment has not converged.
+// the increment. A strength that pairs have while they are closed comes back where they have closed, once nothing falls
+// any more, and once within the increment. Coefficients that decrease gradually follow the slip of the solution by
+// fixed-point iteration with Aitken's extrapolation. The number of rounds is limited by the number of strengths that
+// can drop; beyond that the increment has not converged.
 #pragma once
 
 #include <memory>
