@@ -46,6 +46,27 @@ Rounded most_rounded_part(const Prepared& prepared, const State& state, double l
   return {dofs.name_of(worst, prepared.model), why};
 }
 
+/// Contacts more than a tenth of whose closed pairs lack their lasting cohesion: with it they open, without it they
+/// close.
+std::vector<Warning> without_cohesion(const Prepared& prepared, const State& state) {
+  std::vector<int> closed(prepared.model.contacts.size(), 0), without = closed;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    if (state.states[i] == contact::ContactState::open) continue;
+    const auto c = static_cast<std::size_t>(prepared.contact.pairs[i].contact);
+    ++closed[c];
+    without[c] += state.history[i].broken && prepared.model.contacts[c].lasting_cohesion > 0.0;
+  }
+  std::vector<Warning> warnings;
+  for (std::size_t c = 0; c < closed.size(); ++c)
+    if (10 * without[c] > closed[c])
+      warnings.push_back(
+          {WarningKind::open_shear, prepared.model.contacts[c].name,
+           fmt::format("{} of {} closed pairs of contact '{}' have no cohesion: with it they open, and without it they "
+                       "close, so that the joint carries less than its law; what turns its bodies is too large for it",
+                       without[c], closed[c], prepared.model.contacts[c].name)});
+  return warnings;
+}
+
 /// One warning of large displacements is enough.
 void add_large_rotation(const Prepared& prepared, const State& state, const IncrementResult& at,
                         StaticSolution& solution) {
@@ -104,6 +125,8 @@ void add_warnings(const Prepared& prepared, const Reached& reached, const Increm
     add(WarningKind::near_collapse, "", close);
   if (const std::string relative = without_reference(prepared, reached.state); !relative.empty())
     add(WarningKind::no_reference, "", relative);
+  for (const Warning& warning : without_cohesion(prepared, reached.state))
+    add(warning.kind, warning.subject, warning.text);
   for (const Warning& warning : crack_warnings(at.cracks)) add(warning.kind, warning.subject, warning.text);
   for (const Warning& warning : quantity_warnings(prepared.model, at)) add(warning.kind, warning.subject, warning.text);
   add_large_rotation(prepared, reached.state, at, solution);
