@@ -161,8 +161,9 @@ def schemas(schema):
     if isinstance(schema, dict):
         if schema.get("additionalProperties") is False or isinstance(schema.get("additionalProperties"), dict) or isinstance(schema.get("items"), dict):
             yield schema
-        for inner in schema.values():
-            yield from schemas(inner)
+        for key, inner in schema.items():
+            if key not in ("if", "then", "else"):
+                yield from schemas(inner)
     elif isinstance(schema, list):
         for inner in schema:
             yield from schemas(inner)

@@ -51,7 +51,7 @@ void reduce_strength(Reading& reading, const Value& value, Step& step) {
     if (!step.limit->friction[c] && !step.limit->cohesion[c]) continue;
     if (!has_one_coefficient(contacts[c]))
       reading.report.error(
-          value, fmt::format("contact '{}' has no single coefficient of friction, whose strength could be reduced",
+          value, fmt::format("contact '{}' has no single coefficient of friction: its strength cannot be reduced",
                              contacts[c].name));
     if (step.limit->friction[c]) step.friction[c] = step.backward_friction[c] = 0.0;
     if (step.limit->cohesion[c]) step.cohesion[c] = 0.0;
@@ -67,8 +67,8 @@ bool read_limit(Reading& reading, const MapReader& step_map, Step& step) {
   const auto map = limit ? MapReader(reading.report, *limit, {"of", "relative"}, "{of: push, relative: 1e-3}")
                          : MapReader(reading.report, *reduce, {"friction", "cohesion", "relative"},
                                      "{friction: [base], cohesion: [base], relative: 1e-3}");
-  const auto cohesion = reduce ? map.get("cohesion") : std::nullopt;
-  const auto friction = !reduce ? std::nullopt : cohesion ? map.get("friction") : map.need("friction");
+  const auto cohesion = limit ? std::nullopt : map.get("cohesion");
+  const auto friction = limit ? std::nullopt : cohesion ? map.get("friction") : map.need("friction");
   LimitStep& found = step.limit.emplace();
   found.loads = read_which(reading, limit ? map.need("of") : std::nullopt, names_of(reading.model.loads), "load");
   found.friction = read_which(reading, friction, names_of(reading.model.contacts), "contact");
