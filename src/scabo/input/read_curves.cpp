@@ -124,11 +124,11 @@ void read_curves(Reading& reading, const Value& value) {
       const auto read = read_record_of(reading, *record, curve);
       if (!read) continue;
       curve.kind = *read;
+      integrate_record(curve);
     } else {
       const auto read = read_curve_kind(reading.report, map);
       if (!read) continue;
       curve.kind = *read;
-      if (curve.record) integrate_record(curve);
     }
     const auto index = static_cast<int>(reading.model.curves.size());
     if (const auto over = map.get("over"))
