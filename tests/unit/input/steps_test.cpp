@@ -58,7 +58,7 @@ TEST(Steps, InWhichABodyComesOrGoesLeaveLoadsAsTheyAre) {
       "mesh: {size: 1}},\n  new: {material: m, shape: {rectangle: {corner: [1, 0], size: [1, 1]}}, mesh: {size: 1}, "
       "added: build, removed: dig}}");
   const Model model = parse(text +
-                            "ties: {joint: {between: [b.right, new.left]}}\n"
+                            "contacts: {joint: {between: [b.right, new.left], bond: true}}\n"
                             "steps:\n"
                             "  - {name: one, loads: {first: 0.5, second: 3}}\n"
                             "  - {name: build}\n"
