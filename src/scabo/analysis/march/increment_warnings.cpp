@@ -62,7 +62,7 @@ std::vector<Warning> without_cohesion(const Prepared& prepared, const State& sta
       warnings.push_back(
           {WarningKind::open_shear, prepared.model.contacts[c].name,
            fmt::format("{} of {} closed pairs of contact '{}' have no cohesion: with it they open, and without it they "
-                       "close, so that the joint carries less than its law; what turns its bodies is too large for it",
+                       "close, so that the joint carries less than its law: compare with a smaller cohesion",
                        without[c], closed[c], prepared.model.contacts[c].name)});
   return warnings;
 }
