@@ -225,10 +225,10 @@ std::vector<std::string> disagreements(const std::vector<EndState::Agreement>& t
                       "depends on must be in both",
                       of.what, directory));
     else if (found->second != of.digest)
-      messages.push_back(
-          fmt::format("{} is not the same as in {}: what the state depends on (shape, mesh, with the nodes that other "
-                      "bodies need on its edges, material, place, and the value of a load that acts) must not change",
-                      of.what, directory));
+      messages.push_back(fmt::format(
+          "{} is not the same as in {}: what the state depends on (plane, thickness, shape, mesh, with the nodes that "
+          "other bodies need on its edges, material, place, and the value of a load that acts) must not change",
+          of.what, directory));
   }
   for (const EndState::Agreement& of : here)
     if (!digests_there.contains(of.what))
