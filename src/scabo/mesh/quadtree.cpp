@@ -54,6 +54,7 @@ class Grower {
         divide_unseen_cells(pieces);
         merge_small_cells(pieces);
         place_centres(pieces, trouble);
+        find_lost_nodes(pieces, trouble);
       }
       if (trouble.empty()) return finished(std::move(pieces), domain_.lines);
       last_trouble_ = trouble.front();
@@ -288,24 +289,30 @@ class Grower {
     return true;
   }
 
-  /// Divides the leaves around points at which the lines leave no valid cells.
+  /// Divides the largest leaves around points at which the lines leave no valid cells: between leaves of one size what
+  /// an arc cuts off can be united with a neighbour.
   bool divide_at(const std::vector<Vec2>& points) {
     std::set<int> found;
-    for (const Vec2& point : points) {
-      const TreeCell leaf = forest_.cells[forest_.leaf_at(point)];
-      const Vec2 near = 1e-3 * forest_.size(leaf.level);
-      for (int k = 0; k < 4; ++k)
-        found.insert(forest_.leaf_at(point + near.cwiseProduct(Vec2(k & 1 ? 1 : -1, k >> 1 ? 1 : -1))));
-    }
-    bool divided = false;
-    for (int index : found) {
+    for (const Vec2& point : points)
+      for (const int index : largest_around(point)) found.insert(index);
+    for (const int index : found) forest_.split(index);
+    settle();
+    return !found.empty();
+  }
+
+  /// Leaves of the body that can be divided.
+  std::vector<int> largest_around(const Vec2& point) const {
+    const Vec2 near = 1e-3 * forest_.size(forest_.cells[forest_.leaf_at(point)].level);
+    std::vector<int> largest;
+    for (int k = 0; k < 4; ++k) {
+      const int index = forest_.leaf_at(point + near.cwiseProduct(Vec2(k & 1 ? 1 : -1, k >> 1 ? 1 : -1)));
       const TreeCell& leaf = forest_.cells[index];
       if (leaf.region == TreeCell::outside || leaf.level >= forest_.deepest()) continue;
-      forest_.split(index);
-      divided = true;
+      if (!largest.empty() && leaf.level > forest_.cells[largest.front()].level) continue;
+      if (!largest.empty() && leaf.level < forest_.cells[largest.front()].level) largest.clear();
+      largest.push_back(index);
     }
-    settle();
-    return divided;
+    return largest;
   }
 
   const Domain& domain_;

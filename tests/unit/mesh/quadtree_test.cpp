@@ -317,6 +317,23 @@ TEST(QuadtreeMesh, BranchedCrack) {
   EXPECT_EQ(std::count(mesh.nodes.begin(), mesh.nodes.end(), fork), 3);
 }
 
+/// Lines of the tree are tangents of the hole where cells on one side of them are smaller than on the other.
+TEST(QuadtreeMesh, HoleThatTouchesLinesOfTheTree) {
+  for (int k = 0; k < 24; ++k) {
+    const double turned = 2.0 * std::numbers::pi * k / 24.0;
+    const Vec2 at = Vec2(0.1875, 0.2375) + (0.0125 + 0.0003 * (1 + k % 5)) * Vec2(std::cos(turned), std::sin(turned));
+    Domain domain = polygon_domain(rectangle(0, 0, 1, 0.4), 1.0 / 32.0);
+    add_circle(domain, {0.1875, 0.2375}, 0.0125, -1, 0, 0.0);
+    domain.size = [at](const Vec2& p) { return std::min(1.0 / 32.0, 3.45e-4 + 0.5 * (p - at).norm()); };
+    QuadtreeOptions options;
+    options.turn = 0.25;
+    options.curved_sides = true;
+    const PolygonMesh mesh = quadtree_mesh(domain, options);
+    const MeshSummary summary = valid(domain, mesh);
+    EXPECT_GT(summary.least_side, 1e-3) << k;
+  }
+}
+
 TEST(QuadtreeMesh, SizesGradedByAThousand) {
   Domain domain = polygon_domain(rectangle(0, 0, 1, 1), 1.0);
   const Vec2 at(0.3, 0.4);

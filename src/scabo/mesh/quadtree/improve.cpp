@@ -351,4 +351,16 @@ void place_centres(Pieces& pieces, std::vector<Vec2>& trouble) {
   }
 }
 
+void find_lost_nodes(const Pieces& pieces, std::vector<Vec2>& trouble) {
+  std::vector<char> has_cell(pieces.nodes.size(), 0);
+  for (const PolygonCell& cell : pieces.cells) {
+    for (int node : cell.nodes) has_cell[node] = 1;
+  }
+  for (const std::vector<int>& chain : pieces.chains) {
+    for (int node : chain) {
+      if (!has_cell[node]) trouble.push_back(pieces.nodes[node]);
+    }
+  }
+}
+
 }  // namespace scabo::mesh::quadtree

@@ -56,6 +56,8 @@ void divide_unseen_cells(Pieces& pieces);
 void merge_small_cells(Pieces& pieces);
 /// Sets centres. Appends a point to `trouble` for each cell whose sides no point sees.
 void place_centres(Pieces& pieces, std::vector<Vec2>& trouble);
+/// Appends the nodes along lines that no cell has: cells so small that rounding decides what cuts them.
+void find_lost_nodes(const Pieces& pieces, std::vector<Vec2>& trouble);
 /// Gives both sides of cracks nodes of their own and returns the mesh without unused nodes.
 PolygonMesh finished(Pieces&& pieces, const std::vector<DomainLine>& lines);
 
