@@ -79,7 +79,8 @@ struct SystemConstants {
   double exact = 1e-9;              ///< residual, of the right-hand side, up to which a direction solves its equations
   double descending = 0.5;          ///< residual up to which it is still one along which the merit falls
   double rounding = 1e-15;          ///< of the terms of a row: what its sum may leave
-  Eigen::Index most_orthogonal = 120;  ///< unknowns of an orthogonal decomposition, ten times as expensive as LU
+  Eigen::Index most_orthogonal = 120;  ///< unknowns of an orthogonal decomposition, ten times as expensive as LU, ...
+  Eigen::Index most_shortest = 1000;   ///< ... and where the solution by LU is lost in rounding
   double rank = 1e-11;                 ///< of the largest pivot: what is less is no rank
   /// On the diagonal of a matrix that redundant pairs make singular for good, so that its factor preconditions GMRES.
   /// With 1e-6 and less rounding drifts in the null space (walls: 14 to 38 iterations instead of 1 to 5).

@@ -48,8 +48,12 @@ class NewtonDirection {
   void lay_out(const Residual& at, double regularisation);
   void add_unknown(int pair, const Eigen::Vector3d& row, const Eigen::Vector3d& column, double scale, double own);
   bool solve_dense();
-  bool solve_regular(Eigen::Index n);
-  bool solve_singular(Eigen::Index n);
+  enum class DenseEnd { solved, lost_in_rounding, failed };
+  /// `most`: of the residual, over that of y_ = 0.
+  DenseEnd judged(Eigen::Index n, double most);
+  DenseEnd solve_regular(Eigen::Index n);
+  DenseEnd solve_raised(Eigen::Index n);
+  bool solve_shortest(Eigen::Index n);
   bool solve_along_joints();
   bool solve_by_single_precision();
   /// y_ by GMRES, with products with the matrix itself. Whether the residual is at most `most` of that of y_ = 0.

@@ -14,57 +14,74 @@ bool NewtonDirection::solve_dense() {
   assemble_dense(problem, rows_, work_->full, work_->A);
   y_.resize(right_.size());
   work_->residual.resize(right_.size());
-  return n == 0 || solve_regular(n) || solve_singular(n);
+  if (n == 0) return true;
+  const SystemConstants& c = system_constants;
+  DenseEnd end = solve_regular(n);
+  if (end == DenseEnd::failed && n > c.most_orthogonal) end = solve_raised(n);
+  if (end == DenseEnd::solved || n > c.most_shortest) return end != DenseEnd::failed;
+  const Vector lost_in_rounding = y_;
+  if (solve_shortest(n)) return true;
+  y_ = lost_in_rounding;
+  return end != DenseEnd::failed;
 }
 
-/// By LU of the matrix itself; false where it is singular to working precision.
-bool NewtonDirection::solve_regular(Eigen::Index n) {
+/// Beside soft springs a small step may cause large motions, and rounding is all that is left. Among redundant pairs it
+/// may cause large forces that move nothing: the shortest solution has less rounding.
+NewtonDirection::DenseEnd NewtonDirection::judged(Eigen::Index n, double most) {
   const SystemConstants& c = system_constants;
+  const auto right = right_.head(n), y = y_.head(n);
+  const auto matrix = work_->A.topLeftCorner(n, n);
+  if (!y.allFinite()) return DenseEnd::failed;
+  const double size = right.lpNorm<Eigen::Infinity>(), left = (right - matrix * y).lpNorm<Eigen::Infinity>();
+  const double rounding = c.rounding * (matrix.cwiseAbs() * y.cwiseAbs()).maxCoeff();
+  if (left > std::max(most * size, rounding)) return DenseEnd::failed;
+  return rounding <= c.exact * size ? DenseEnd::solved : DenseEnd::lost_in_rounding;
+}
+
+/// By LU of the matrix itself.
+NewtonDirection::DenseEnd NewtonDirection::solve_regular(Eigen::Index n) {
   const auto right = right_.head(n);
   auto y = y_.head(n), residual = work_->residual.head(n);
   const auto matrix = work_->A.topLeftCorner(n, n);
   work_->factor.topLeftCorner(n, n) = matrix;
-  if (!work_->solver.factorise(work_->factor, n) || !(work_->solver.reciprocal_condition() > c.least_of_dense))
-    return false;
+  if (!work_->solver.factorise(work_->factor, n) ||
+      !(work_->solver.reciprocal_condition() > system_constants.least_of_dense))
+    return DenseEnd::failed;
   y = right;
   work_->solver.solve_in_place(y_);
   residual = right;
   residual.noalias() -= matrix * y;
   work_->solver.solve_in_place(work_->residual);
   y += residual;  // one step of refinement: the certificate is judged at 1e-10
-  residual = right;
-  residual.noalias() -= matrix * y;
-  const double left = residual.lpNorm<Eigen::Infinity>();
-  // Beside soft springs a small step may cause large motions, whose rounding is all that is left.
-  return y.allFinite() && (left <= c.exact * right.lpNorm<Eigen::Infinity>() ||
-                           left <= c.rounding * (matrix.cwiseAbs() * y.cwiseAbs()).maxCoeff());
+  return judged(n, system_constants.exact);
 }
 
-/// The shortest solution, if there is one; of many unknowns by GMRES with LU of the raised matrix.
-bool NewtonDirection::solve_singular(Eigen::Index n) {
+/// By GMRES, with LU of the raised matrix.
+NewtonDirection::DenseEnd NewtonDirection::solve_raised(Eigen::Index n) {
   const SystemConstants& c = system_constants;
-  const Vector right = right_.head(n);
-  auto y = y_.head(n);
   const auto matrix = work_->A.topLeftCorner(n, n);
-  if (n <= c.most_orthogonal) {
-    Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
-    shortest.setThreshold(c.rank);
-    shortest.compute(matrix);
-    y = shortest.solve(right);
-    return y.allFinite() && (matrix * y - right).lpNorm<Eigen::Infinity>() <= c.exact * right.lpNorm<Eigen::Infinity>();
-  }
   work_->factor.topLeftCorner(n, n) = matrix;
   for (Eigen::Index j = 0; j < rows_.size(); ++j) work_->factor(j, j) += c.raise * (1.0 - own_[j]);
-  if (!work_->solver.factorise(work_->factor, n)) return false;
+  if (!work_->solver.factorise(work_->factor, n)) return DenseEnd::failed;
   const auto multiply = [&](const Vector& x, Vector& result) { result = matrix * x; };
   const auto precondition = [&](const Vector& x, Vector& result) {
     result = x;
     work_->solver.solve_in_place(result);
   };
   Vector x = Vector::Zero(n);
-  const double left = gmres(multiply, precondition, right, x, c.singular_gmres);
-  y = x;
-  return y.allFinite() && left <= c.descending;
+  gmres(multiply, precondition, right_.head(n), x, c.singular_gmres);
+  y_.head(n) = x;
+  return judged(n, c.descending);
+}
+
+/// The shortest solution, if there is one.
+bool NewtonDirection::solve_shortest(Eigen::Index n) {
+  const auto matrix = work_->A.topLeftCorner(n, n);
+  Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
+  shortest.setThreshold(system_constants.rank);
+  shortest.compute(matrix);
+  y_.head(n) = shortest.solve(right_.head(n));
+  return judged(n, system_constants.exact) != DenseEnd::failed;
 }
 
 bool NewtonDirection::solve_along_joints() {
