@@ -7,25 +7,16 @@
 
 namespace scabo::contact {
 
-namespace {
-
-Problem scaled_by(const Problem& problem, double stiffness) {
-  Problem scaled = problem;
-  scaled.W = problem.W.scaled(stiffness);
-  scaled.q *= stiffness;
-  return scaled;
-}
-
-}  // namespace
-
 Search::Search(const Problem& problem, const Start& start, const SolverOptions& options)
     : options_(options),
       stiffness_(stiffness_of(problem)),
-      scaled_(scaled_by(problem, stiffness_)),
+      scaled_(problem),
       measure_(problem, start.p.size() == problem.q.size() ? start.p : Vector(Vector::Zero(problem.q.size())),
                options.force_scale),
       touching_(start.touching),
       best_residual_(HUGE_VAL) {
+  scaled_.W = problem.W.scaled(stiffness_);
+  scaled_.q *= stiffness_;
   const Eigen::Index n = problem.q.size(), m = problem.G.cols();
   start_.p = start.p.size() == n ? start.p : Vector(Vector::Zero(n));
   start_.a = start.a.size() == m ? Vector(stiffness_ * start.a) : Vector(Vector::Zero(m));
@@ -46,7 +37,6 @@ Search::Search(const Problem& problem, const Start& start, const SolverOptions& 
 }
 
 NewtonEnd Search::newton_from(Point from, const NewtonRun& run) {
-  const BDifferentiableEquations equations(scaled_, options_.r_factor);
   NewtonOptions options;
   options.small = small_;
   options.rounding = rounding_;
@@ -62,7 +52,7 @@ NewtonEnd Search::newton_from(Point from, const NewtonRun& run) {
       iteration.iteration += before;
       options_.on_iteration(iteration);
     };
-  NewtonEnd end = newton(equations, std::move(from.p), std::move(from.a), options);
+  NewtonEnd end = newton(equations(), std::move(from.p), std::move(from.a), options);
   add_trace(end.trace, end.iterations);
   offer(end.p, end.a, end.residual, end.converged);
   return end;
@@ -75,9 +65,7 @@ void Search::offer(const Vector& p, const Vector& a, double residual, bool solve
   solved_ = solved;
 }
 
-double Search::residual_at(const Vector& p, const Vector& a) const {
-  return BDifferentiableEquations(scaled_, options_.r_factor).residual(p, a).largest();
-}
+double Search::residual_at(const Vector& p, const Vector& a) const { return equations().residual(p, a).largest(); }
 
 void Search::add_trace(std::vector<Iteration> trace, int iterations, double force) {
   for (Iteration& iteration : trace) {

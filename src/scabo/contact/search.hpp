@@ -34,6 +34,7 @@ class Search {
   Search(const Problem& problem, const Start& start, const SolverOptions& options);
 
   const Problem& problem() const { return scaled_; }
+  BDifferentiableEquations equations() const { return {scaled_, options_.r_factor}; }
   const SolverOptions& options() const { return options_; }
   const Point& start() const { return start_; }
   bool has_history() const { return has_history_; }

@@ -104,13 +104,9 @@ namespace {
 }
 
 std::string limit_of(const Deadline& deadline, int iterations) {
-  char text[160];
-  if (deadline.of_work())
-    std::snprintf(text, sizeof text, "the limit of work ended the search after %d iterations", iterations);
-  else
-    std::snprintf(text, sizeof text, "the time limit of %g s ended the search after %d iterations", deadline.seconds(),
-                  iterations);
-  return text;
+  char limit[64] = "limit of work";
+  if (!deadline.of_work()) std::snprintf(limit, sizeof limit, "time limit of %g s", deadline.seconds());
+  return std::string("the ") + limit + " ended the search after " + std::to_string(iterations) + " iterations";
 }
 
 /// Whether a rigid motion is proven to be held by nothing.

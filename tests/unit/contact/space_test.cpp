@@ -121,5 +121,33 @@ TEST(RankDeficient, RedundantPairsAreSolvedInTheNaturalMap) {
   EXPECT_GE(solved, 195);
 }
 
+// Bonded pairs of bodies that meet in points: some of their forces balance each other and move nothing. A small change
+// of the loads must not bring such forces, whose rounding would hide the motions.
+TEST(RankDeficient, ForcesThatMoveNothingStaySmall) {
+  std::mt19937 random(66);
+  for (const int pairs : {20, 80, 200}) {
+    const Eigen::Index n = 2 * pairs;
+    const Matrix Z =
+        Matrix(Matrix::NullaryExpr(n, 4, [&] { return uniform(random, -1, 1); }).householderQr().householderQ())
+            .leftCols(4);
+    const Matrix others = Matrix::Identity(n, n) - Z * Z.transpose();
+    Problem problem;
+    problem.dimension = 2;
+    problem.W = Matrix(others * elastic_flexibility(random, pairs) * others);
+    problem.q = others * Vector::NullaryExpr(n, [&] { return uniform(random, -1, 1); });
+    problem.mu = Vector::Zero(pairs);
+    problem.cohesion = problem.tension = Vector::Constant(pairs, HUGE_VAL);
+    problem.G.resize(n, 0);
+    const Solution before = solve(problem);
+    ASSERT_EQ(before.status, Status::solved) << pairs;
+    problem.q += 1e-5 * others * Vector::NullaryExpr(n, [&] { return uniform(random, -1, 1); });
+    Start start;
+    start.p = before.p;
+    const Solution after = solve(problem, start);
+    ASSERT_EQ(after.status, Status::solved) << pairs;
+    EXPECT_LT((after.p - before.p).norm(), 1e-3 * before.p.norm()) << pairs;
+  }
+}
+
 }  // namespace
 }  // namespace scabo::contact

@@ -18,8 +18,7 @@ bool crossed_over(Search& search, InteriorPointEnd end) {
   const double residual = search.residual_at(end.p, end.a);
   const NewtonRun run{"newton after interior points", interior_constants.crossover,
                       interior_constants.crossover_patience};
-  const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
-  if (std::optional<Point> stuck = with_undecided_stuck(equations, {end.p, end.a}))
+  if (std::optional<Point> stuck = with_undecided_stuck(search.equations(), {end.p, end.a}))
     if (search.newton_from(*std::move(stuck), run).converged) return true;
   if (search.newton_from({end.p, end.a}, run).converged) return true;
   if (end.accepted) search.offer(end.p, end.a, residual, true);

@@ -50,10 +50,12 @@ class NewtonDirection {
   bool solve_dense();
   enum class DenseEnd { solved, lost_in_rounding, failed };
   /// `most`: of the residual, over that of y_ = 0.
-  DenseEnd judged(Eigen::Index n, double most);
+  DenseEnd judged(Eigen::Index n, double most) const;
+  double residual_of(Eigen::Index n) const;
+  double rounding_of(Eigen::Index n) const;
   DenseEnd solve_regular(Eigen::Index n);
   DenseEnd solve_raised(Eigen::Index n);
-  bool solve_shortest(Eigen::Index n);
+  bool solve_shortest(Eigen::Index n, double rounding);
   bool solve_along_joints();
   bool solve_by_single_precision();
   /// y_ by GMRES, with products with the matrix itself. Whether the residual is at most `most` of that of y_ = 0.

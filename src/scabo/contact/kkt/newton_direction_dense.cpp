@@ -20,22 +20,27 @@ bool NewtonDirection::solve_dense() {
   if (end == DenseEnd::failed && n > c.most_orthogonal) end = solve_raised(n);
   if (end == DenseEnd::solved || n > c.most_shortest) return end != DenseEnd::failed;
   const Vector lost_in_rounding = y_;
-  if (solve_shortest(n)) return true;
+  if (solve_shortest(n, end == DenseEnd::failed ? 0.0 : rounding_of(n))) return true;
   y_ = lost_in_rounding;
   return end != DenseEnd::failed;
 }
 
+double NewtonDirection::residual_of(Eigen::Index n) const {
+  return (right_.head(n) - work_->A.topLeftCorner(n, n) * y_.head(n)).lpNorm<Eigen::Infinity>();
+}
+
+/// What rounding may leave of the equations.
+double NewtonDirection::rounding_of(Eigen::Index n) const {
+  return system_constants.rounding * (work_->A.topLeftCorner(n, n).cwiseAbs() * y_.head(n).cwiseAbs()).maxCoeff();
+}
+
 /// Beside soft springs a small step may cause large motions, and rounding is all that is left. Among redundant pairs it
 /// may cause large forces that move nothing: the shortest solution has less rounding.
-NewtonDirection::DenseEnd NewtonDirection::judged(Eigen::Index n, double most) {
-  const SystemConstants& c = system_constants;
-  const auto right = right_.head(n), y = y_.head(n);
-  const auto matrix = work_->A.topLeftCorner(n, n);
-  if (!y.allFinite()) return DenseEnd::failed;
-  const double size = right.lpNorm<Eigen::Infinity>(), left = (right - matrix * y).lpNorm<Eigen::Infinity>();
-  const double rounding = c.rounding * (matrix.cwiseAbs() * y.cwiseAbs()).maxCoeff();
-  if (left > std::max(most * size, rounding)) return DenseEnd::failed;
-  return rounding <= c.exact * size ? DenseEnd::solved : DenseEnd::lost_in_rounding;
+NewtonDirection::DenseEnd NewtonDirection::judged(Eigen::Index n, double most) const {
+  if (!y_.head(n).allFinite()) return DenseEnd::failed;
+  const double size = right_.head(n).lpNorm<Eigen::Infinity>(), rounding = rounding_of(n);
+  if (residual_of(n) > std::max(most * size, rounding)) return DenseEnd::failed;
+  return rounding <= system_constants.exact * size ? DenseEnd::solved : DenseEnd::lost_in_rounding;
 }
 
 /// By LU of the matrix itself.
@@ -49,8 +54,7 @@ NewtonDirection::DenseEnd NewtonDirection::solve_regular(Eigen::Index n) {
     return DenseEnd::failed;
   y = right;
   work_->solver.solve_in_place(y_);
-  residual = right;
-  residual.noalias() -= matrix * y;
+  residual = right - matrix * y;
   work_->solver.solve_in_place(work_->residual);
   y += residual;  // one step of refinement: the certificate is judged at 1e-10
   return judged(n, system_constants.exact);
@@ -59,29 +63,22 @@ NewtonDirection::DenseEnd NewtonDirection::solve_regular(Eigen::Index n) {
 /// By GMRES, with LU of the raised matrix.
 NewtonDirection::DenseEnd NewtonDirection::solve_raised(Eigen::Index n) {
   const SystemConstants& c = system_constants;
-  const auto matrix = work_->A.topLeftCorner(n, n);
-  work_->factor.topLeftCorner(n, n) = matrix;
+  work_->factor.topLeftCorner(n, n) = work_->A.topLeftCorner(n, n);
   for (Eigen::Index j = 0; j < rows_.size(); ++j) work_->factor(j, j) += c.raise * (1.0 - own_[j]);
   if (!work_->solver.factorise(work_->factor, n)) return DenseEnd::failed;
-  const auto multiply = [&](const Vector& x, Vector& result) { result = matrix * x; };
-  const auto precondition = [&](const Vector& x, Vector& result) {
-    result = x;
-    work_->solver.solve_in_place(result);
-  };
-  Vector x = Vector::Zero(n);
-  gmres(multiply, precondition, right_.head(n), x, c.singular_gmres);
-  y_.head(n) = x;
-  return judged(n, c.descending);
+  const auto precondition = [&](const Vector& x, Vector& y) { work_->solver.solve_in_place(y = x); };
+  return solve_preconditioned(precondition, c.singular_gmres, c.descending) ? judged(n, c.descending)
+                                                                            : DenseEnd::failed;
 }
 
-/// The shortest solution, if there is one.
-bool NewtonDirection::solve_shortest(Eigen::Index n) {
-  const auto matrix = work_->A.topLeftCorner(n, n);
+/// The shortest solution, if there is one to within `rounding`.
+bool NewtonDirection::solve_shortest(Eigen::Index n, double rounding) {
   Eigen::CompleteOrthogonalDecomposition<Matrix> shortest;
   shortest.setThreshold(system_constants.rank);
-  shortest.compute(matrix);
+  shortest.compute(work_->A.topLeftCorner(n, n));
   y_.head(n) = shortest.solve(right_.head(n));
-  return judged(n, system_constants.exact) != DenseEnd::failed;
+  const double exact = system_constants.exact * right_.head(n).lpNorm<Eigen::Infinity>();
+  return y_.allFinite() && residual_of(n) <= std::max(exact, rounding);
 }
 
 bool NewtonDirection::solve_along_joints() {

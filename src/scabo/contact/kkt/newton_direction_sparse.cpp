@@ -25,11 +25,7 @@ bool NewtonDirection::solve_sparse() {
   Eigen::SparseMatrix<double> raised = A;
   for (Eigen::Index j = 0; j < rows_.size(); ++j) raised.coeffRef(j, j) += c.raise * (1.0 - own_[j]);
   if (!work.saddle->factorise(rows_, raised) || !(factor.reciprocal_condition() > c.least_of_raised)) return false;
-  const auto multiply = [&](const Vector& x, Vector& result) { result.noalias() = A * x; };
-  const auto precondition = [&](const Vector& x, Vector& result) { factor.solve(x, result); };
-  y_.setZero(A.rows());
-  const double left = gmres(multiply, precondition, right, y_, c.singular_gmres);
-  return y_.allFinite() && left <= c.descending;
+  return solve_preconditioned([&](const Vector& x, Vector& y) { factor.solve(x, y); }, c.singular_gmres, c.descending);
 }
 
 /// Rigid bodies. Pairs are redundant there: the raised matrix preconditions GMRES.

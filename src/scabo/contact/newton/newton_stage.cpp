@@ -13,8 +13,6 @@ namespace scabo::contact {
 
 namespace {
 
-int patience_of(const Problem& problem) { return may_take_interior_points(problem) ? newton_constants.patience : 0; }
-
 std::string why_of(const NewtonEnd& end, const Search& search) {
   if (search.late()) return "Newton's method was ended by its limit";
   if (end.singular) return "Newton's method found no direction in which the forces balance the loads";
@@ -26,8 +24,7 @@ std::string why_of(const NewtonEnd& end, const Search& search) {
 NewtonEnd newton_until_settled(Search& search, Point from, const NewtonRun& run) {
   NewtonEnd end = search.newton_from(std::move(from), run);
   if (!end.converged || end.trace.back().states_changed == 0) return end;
-  const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
-  if (std::optional<Point> stuck = with_undecided_stuck(equations, {end.p, end.a}))
+  if (std::optional<Point> stuck = with_undecided_stuck(search.equations(), {end.p, end.a}))
     search.newton_from(*std::move(stuck), run);
   return end;
 }
@@ -42,7 +39,7 @@ Point counted(Search& search, Point start) {
 /// Whether that ends the search, as `done` says of each start.
 bool from_history(Search& search, const std::function<bool(Point, const char*)>& done) {
   const bool floats = search.problem().G.cols() > 0;
-  const BDifferentiableEquations equations(search.problem(), search.options().r_factor);
+  const BDifferentiableEquations equations = search.equations();
   std::optional<Point> kept;
   if (floats) kept = with_states_kept(equations, search.start());
   if (kept && done(counted(search, *std::move(kept)), "newton from states kept")) return true;
@@ -65,7 +62,7 @@ bool is_solved_at_rest(Search& search) {
 StageEnd newton_stage(Search& search) {
   const Problem& problem = search.problem();
   if (is_solved_at_rest(search)) return {true, {}};
-  const int patience = patience_of(problem);
+  const int patience = may_take_interior_points(problem) ? newton_constants.patience : 0;
   NewtonEnd end;
   const auto done = [&](Point from, const char* stage) {
     end = newton_until_settled(search, std::move(from), {stage, 0, patience});
