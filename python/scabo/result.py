@@ -342,19 +342,19 @@ class Result:
             return draw(self._write(os.path.join(folder, "results")))
 
     def report(self, output: str | os.PathLike[str] | None = None, *, units: str | None = None,
-               megabytes: float = 25.0, mirrored: bool = False) -> pathlib.Path:
+               megabytes: float = 25.0, mirrored: bool = False, fields: str | None = None) -> pathlib.Path:
         """Writes one page for the browser, as ``scabo report`` does, and returns its path: by default
         ``model.report.html`` beside the results directory, which a run with ``output`` has. ``units``: length and force
         of the model, as in "m,N". Beyond ``megabytes``, fields of increments are left out, evenly. ``mirrored``: both
-        halves of bodies of revolution."""
+        halves of bodies of revolution. ``fields``: those that the page has, as in "displacement,von_mises"; None: all."""
         from . import report
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
-            return report.write(self.directory, output, units, megabytes, mirrored)
+            return report.write(self.directory, output, units, megabytes, mirrored, fields)
         if output is None:
             raise ValueError("these results are in no directory: name the page, as in report(\"model.html\")")
         with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
             directory = self._write(os.path.join(folder, pathlib.Path(output).stem))
-            return report.write(directory, output, units, megabytes, mirrored)
+            return report.write(directory, output, units, megabytes, mirrored, fields)
 
     def _body(self, name: str) -> int:
         bodies = self._core.bodies

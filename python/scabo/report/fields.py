@@ -21,8 +21,24 @@ QUANTITIES = {
 LINEAR_CORNERS = {vtu.TRIANGLE: 3, vtu.QUAD: 4, vtu.QUADRATIC_TRIANGLE: 3, vtu.QUADRATIC_QUAD: 4}
 
 
-def add_fields(results, arrays, budget):
-    """Adds mesh and values, values up to `budget` bytes beyond those of one increment. Returns what the page has to know, or None where
+GROUPS = {"displacement": ("ux", "uy"), "stress": ("xx", "yy", "xy", "zz"), "principal": ("principal_1", "principal_2", "principal_3"),
+          "von_mises": ("von_mises",)}  # as in output.fields of a model
+
+
+def asked_for(names):
+    """The quantities of names as in "displacement,von_mises"; None: all. Raises ResultsError."""
+    if names is None:
+        return None
+    listed_names = [name.strip() for name in names.split(",")]
+    for name in listed_names:
+        if name not in GROUPS:
+            raise ResultsError(f"--fields {names}: there are no fields '{name}': give some of {', '.join(GROUPS)}, with commas between them")
+    wanted = {key for name in listed_names for key in GROUPS[name]}
+    return {key: entry for key, entry in QUANTITIES.items() if key in wanted}
+
+
+def add_fields(results, arrays, budget, asked=None):
+    """Adds mesh and values of the quantities that are asked for, values up to `budget` bytes beyond those of one increment. Returns what the page has to know, or None where
     the results have no fields."""
     numbers = [number for number in results.field_numbers() if number <= results.count]
     if not numbers:
@@ -42,9 +58,11 @@ def add_fields(results, arrays, budget):
     arrays.add("body", first.point_data["body"], "u4")
     arrays.add("rigid", np.concatenate(rigid) if rigid else [], "u4")
     arrays.add("rigid_sizes", [len(polygon) for polygon in rigid], "u4")
-    quantities = {key: entry for key, entry in QUANTITIES.items() if entry[0] in first.point_data}
+    quantities = {key: entry for key, entry in (asked or QUANTITIES).items() if entry[0] in first.point_data}
+    if asked and not quantities:
+        raise ResultsError(f"--fields: {results.directory} has none of these fields, as the model did not ask for them (`output.fields`)")
     chosen, of_other_meshes = add_values(results, numbers, first, quantities, corners, rigid, arrays, budget)
-    return {"centre": centre.tolist(), "points": len(first.points), "triangles": len(corners), "increments": sorted(chosen), "ranges": chosen,
+    return {"centre": centre.tolist(), "points": len(first.points), "triangles": len(corners), "bodies": int(first.point_data["body"].max()), "increments": sorted(chosen), "ranges": chosen,
             "magnification": scale_of(results, sorted(chosen)[-1]), "low": first.points.min(axis=0).tolist(),
             "high": first.points.max(axis=0).tolist(), "note": note_of(results, numbers, sorted(chosen), of_other_meshes),
             "quantities": [{"key": key, "name": revolution.NAMES.get(key, name) if results.revolved else name, "dimension": dimension} for key, (_, _, name, dimension) in quantities.items()]}

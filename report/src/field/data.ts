@@ -2,7 +2,7 @@
 import { floats, whole } from "../arrays";
 import type { Content, Dimension, Range } from "../content";
 import type { State } from "../state";
-import type { Geometry } from "./scene";
+import { trianglesOf, type Geometry, type Mechanism } from "./scene";
 
 export interface Quantity {
   key: string;
@@ -30,7 +30,15 @@ export class FieldData {
       whole("rigid_sizes"),
     ]);
     this.body = body as Uint32Array<ArrayBuffer>;
-    return { points, triangles, outline, mesh, elements, nodes, rigid, rigidSizes };
+    return { points, triangles, outline, mesh, elements, nodes, body, rigid, rigidSizes };
+  }
+
+  /** Null where the run has no mechanism. */
+  async mechanism(): Promise<Mechanism | null> {
+    if (!this.content.mechanism) return null;
+    const [points, rings, sizes, sides, opens, slips, ux, uy] = await Promise.all([floats("mechanism_points"), whole("mechanism_rings"), whole("mechanism_sizes"),
+      whole("mechanism_sides"), whole("mechanism_opens"), whole("mechanism_slips"), floats("mechanism_ux"), floats("mechanism_uy")]);
+    return { points, triangles: new Uint32Array(trianglesOf(points, rings, sizes)), sides, opens, slips, ux, uy };
   }
 
   displacement(increment: number): Promise<[Float32Array | null, Float32Array | null]> {
@@ -62,10 +70,5 @@ export class FieldData {
 
   extremes(key: string, increment: number): Range {
     return this.content.field!.ranges[String(increment)][key] ?? [0, 0, 0, 0];
-  }
-
-  bodyName(point: number): string {
-    const number = this.body[point];
-    return this.content.model.bodies.listed[number - 1]?.name ?? `body ${number}`;
   }
 }
