@@ -19,6 +19,7 @@ import numpy as np
 from . import _core
 from .arguments import real_array
 from .fields import Fields
+from .kept import KeptResult
 from .motion import Motion
 
 if TYPE_CHECKING:
@@ -167,7 +168,7 @@ class Result:
     ones count. Positions, displacements, forces and stresses are in the units of the model; stress is positive in
     tension."""
 
-    def __init__(self, core: _core.StaticResult) -> None:
+    def __init__(self, core: _core.StaticResult | KeptResult) -> None:
         self._core = core
         self._directory = core.record.directory
         self._summary: dict[str, Any] = json.loads(core.record.summary)
@@ -304,6 +305,8 @@ class Result:
         self._directory = self._write(os.fsdecode(directory))
 
     def _write(self, directory: str) -> str:
+        if isinstance(self._core, KeptResult):
+            raise LookupError("results that were pickled cannot be written, nor drawn without a directory: save() them before")
         if self._core.writes_problems:
             raise ValueError("the model asks for the discrete problems (output.discrete_problems), which are written "
                              "only during a run: use run(output=...)")
@@ -390,8 +393,10 @@ class Result:
         return self._increments[self._number(-1)]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("results hold the memory of the solver and cannot be pickled: save() them, or pickle what you need of "
-                        "them, as summary, history or contact[...].table()")
+        """Tables, nodal displacements, fields and histories are kept, and values at points are not."""
+        kept = KeptResult.of(self._core)
+        kept.record.directory = self._directory
+        return Result, (kept,)
 
     def __repr__(self) -> str:
         return f"<scabo.Result: {self.status}, {len(self._increments)} increments>"
