@@ -46,8 +46,8 @@ export class Overlay {
     this.scaleText.textContent = `${number(length, 3)} ${units.unit}`.trim();
   }
 
-  /** The same on a picture, `top` pixels lower. */
-  draw(context: CanvasRenderingContext2D, top: number): void {
+  /** The same on a picture of this height, `top` pixels lower. */
+  draw(context: CanvasRenderingContext2D, top: number, height: number): void {
     const [line, ...marks] = [this.line, ...this.extremes, this.cross];
     const points = (line.getAttribute("points") ?? "").split(" ").filter(Boolean).map((point) => point.split(",").map(Number));
     context.lineWidth = 2;
@@ -68,7 +68,7 @@ export class Overlay {
       context.stroke(path);
       context.restore();
     }
-    const width = parseFloat(this.scaleLine.style.width), height = this.root.clientHeight;
+    const width = parseFloat(this.scaleLine.style.width);
     context.strokeStyle = context.fillStyle = css("--ink");
     context.lineWidth = 1.5;
     context.font = "13px system-ui, sans-serif";

@@ -265,7 +265,7 @@ export class FieldPanel {
     context.fillStyle = css("--ink");
     context.fillText(title, 12, 19);
     context.drawImage(this.canvas, 0, top, width, height);
-    this.overlay.draw(context, top);
+    this.overlay.draw(context, top, height);
     if (!this.state.shown.mechanism) this.bar.draw(context, 20, top + height + 8, width - 40);
     return made;
   }
