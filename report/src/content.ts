@@ -49,6 +49,7 @@ export interface Fields {
   triangles: number;
   bodies: number;
   increments: number[];
+  mesh_of: Record<string, number>; // of every increment; 0 is the mesh of the last one
   ranges: Record<string, Record<string, Range>>;
   magnification: number;
   low: [number, number];

@@ -76,7 +76,7 @@ class Pages(unittest.TestCase):
         content, arrays = self.content(text), self.arrays(text)
         grid = made_up.grid()
         self.assertEqual(content["field"]["increments"], [1, 2])
-        np.testing.assert_allclose(arrays["points"].reshape(-1, 2) + content["field"]["centre"], grid["Points"][:, :2], atol=1e-6)
+        np.testing.assert_allclose(arrays["points_of_mesh_0"].reshape(-1, 2) + content["field"]["centre"], grid["Points"][:, :2], atol=1e-6)
         np.testing.assert_array_equal(arrays["von_mises_2"][:-4], grid["point"]["von_mises"][:-4].astype("f4"))
         self.assertTrue(np.isnan(arrays["von_mises_2"][-4:]).all(), "a rigid body has no stress")
         np.testing.assert_array_equal(arrays["uy_2"], (2 * grid["point"]["displacement"][:, 1]).astype("f4"))

@@ -12,7 +12,6 @@ export interface Quantity {
 
 export class FieldData {
   readonly quantities: Quantity[];
-  body = new Uint32Array();
 
   constructor(readonly content: Content) {
     this.quantities = content.field!.quantities.slice();
@@ -24,13 +23,17 @@ export class FieldData {
     return this.content.field!.quantities.some((quantity) => quantity.key === "ux");
   }
 
-  async geometry(): Promise<Geometry> {
-    const [points, triangles, outline, mesh, elements, nodes, body, rigid, rigidSizes] = await Promise.all([
-      floats("points"), whole("triangles"), whole("outline"), whole("mesh"), whole("elements"), whole("nodes"), whole("body"), whole("rigid"),
-      whole("rigid_sizes"),
+  async geometry(mesh: number): Promise<Geometry> {
+    const name = (what: string) => `${what}_of_mesh_${mesh}`;
+    const [points, triangles, outline, sides, elements, nodes, body, rigid, rigidSizes] = await Promise.all([
+      floats(name("points")), whole(name("triangles")), whole(name("outline")), whole(name("mesh")), whole(name("elements")), whole(name("nodes")),
+      whole(name("body")), whole(name("rigid")), whole(name("rigid_sizes")),
     ]);
-    this.body = body as Uint32Array<ArrayBuffer>;
-    return { points, triangles, outline, mesh, elements, nodes, body, rigid, rigidSizes };
+    return { points, triangles, outline, mesh: sides, elements, nodes, body, rigid, rigidSizes };
+  }
+
+  meshOf(increment: number): number {
+    return this.content.field!.mesh_of[String(increment)];
   }
 
   /** Null where the run has no mechanism. */

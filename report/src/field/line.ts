@@ -71,7 +71,7 @@ export class LinePanel {
     this.chart.show(distances.map((x) => x * along.factor), [{ name: quantity.name, colour: "--c1", values: known.map((y) => (y === null ? null : y * scale.factor)), points: false }],
       { x: `distance along the line${along.unit ? ` (${along.unit})` : ""}`, y: scale.unit ? `${quantity.name} (${scale.unit})` : quantity.name });
     this.note.textContent = known.some((value) => value !== null) ? "" : "The line meets no elastic body that is shown.";
-    this.table = [["distance", "x", "y", "body", key], picked.map((place, i) => [distances[i], at[i][0] + cx, at[i][1] + cy, place ? nameOf(this.state, this.data.body[shape.corner(place)]) : "", known[i]])];
+    this.table = [["distance", "x", "y", "body", key], picked.map((place, i) => [distances[i], at[i][0] + cx, at[i][1] + cy, place ? nameOf(this.state, shape.body(place)) : "", known[i]])];
   }
 
   private save(): void {

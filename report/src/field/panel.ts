@@ -14,7 +14,7 @@ import { Overlay } from "./overlay";
 import { Shape } from "./pick";
 import { LinePanel } from "./line";
 import { Readout } from "./readout";
-import { depthsOf, FieldScene, type Geometry } from "./scene";
+import { depthsOf, drawerOn, FieldScene, type Drawer, type Geometry } from "./scene";
 
 const NEAR = 14; // pixels from the mouse to a pair
 const SLOW = 25; // milliseconds of a drawing
@@ -44,6 +44,8 @@ export class FieldPanel {
   private readonly readout: Readout;
   private readonly line: LinePanel;
   private readonly extremes = element("p", { class: "extremes", id: "extremes" });
+  private drawer!: Drawer;
+  private mesh = -1;
   private scene!: FieldScene;
   private shape!: Shape;
   private geometry!: Geometry;
@@ -72,17 +74,8 @@ export class FieldPanel {
   }
 
   async start(): Promise<void> {
-    this.geometry = await this.data.geometry();
-    this.scene = new FieldScene(this.canvas, this.geometry, this.state.shown.order.length);
-    this.shape = new Shape(this.geometry.points, this.geometry.triangles);
-    if (this.state.content.pairs) {
-      const [x, y, a, b] = await Promise.all([floats("pair_x"), floats("pair_y"), whole("pair_a"), whole("pair_b")]);
-      this.pairs = { x, y, a, b };
-      this.scene.setPairs(x, y, this.state.content.pairs.sizes);
-    }
-    const mechanism = await this.data.mechanism();
-    if (mechanism) this.scene.setMechanism(mechanism);
-    this.order();
+    this.drawer = drawerOn(this.canvas);
+    await this.take(this.data.meshOf(this.state.available(this.state.content.field!.increments)));
     interact(this.stage, this.canvas, this.camera, {
       changed: () => this.draw(true), pick: (px, py) => this.pickPixel(px, py), hover: (px, py) => this.hover(px, py), leave: () => this.leave(),
       line: (from, to) => { this.line.arm(false); this.state.set({ line: { from: this.undeformed(...from), to: this.undeformed(...to) } }); }, drawsLine: () => this.line.drawing,
@@ -105,11 +98,32 @@ export class FieldPanel {
     state.on(["line", "hidden", "order", "units"], () => void this.line.show(this.shape, this.current).then(() => this.draw()));
     state.on(["dark"], () => { this.theme(); this.draw(); });
     new ResizeObserver(() => this.resize()).observe(this.stage);
-    this.theme();
-    this.scene.show(state.shown);
     this.resize();
     this.camera.reset();
     await this.load();
+  }
+
+  /** Another mesh, or the first one. Marks of pairs belong to the mesh of the last increment. */
+  private async take(mesh: number): Promise<void> {
+    const { state } = this, request = this.request, geometry = await this.data.geometry(mesh), { pairs } = state.content;
+    const places = pairs && mesh === 0 ? await Promise.all([floats("pair_x"), floats("pair_y"), whole("pair_a"), whole("pair_b")]) : null;
+    const mechanism = await this.data.mechanism();
+    if (request !== this.request) return;
+    const picked = state.shown.picked && this.shape ? this.shape.place(state.shown.picked).undeformed : null;
+    this.scene?.dispose();
+    this.mesh = mesh;
+    this.current = 0;
+    this.geometry = geometry;
+    this.scene = new FieldScene(this.drawer, geometry, state.shown.order.length);
+    this.shape = new Shape(geometry.points, geometry.triangles, geometry.body);
+    this.pairs = places && { x: places[0], y: places[1], a: places[2], b: places[3] };
+    if (this.pairs) this.scene.setPairs(this.pairs.x, this.pairs.y, pairs!.sizes);
+    if (mechanism) this.scene.setMechanism(mechanism);
+    this.order();
+    this.theme();
+    this.scene.show(state.shown);
+    this.resize();
+    if (picked) state.shown.picked = this.shape.pickUndeformed(...picked); // the same place
   }
 
   private controls(): HTMLElement {
@@ -175,7 +189,8 @@ export class FieldPanel {
   /** Values of the increment that is chosen; the last request counts, whichever array is unpacked first. */
   private async load(): Promise<void> {
     const { content, shown } = this.state, request = ++this.request;
-    const increment = this.state.available(content.field!.increments);
+    const increment = this.state.available(content.field!.increments), mesh = this.data.meshOf(increment);
+    if (mesh !== this.mesh) await this.take(mesh);
     const [[ux, uy], values, states] = await Promise.all([
       this.data.displacement(increment), this.data.values(shown.quantity, increment),
       content.pairs && bytes(`state_${this.state.available(content.pairs.increments)}`),
@@ -203,7 +218,7 @@ export class FieldPanel {
 
   /** Bodies that are hidden, and which is above which. */
   private order(): void {
-    const { order, hidden } = this.state.shown, depths = depthsOf(this.data.body, order, hidden);
+    const { order, hidden } = this.state.shown, depths = depthsOf(this.geometry.body, order, hidden);
     this.scene.setDepths(depths, this.pairs && [this.pairs.a, this.pairs.b]);
     this.shape.order(depths);
   }
@@ -224,7 +239,7 @@ export class FieldPanel {
       const place = [x + cx, y + cy].map((value) => number(value * length.factor, 5)).join(", ");
       this.extremes.append(element("span", { "data-key": name.toLowerCase(), "data-value": this.values[point], "data-x": x + cx, "data-y": y + cy }, `${name}: `,
         button(shown.units.text(quantity.dimension, this.values[point]), () => this.state.set({ picked }), { class: "link", title: "Read all values there" }),
-        ` in ${nameOf(this.state, this.data.body[point])} at (${place})${length.unit ? ` ${length.unit}` : ""} `));
+        ` in ${nameOf(this.state, this.geometry.body[point])} at (${place})${length.unit ? ` ${length.unit}` : ""} `));
     }
   }
 

@@ -9,7 +9,7 @@ export class Shape {
 
   private readonly slack: number; // coordinates are rounded to seven digits
 
-  constructor(private readonly points: Float32Array, private readonly triangles: Uint32Array) {
+  constructor(private readonly points: Float32Array, private readonly triangles: Uint32Array, private readonly bodies: Uint32Array) {
     this.slack = 4e-7 * points.reduce((largest, value) => Math.max(largest, Math.abs(value)), 0);
     this.x = new Float32Array(points.length / 2);
     this.y = new Float32Array(points.length / 2);
@@ -132,13 +132,14 @@ export class Shape {
   }
 
   private still(): Shape {
-    const still = new Shape(this.points, this.triangles);
+    const still = new Shape(this.points, this.triangles, this.bodies);
     still.move(null, null, 0);
     still.depths = this.depths;
     return still;
   }
 
-  corner(picked: Picked): number {
-    return this.triangles[picked.triangle];
+  /** Number of the body, from 1. */
+  body(picked: Picked): number {
+    return this.bodies[this.triangles[picked.triangle]];
   }
 }

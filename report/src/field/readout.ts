@@ -47,7 +47,7 @@ export class Readout {
     const farthest = Math.max(...[...low, ...high].map(Math.abs)), length = units.scale("length", farthest);
     const digits = Math.min(15, 5 + Math.max(0, Math.floor(Math.log10(farthest / size))));
     const place = [x + cx, y + cy].map((value) => number(Math.abs(value) < 1e-7 * Math.abs(high[0] - low[0]) ? 0 : value * length.factor, digits)).join(", ");
-    const body = this.data.body[shape.corner(picked)];
+    const body = shape.body(picked);
     this.where.textContent = `${nameOf(this.state, body)}, at (${place})${length.unit ? ` ${length.unit}` : ""} `
       + "of the undeformed shape. Values are interpolated linearly between the three nearest points of the results. ";
     if (this.state.shown.order.length > 1) this.where.append(button("Hide this body", () => hide(this.state, body, true), { class: "link", id: "hide-picked" }));

@@ -54,6 +54,21 @@ export function drawsSlowly(): boolean {
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
+/** What draws all meshes of a page. `slow`: on a processor without graphics. */
+export interface Drawer {
+  renderer: WebGLRenderer;
+  slow: boolean;
+}
+
+export function drawerOn(canvas: HTMLCanvasElement): Drawer {
+  const slow = drawsSlowly();
+  const renderer = new WebGLRenderer({ canvas, antialias: !slow, alpha: true, powerPreference: "high-performance", preserveDrawingBuffer: false });
+  renderer.setPixelRatio(slow ? 1 : Math.min(window.devicePixelRatio, 2));
+  renderer.outputColorSpace = "srgb-linear"; // colours are used as they are given
+  renderer.sortObjects = true;
+  return { renderer, slow };
+}
+
 export class FieldScene {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -78,14 +93,10 @@ export class FieldScene {
   private nodesWanted = true;
   cost = 0; // milliseconds of the last drawing, where a processor without graphics draws many triangles; 0 elsewhere
 
-  constructor(canvas: HTMLCanvasElement, private readonly geometry: Geometry, bodyCount: number) {
-    const slow = drawsSlowly();
+  constructor({ renderer, slow }: Drawer, private readonly geometry: Geometry, bodyCount: number) {
     this.measures = slow && geometry.triangles.length > MOST_UNMEASURED;
-    this.renderer = new WebGLRenderer({ canvas, antialias: !slow, alpha: true, powerPreference: "high-performance", preserveDrawingBuffer: false });
-    this.ratio = slow ? 1 : Math.min(window.devicePixelRatio, 2);
-    this.renderer.setPixelRatio(this.ratio);
-    this.renderer.outputColorSpace = "srgb-linear"; // colours are used as they are given
-    this.renderer.sortObjects = true;
+    this.renderer = renderer;
+    this.ratio = renderer.getPixelRatio();
     const count = geometry.points.length / 2;
     const position = new BufferAttribute(geometry.points, 2);
     this.lift = 0.5 * depthStep(bodyCount);
@@ -129,6 +140,18 @@ export class FieldScene {
       nodes: this.add(new Points(nodes, this.material("line", 1, 3.5 * this.ratio)), 4),
     };
     this.sides = this.wideSides(rigidSides(geometry));
+  }
+
+  /** The memory of graphics; another mesh is drawn. */
+  dispose(): void {
+    this.scene.traverse((part) => {
+      if (part instanceof Mesh || part instanceof LineSegments || part instanceof Points) {
+        part.geometry.dispose();
+        (part.material as ShaderMaterial).dispose();
+      }
+    });
+    this.maps.true.dispose();
+    this.maps.false.dispose();
   }
 
   private add<T extends Mesh | LineSegments | Points>(part: T, order: number, to: Group = this.fields): T {
