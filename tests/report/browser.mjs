@@ -17,7 +17,7 @@ const page = await context.newPage();
 page.setDefaultTimeout(300000); // a busy machine is slow
 page.on("console", (message) => { if (message.type() === "error") seen.errors.push(message.text()); });
 page.on("pageerror", (error) => seen.errors.push(String(error)));
-page.on("request", (request) => { if (request.url() !== pathToFileURL(file).href && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
+page.on("request", (request) => { if (![file, tasks.mechanism].some((own) => request.url() === pathToFileURL(own).href) && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
 page.on("dialog", (dialog) => { ++seen.dialogs; void dialog.dismiss(); });
 
 await page.goto(pathToFileURL(file).href);
@@ -214,5 +214,19 @@ seen.backgrounds.push(await background());
 await page.click("#play");
 await page.waitForFunction(() => window.scaboReport.state.shown.increment === 1);
 await page.click("#play");
+
+// A mechanism is played in place of the fields, and leaves them as they were.
+await page.emulateMedia({ colorScheme: "light" });
+await page.goto(pathToFileURL(tasks.mechanism).href);
+await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+const fields = () => page.evaluate(() => window.scaboReport.field.scene.fields.visible);
+await page.click("#show-mechanism");
+seen.mechanism = { note: await page.textContent("#field .note"), fields: [await fields()] };
+await page.waitForFunction(() => { const { value } = window.scaboReport.field.scene.mechanism.magnification; (window.lengths ??= []).push(value);
+  return Math.max(...window.lengths) > 3 * Math.min(...window.lengths.filter((length) => length > 0)); });
+seen.mechanism.longest = await page.evaluate(() => Math.max(...window.lengths));
+await page.click("#show-mechanism");
+await settled();
+seen.mechanism.fields.push(await fields());
 process.stdout.write(JSON.stringify(seen));
 await context.close();

@@ -15,6 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression
 import matplotlib.image
 import numpy as np
 import support
+from program_test import SLIDING
 
 TITLE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> <!--scabo:arrays--> & \"beam\" ünïcode"
 COLUMNS = {"ux": "ux", "uy": "uy", "xx": "stress_xx", "yy": "stress_yy", "xy": "stress_xy", "zz": "stress_zz", "von_mises": "von_mises",
@@ -54,10 +55,11 @@ class Report(unittest.TestCase):
         cls.results = Results(cls.folder / "beam")
         run = support.scabo("report", cls.folder / "beam", "-o", cls.folder / "beam.html", "--units", "m,N", SCABO_PYTHON=sys.executable)
         assert (run.returncode, run.stderr) == (0, ""), run.stderr
+        cls.sliding()
         cls.triangles = geometry.triangles(grid)
         cls.asked = [(number, *map(float, at)) for number in (3, 1) for at in (*cls.points, *BETWEEN)]
         job = subprocess.run([node, pathlib.Path(__file__).with_name("browser.mjs"), modules, chromium(), cls.folder / "beam.html", cls.folder],
-                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER, "loop": LOOP, "line": LINE}), text=True, capture_output=True,
+                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER, "loop": LOOP, "line": LINE, "mechanism": str(cls.folder / "sliding.html")}), text=True, capture_output=True,
                              timeout=support.PATIENCE)
         assert job.returncode == 0, job.stderr
         cls.seen = json.loads(job.stdout)
@@ -67,6 +69,20 @@ class Report(unittest.TestCase):
         run = support.scabo("run", support.BEAM, "-q", "-o", cls.folder / name, "--set", "steps.0.increments=3", "--set", f"title={json.dumps(TITLE)}",
                             *settings)
         assert run.returncode == 0, run.stderr
+
+    @classmethod
+    def sliding(cls):
+        """A page of a run that ends as a mechanism."""
+        (cls.folder / "sliding.yaml").write_text(SLIDING, encoding="utf-8")
+        assert support.scabo("run", "sliding.yaml", "-q", cwd=cls.folder).returncode == 2
+        run = support.scabo("report", "sliding.results", "-o", "sliding.html", cwd=cls.folder, SCABO_PYTHON=sys.executable)
+        assert (run.returncode, run.stderr) == (0, ""), run.stderr
+
+    def test_a_mechanism_is_played(self):
+        seen = self.seen["mechanism"]
+        self.assertIn("1 of 2 bodies moves, 'block'. Colours: displacements", seen["note"])
+        self.assertEqual(seen["fields"], [False, True])
+        self.assertLessEqual(seen["longest"], 0.06 * np.hypot(4, 2))
 
     def test_no_error_no_network_and_no_text_is_code(self):
         self.assertEqual(self.seen["errors"], [])
