@@ -22,6 +22,7 @@ LINEAR_CORNERS = {vtu.TRIANGLE: 3, vtu.QUAD: 4, vtu.QUADRATIC_TRIANGLE: 3, vtu.Q
 
 GROUPS = {"displacement": ("ux", "uy"), "stress": ("xx", "yy", "xy", "zz"), "principal": ("principal_1", "principal_2", "principal_3"),
           "von_mises": ("von_mises",)}  # as in output.fields of a model
+DERIVED = (*GROUPS["principal"], *GROUPS["von_mises"])  # by the page, where it has all stresses
 
 
 def asked_for(names):
@@ -203,7 +204,8 @@ def add_values(results, numbers, meshes, quantities, arrays, budget):
         for key, entry in quantities.items():
             values = values_of(grid, entry, meshes.rigid[mesh])
             ranges[key] = range_of(values, weights[mesh], loudest if entry[3] == "stress" else 0.0)
-            arrays.add(f"{key}_{number}", values)
+            if key not in DERIVED or not set(GROUPS["stress"]) <= set(quantities):
+                arrays.add(f"{key}_{number}", values)
         if "ux" in quantities:
             ranges["displacement"] = range_of(np.hypot(*grid.point_data["displacement"][:, :2].T), weights[mesh], 0.0)
         spent += arrays.size - before

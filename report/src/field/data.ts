@@ -1,5 +1,5 @@
 // The arrays of the fields: what is shown of one increment, and the values at a point of it.
-import { floats, whole } from "../arrays";
+import { floats, has, whole } from "../arrays";
 import type { Content, Dimension, Range } from "../content";
 import type { State } from "../state";
 import { trianglesOf, type Geometry, type Mechanism } from "./scene";
@@ -50,12 +50,33 @@ export class FieldData {
   }
 
   async values(key: string, increment: number): Promise<Float32Array> {
-    if (key !== "displacement") return floats(`${key}_${increment}`);
+    if (has(`${key}_${increment}`)) return floats(`${key}_${increment}`);
+    if (key !== "displacement") return this.derived(key, increment);
     const [ux, uy] = await this.displacement(increment);
     const size = new Float32Array(ux!.length);
     for (let i = 0; i < size.length; ++i) size[i] = Math.hypot(ux![i], uy![i]);
     return size;
   }
+
+  /** Principal stresses, descending, and von Mises stress, from the stresses; those of one increment are kept. */
+  private async derived(key: string, increment: number): Promise<Float32Array> {
+    if (this.kept.increment !== increment) {
+      const [xx, yy, xy, zz] = await Promise.all(["xx", "yy", "xy", "zz"].map((name) => floats(`${name}_${increment}`)));
+      const [first, second, third, mises] = [0, 1, 2, 3].map(() => new Float32Array(xx.length));
+      for (let i = 0; i < xx.length; ++i) {
+        const middle = 0.5 * (xx[i] + yy[i]), radius = Math.hypot(0.5 * (xx[i] - yy[i]), xy[i]);
+        const high = middle + radius, low = middle - radius, out = zz[i];
+        first[i] = Math.max(high, out);
+        third[i] = Math.min(low, out);
+        second[i] = Math.max(low, Math.min(high, out));
+        mises[i] = Math.sqrt(0.5 * ((high - low) ** 2 + (low - out) ** 2 + (out - high) ** 2));
+      }
+      this.kept = { increment, arrays: { principal_1: first, principal_2: second, principal_3: third, von_mises: mises } };
+    }
+    return this.kept.arrays[key];
+  }
+
+  private kept: { increment: number; arrays: Record<string, Float32Array> } = { increment: 0, arrays: {} };
 
   quantity(key: string): Quantity {
     return this.quantities.find((quantity) => quantity.key === key)!;
