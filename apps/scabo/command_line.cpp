@@ -376,6 +376,10 @@ class CommandLine {
             "Largest size of the page in megabytes; default: 25. Of long runs it leaves out fields of increments")
         ->option_text("MB")
         ->check(positive_number());
+    report_
+        ->add_option("--fields", report_options_.text,
+                     "Fields that the page has, of displacement, stress, principal, von_mises; default: all")
+        ->option_text("NAMES");
     report_->add_flag("-q,--quiet", report_options_.quiet, "Does not print the name of the page");
     report_->footer(report_example);
   }

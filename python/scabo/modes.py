@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from .kept import KeptModes
 
 __all__ = ["ModalResult", "Mode"]
 
@@ -32,7 +33,7 @@ class Mode:
 class ModalResult:
     """Natural frequencies and mode shapes, in ascending frequency."""
 
-    def __init__(self, core: _core.ModalResult) -> None:
+    def __init__(self, core: _core.ModalResult | KeptModes) -> None:
         self._core = core
         self._modes = [Mode(**mode) for mode in core.modes()]
 
@@ -72,3 +73,12 @@ class ModalResult:
 
     def __repr__(self) -> str:
         return f"<scabo.ModalResult: {len(self._modes)} modes>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ModalResult, (KeptModes.of(self._core),)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the frequencies."""
+        rows = "".join(f"<tr><td>{number}</td><td>{'0 (rigid)' if mode.rigid else f'{mode.frequency:.6g}'}</td></tr>"
+                       for number, mode in enumerate(self._modes, start=1))
+        return f"<b>{len(self._modes)} modes</b><table><tr><th>mode</th><th>frequency</th></tr>{rows}</table>"

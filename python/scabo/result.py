@@ -19,6 +19,7 @@ import numpy as np
 from . import _core
 from .arguments import real_array
 from .fields import Fields
+from .kept import KeptResult
 from .motion import Motion
 
 if TYPE_CHECKING:
@@ -167,7 +168,7 @@ class Result:
     ones count. Positions, displacements, forces and stresses are in the units of the model; stress is positive in
     tension."""
 
-    def __init__(self, core: _core.StaticResult) -> None:
+    def __init__(self, core: _core.StaticResult | KeptResult) -> None:
         self._core = core
         self._directory = core.record.directory
         self._summary: dict[str, Any] = json.loads(core.record.summary)
@@ -304,6 +305,8 @@ class Result:
         self._directory = self._write(os.fsdecode(directory))
 
     def _write(self, directory: str) -> str:
+        if isinstance(self._core, KeptResult):
+            raise LookupError("results that were pickled cannot be written, nor drawn without a directory: save() them before")
         if self._core.writes_problems:
             raise ValueError("the model asks for the discrete problems (output.discrete_problems), which are written "
                              "only during a run: use run(output=...)")
@@ -342,19 +345,19 @@ class Result:
             return draw(self._write(os.path.join(folder, "results")))
 
     def report(self, output: str | os.PathLike[str] | None = None, *, units: str | None = None,
-               megabytes: float = 25.0, mirrored: bool = False) -> pathlib.Path:
+               megabytes: float = 25.0, mirrored: bool = False, fields: str | None = None) -> pathlib.Path:
         """Writes one page for the browser, as ``scabo report`` does, and returns its path: by default
         ``model.report.html`` beside the results directory, which a run with ``output`` has. ``units``: length and force
         of the model, as in "m,N". Beyond ``megabytes``, fields of increments are left out, evenly. ``mirrored``: both
-        halves of bodies of revolution."""
+        halves of bodies of revolution. ``fields``: those that the page has, as in "displacement,von_mises"; None: all."""
         from . import report
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
-            return report.write(self.directory, output, units, megabytes, mirrored)
+            return report.write(self.directory, output, units, megabytes, mirrored, fields)
         if output is None:
             raise ValueError("these results are in no directory: name the page, as in report(\"model.html\")")
         with tempfile.TemporaryDirectory(prefix="scabo_") as folder:
             directory = self._write(os.path.join(folder, pathlib.Path(output).stem))
-            return report.write(directory, output, units, megabytes, mirrored)
+            return report.write(directory, output, units, megabytes, mirrored, fields)
 
     def _body(self, name: str) -> int:
         bodies = self._core.bodies
@@ -390,8 +393,10 @@ class Result:
         return self._increments[self._number(-1)]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("results hold the memory of the solver and cannot be pickled: save() them, or pickle what you need of "
-                        "them, as summary, history or contact[...].table()")
+        """Tables, nodal displacements, fields and histories are kept, and values at points are not."""
+        kept = KeptResult.of(self._core)
+        kept.record.directory = self._directory
+        return Result, (kept,)
 
     def __repr__(self) -> str:
         return f"<scabo.Result: {self.status}, {len(self._increments)} increments>"

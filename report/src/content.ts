@@ -47,7 +47,9 @@ export interface Fields {
   centre: [number, number];
   points: number;
   triangles: number;
+  bodies: number;
   increments: number[];
+  mesh_of: Record<string, number>; // of every increment; 0 is the mesh of the last one
   ranges: Record<string, Record<string, Range>>;
   magnification: number;
   low: [number, number];
@@ -61,6 +63,18 @@ export interface Pairs {
   sizes: number[];
   increments: number[];
   note: string;
+}
+
+/** Of one contact over the increments. */
+export interface Totals {
+  name: string;
+  normal_force: Series;
+  tangential_force: Series;
+  max_pressure: Series;
+  max_gap: Series;
+  stick: Series;
+  slip: Series;
+  open: Series;
 }
 
 export interface Mode {
@@ -92,8 +106,8 @@ export interface Content {
   failed: { step: number; increment: number; newton_iterations: number; residual: number | null }[];
   cracks: ({ name: string; kind: string } & Record<string, number | string>)[];
   quantities: { of: string; value: number | null; bar: number | null; relative: number | null; wanted: number | null; reached: boolean | null }[];
-  totals: { count: number; contacts: { name: string; normal_force: Series; tangential_force: Series; max_pressure: Series; max_gap: Series }[] };
-  reactions: { count: number; supports: { name: string; x: Series; y: Series }[] };
+  totals: { count: number; curves: string[]; contacts: Totals[] };
+  reactions: { count: number; curves: string[]; supports: { name: string; x: Series; y: Series }[] };
   time_axis: string;
   in_time: boolean;
   history: { time: number[]; columns: { name: string; values: Series }[]; note: string } | null;
@@ -103,6 +117,7 @@ export interface Content {
   units: [string, string] | null;
   field: Fields | null;
   pairs: Pairs | null;
+  mechanism: { text: string; length: number } | null; // `length`: as which its largest displacement is drawn
 }
 
 export function readContent(): Content {

@@ -12,6 +12,7 @@ import { applyTheme, header, navigation } from "./header";
 import { IncrementBar } from "./increment_bar";
 import { State } from "./state";
 import { certificate, increments, model, modes, verdict, warnings } from "./tables";
+import { TotalsPanel } from "./totals";
 import { Units } from "./units";
 
 declare global {
@@ -34,6 +35,16 @@ function firstContact({ pairs, totals }: Content): number {
   return Math.max(0, pairs.names.indexOf(most.name));
 }
 
+let before = ""; // of printing, the choice of colours
+
+/** On paper the colours are light. */
+function printing(begins: boolean, state: State, field: FieldPanel | null): void {
+  const theme = document.getElementById("theme") as HTMLSelectElement;
+  if (begins) before = theme.value;
+  applyTheme(state, begins ? "light" : before);
+  field?.print(begins);
+}
+
 async function start(): Promise<void> {
   const content = readContent(), page = document.getElementById("page")!;
   const count = content.modal ? content.modes.length : content.increments.length;
@@ -41,6 +52,7 @@ async function start(): Promise<void> {
   const state = new State(content, {
     increment: content.modal ? 1 : count, quantity: firstQuantity(content), magnification: content.field?.magnification ?? 0, range: "increment", bands: true, mesh: false,
     elements: (content.model.super_elements ?? 0) <= 2000, undeformed: true, states: true, contact: firstContact(content), pair: -1, picked: null,
+    hidden: new Set(), order: Array.from({ length: content.field?.bodies ?? 0 }, (_, k) => k + 1), extremes: true, mechanism: false, line: null,
     units: new Units(length, force), dark: false,
   });
   applyTheme(state, "system");
@@ -53,7 +65,8 @@ async function start(): Promise<void> {
   const outcome = verdict(state);
   let summary = model(state);
   const alerts = warnings(content);
-  const rest = [content.modal ? modes(state) : count ? increments(state) : null, content.certificate.length ? certificate(content) : null, summary];
+  const totals = content.modal ? null : TotalsPanel.of(state)?.root ?? null;
+  const rest = [totals, content.modal ? modes(state) : count ? increments(state) : null, content.certificate.length ? certificate(content) : null, summary];
   const parts = [alerts, field?.root, contacts?.root, ...side, loops, ...rest].filter((part): part is HTMLElement => !!part);
   page.append(header(state), navigation(parts), element("main", {}, outcome, alerts ?? "", bar?.root ?? "",
     field || contacts ? element("div", { class: field && contacts ? "wide-and-narrow" : "single" }, ...[field?.root, contacts?.root].filter((part): part is HTMLElement => !!part)) : "",
@@ -77,6 +90,8 @@ async function start(): Promise<void> {
       ? "This browser has no WebGL 2, which the picture of the field needs. Everything else on this page works without it." : `The picture could not be drawn: ${String(error)}`));
     if (!webgl) throw error;
   }
+  addEventListener("beforeprint", () => printing(true, state, field));
+  addEventListener("afterprint", () => printing(false, state, field));
   document.documentElement.dataset.ready = "true";
   made();
 }

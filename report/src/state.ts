@@ -7,6 +7,12 @@ export interface Picked {
   weights: [number, number, number];
 }
 
+/** A line along which values are read: places of the undeformed model, relative to its centre. */
+export interface Line {
+  from: [number, number];
+  to: [number, number];
+}
+
 export interface Shown {
   increment: number; // from 1; number of the mode in a modal analysis
   quantity: string;
@@ -20,6 +26,11 @@ export interface Shown {
   contact: number; // whose curves are shown
   pair: number; // lit up, over all contacts; -1: none
   picked: Picked | null;
+  hidden: ReadonlySet<number>; // bodies, by their numbers from 1
+  order: number[]; // of drawing: the last body is above the others
+  extremes: boolean;
+  mechanism: boolean;
+  line: Line | null;
   units: Units;
   dark: boolean;
 }

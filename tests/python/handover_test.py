@@ -91,9 +91,41 @@ class Results(InTemporaryDirectory):
         self.assertIn("<b>solved</b>, 1 increments", text)
         self.assertIn("<td>base</td><td>2e+07</td><td>-2e+06</td>", text)
 
-    def test_cannot_be_pickled(self):
-        with self.assertRaisesRegex(TypeError, r"save\(\) them"):
-            pickle.dumps(scabo.Model(block()).run())
+    def test_pickled(self):
+        model = block()
+        model["output"] = {"history": {"top": "block.top_left.ux"}}
+        result = scabo.Model(model).run()
+        again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(result))))
+        self.assertEqual((again.status, again.summary, again.bodies, again.directory), (result.status, result.summary, result.bodies, None))
+        for name, column in result.contact["base"].table().items():
+            np.testing.assert_array_equal(again.contact["base"].table()[name], column, name)
+        np.testing.assert_array_equal(again.nodes("block"), result.nodes("block"))
+        np.testing.assert_array_equal(again.nodal_displacement("block"), result.nodal_displacement("block"))
+        np.testing.assert_array_equal(again.fields().values["von_mises"], result.fields().values["von_mises"])
+        np.testing.assert_array_equal(again.history["top"], result.history["top"])
+        with self.assertRaisesRegex(LookupError, "no values at points"):
+            again.stress([[1.0, 0.5]])
+        with self.assertRaisesRegex(LookupError, r"save\(\) them before"):
+            again.save(self.directory / "out")
+
+    def test_pickled_with_a_directory(self):
+        result = scabo.Model(block()).run(self.directory / "out", keep_fields=False)
+        again = pickle.loads(pickle.dumps(result))
+        self.assertEqual(again.directory, result.directory)
+        self.assertEqual(again.contact["base"].normal_force, result.contact["base"].normal_force)
+
+    def test_pickled_modes(self):
+        model = block()
+        model["materials"]["steel"]["density"] = 7850
+        model["analysis"] = {"type": "modal", "modes": 4}
+        del model["contacts"], model["loads"], model["bodies"]["floor"]
+        model["supports"] = [{"on": "block.bottom", "fix": ["x", "y"]}]
+        modes = scabo.Model(model).modes()
+        again = pickle.loads(pickle.dumps(modes))
+        np.testing.assert_array_equal(again.frequencies, modes.frequencies)
+        np.testing.assert_array_equal(again.modes[0].shape["block"], modes.modes[0].shape["block"])
+        np.testing.assert_array_equal(again.nodes("block"), modes.nodes("block"))
+        self.assertIn(f"<td>1</td><td>{modes.frequencies[0]:.6g}</td>", modes._repr_html_())
 
 
 class ModelFiles(InTemporaryDirectory):

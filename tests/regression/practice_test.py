@@ -1,4 +1,4 @@
-"""Examples 17 to 21, 23 to 28, 32 to 34 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21, 23 to 28, 32 to 34, 40 to 44 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
@@ -45,7 +45,7 @@ class Practice(support.InTemporaryDirectory):
                      "--set", "output.fields=[]")
 
     def check(self, folder, page=PAGE):
-        self.runs, self.cracks = {}, {}
+        self.runs, self.cracks, self.limits = {}, {}, {}
         example = ROOT / "examples" / folder
         self.assertLess(len((example / "model.yaml").read_text(encoding="utf-8").splitlines()), 60)
         table, numbers = json.loads((example / "check.json").read_text(encoding="utf-8")), hand_of(folder).calculate()
@@ -65,6 +65,16 @@ class Practice(support.InTemporaryDirectory):
                 self.assertEqual(run.returncode, status, run.stderr)
                 self.assertEqual("mechanism" in run.stderr, status == 2, run.stderr)
             written.append(f"| {limit['quantity']} | {hand:.{limit['digits']}f} | stands at {stands:g}, slides at {slides:g} |")
+        for bracket in table.get("brackets", []):
+            directory = self.directory / "bracket"
+            run = self.run_scabo(folder, directory, [])
+            self.assertEqual(run.returncode, 0, run.stderr)
+            limit, hand, digits = summary_of(directory)["limit"], numbers[bracket["hand"]], bracket["digits"]
+            self.assertLessEqual(limit["solved"], hand, bracket["quantity"])
+            self.assertLessEqual(hand, limit["beyond"], bracket["quantity"])
+            self.assertLess(limit["beyond"] / limit["solved"] - 1, 1.05e-3)
+            self.limits[folder] = limit
+            written.append(f"| {bracket['quantity']} | {hand:.{digits}f} | {limit['solved']:.{digits}f} to {limit['beyond']:.{digits}f} |")
         for page in (example / "README.md", page):
             lines = page.read_text(encoding="utf-8").splitlines()
             for row in written:
@@ -90,6 +100,29 @@ class Practice(support.InTemporaryDirectory):
 
     def test_tunnel_lining(self):
         self.check("21_tunnel_lining")
+
+    def test_masonry_arch(self):
+        self.check("40_masonry_arch")
+
+    def test_dam_strength(self):
+        self.check("41_dam_strength")
+
+    def test_heated_hub(self):
+        self.check("42_heated_hub")
+
+    def test_sheet_pile(self):
+        """After the excavation both sides and the foot balance, and all of what stands behind the wall has fallen towards the active thrust."""
+        self.check("43_sheet_pile")
+        rows = self.history("43_sheet_pile", [])
+        for row in rows[1:]:
+            self.assertLess(row["back"], 648e3)
+            self.assertGreater(row["head"], 0)
+        self.assertAlmostEqual((rows[-1]["back"] - rows[-1]["front"] + rows[-1]["foot"]) / 648e3, 0, delta=1e-9)
+
+    def test_tilted_wall(self):
+        """Head joints carry next to no friction, so that the wall falls below the limit of joints that dilate."""
+        self.check("44_tilted_wall")
+        self.assertLess(self.limits["44_tilted_wall"]["beyond"], 0.98 * hand_of("44_tilted_wall").calculate()["dilating"])
 
     def test_cracked_slab(self):
         self.check("24_cracked_slab")

@@ -17,7 +17,7 @@ const page = await context.newPage();
 page.setDefaultTimeout(300000); // a busy machine is slow
 page.on("console", (message) => { if (message.type() === "error") seen.errors.push(message.text()); });
 page.on("pageerror", (error) => seen.errors.push(String(error)));
-page.on("request", (request) => { if (request.url() !== pathToFileURL(file).href && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
+page.on("request", (request) => { if (![file, tasks.mechanism].some((own) => request.url() === pathToFileURL(own).href) && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
 page.on("dialog", (dialog) => { ++seen.dialogs; void dialog.dismiss(); });
 
 await page.goto(pathToFileURL(file).href);
@@ -80,7 +80,7 @@ seen.from_keyboard = await state();
 // The keyboard reaches everything, and the picture obeys it.
 await page.evaluate(() => { document.activeElement?.blur(); window.scrollTo(0, 0); });
 seen.reached = [];
-for (let k = 0; k < 45; ++k) {
+for (let k = 0; k < 80; ++k) {
   await page.keyboard.press("Tab");
   seen.reached.push(await page.evaluate(() => document.activeElement.id || document.activeElement.tagName));
 }
@@ -119,6 +119,76 @@ seen.loop.clicked = await page.evaluate(() => window.scaboReport.state.shown.inc
 await increment(2);
 await page.mouse.move(2, 2);
 
+// Largest and smallest values, hidden bodies, and which body is above.
+const shown = () => page.evaluate(() => { const { hidden, order } = window.scaboReport.state.shown; return { hidden: [...hidden], order }; });
+seen.extremes = [];
+for (const hide of [[], [2]]) {
+  await page.evaluate((numbers) => window.scaboReport.state.set({ hidden: new Set(numbers) }), hide);
+  await settled();
+  seen.extremes.push(await page.locator("#extremes span").evaluateAll((spans) => Object.fromEntries(spans.map(({ dataset: { key, value, x, y } }) => [key, [value, x, y].map(Number)]))));
+}
+const pictured = () => page.evaluate(() => { window.scaboReport.field.drawNow(); const gl = document.getElementById("field-view").getContext("webgl2"), [x, y] = window.scaboReport.field.pixelOf(3, 0.75);
+  const ratio = gl.drawingBufferWidth / document.getElementById("field-view").clientWidth, pixel = new Uint8Array(4);
+  gl.readPixels(Math.round(x * ratio), gl.drawingBufferHeight - Math.round(y * ratio), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); return pixel[3]; });
+seen.opacity = [await pictured()];
+await page.click("#bodies summary");
+await page.click("#body-1");
+seen.bodies = [await shown()];
+await settled();
+seen.opacity.push(await pictured());
+await page.fill("#body-filter", "lo");
+await page.click("#bodies-show");
+await page.locator(".body-row button").first().click();
+await page.fill("#body-filter", "upper");
+await page.click("#bodies-show");
+seen.bodies.push(await shown());
+
+// Values along a line, by its ends and with the mouse.
+for (const [k, value] of tasks.line.entries()) await page.fill(`#line-${["x1", "y1", "x2", "y2"][k]}`, String(value));
+await page.locator("#line-y2").press("Enter");
+await settled();
+const saved = async (button) => {
+  const [file] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+  await file.saveAs(join(folder, file.suggestedFilename()));
+  return file.suggestedFilename();
+};
+seen.saved = {};
+for (const id of ["line-csv", "pairs-csv", "contacts-csv", "reactions-csv", "save-png"]) seen.saved[id] = await saved(`#${id}`);
+await page.click("#line-clear");
+await page.click("#line-draw");
+await page.locator("#field-view").scrollIntoViewIfNeeded();
+const edges = await box(), ends = await page.evaluate(() => [[1, 0.5], [2, 1]].map((at) => window.scaboReport.field.pixelOf(...at)));
+await page.mouse.move(edges.x + ends[0][0], edges.y + ends[0][1]);
+await page.mouse.down();
+await page.mouse.move(edges.x + ends[1][0], edges.y + ends[1][1], { steps: 4 });
+await page.mouse.up();
+await settled();
+seen.drawn_line = await page.evaluate(() => ["x1", "y1", "x2", "y2"].map((name) => Number(document.getElementById(`line-${name}`).value)));
+await page.click("#line-clear");
+
+// Totals, at the increment that is shown.
+await increment(3);
+seen.totals = await page.locator("#totals table[aria-label='Totals of contacts'] td").allTextContents();
+
+// On paper: an image for the picture, and light colours.
+await page.selectOption("#theme", "dark");
+seen.paper = await page.evaluate(() => {
+  dispatchEvent(new Event("beforeprint"));
+  const image = document.querySelector(".printed"), found = { image: image?.src.slice(0, 22), theme: document.documentElement.dataset.theme };
+  dispatchEvent(new Event("afterprint"));
+  return { ...found, after: document.querySelector(".printed") === null && document.documentElement.dataset.theme === "dark" };
+});
+await page.selectOption("#theme", "light");
+
+// On a phone the picture comes first.
+await page.setViewportSize({ width: 390, height: 844 });
+await page.evaluate(() => window.scrollTo(0, 0));
+await settled();
+seen.phone = await page.evaluate(() => { const { top, bottom, left, right } = document.querySelector(".stage").getBoundingClientRect();
+  return { top, bottom, left, right, width: document.documentElement.scrollWidth, verdict: document.getElementById("outcome").getBoundingClientRect().top }; });
+await page.setViewportSize({ width: 1300, height: 900 });
+await increment(2);
+
 // Every quantity, then light and dark.
 seen.quantities = await page.locator("#quantity option").evaluateAll((options) => options.map((option) => option.value));
 for (const key of seen.quantities) {
@@ -144,5 +214,19 @@ seen.backgrounds.push(await background());
 await page.click("#play");
 await page.waitForFunction(() => window.scaboReport.state.shown.increment === 1);
 await page.click("#play");
+
+// A mechanism is played in place of the fields, and leaves them as they were.
+await page.emulateMedia({ colorScheme: "light" });
+await page.goto(pathToFileURL(tasks.mechanism).href);
+await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+const fields = () => page.evaluate(() => window.scaboReport.field.scene.fields.visible);
+await page.click("#show-mechanism");
+seen.mechanism = { note: await page.textContent("#field .note"), fields: [await fields()] };
+await page.waitForFunction(() => { const { value } = window.scaboReport.field.scene.mechanism.magnification; (window.lengths ??= []).push(value);
+  return Math.max(...window.lengths) > 3 * Math.min(...window.lengths.filter((length) => length > 0)); });
+seen.mechanism.longest = await page.evaluate(() => Math.max(...window.lengths));
+await page.click("#show-mechanism");
+await settled();
+seen.mechanism.fields.push(await fields());
 process.stdout.write(JSON.stringify(seen));
 await context.close();

@@ -15,6 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression
 import matplotlib.image
 import numpy as np
 import support
+from program_test import SLIDING
 
 TITLE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> <!--scabo:arrays--> & \"beam\" ünïcode"
 COLUMNS = {"ux": "ux", "uy": "uy", "xx": "stress_xx", "yy": "stress_yy", "xy": "stress_xy", "zz": "stress_zz", "von_mises": "von_mises",
@@ -23,6 +24,7 @@ RINGS = (2, 5, 7)        # of the lower beam, 80 nodes each; a node in the middl
 NODES = (7, 33, 61)
 BETWEEN = ((1.234, 0.567), (5.43, 2.21))
 PAIR, OTHER = 30, 11     # from 0: one that slips, one that is open
+LINE = (0.5, 0.3, 5.5, 2.7)  # from the lower beam into the upper one
 LOOP = ("joint, normal force", "joint, tangential force")  # across, up
 
 
@@ -53,10 +55,11 @@ class Report(unittest.TestCase):
         cls.results = Results(cls.folder / "beam")
         run = support.scabo("report", cls.folder / "beam", "-o", cls.folder / "beam.html", "--units", "m,N", SCABO_PYTHON=sys.executable)
         assert (run.returncode, run.stderr) == (0, ""), run.stderr
+        cls.sliding()
         cls.triangles = geometry.triangles(grid)
         cls.asked = [(number, *map(float, at)) for number in (3, 1) for at in (*cls.points, *BETWEEN)]
         job = subprocess.run([node, pathlib.Path(__file__).with_name("browser.mjs"), modules, chromium(), cls.folder / "beam.html", cls.folder],
-                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER, "loop": LOOP}), text=True, capture_output=True,
+                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER, "loop": LOOP, "line": LINE, "mechanism": str(cls.folder / "sliding.html")}), text=True, capture_output=True,
                              timeout=support.PATIENCE)
         assert job.returncode == 0, job.stderr
         cls.seen = json.loads(job.stdout)
@@ -66,6 +69,20 @@ class Report(unittest.TestCase):
         run = support.scabo("run", support.BEAM, "-q", "-o", cls.folder / name, "--set", "steps.0.increments=3", "--set", f"title={json.dumps(TITLE)}",
                             *settings)
         assert run.returncode == 0, run.stderr
+
+    @classmethod
+    def sliding(cls):
+        """A page of a run that ends as a mechanism."""
+        (cls.folder / "sliding.yaml").write_text(SLIDING, encoding="utf-8")
+        assert support.scabo("run", "sliding.yaml", "-q", cwd=cls.folder).returncode == 2
+        run = support.scabo("report", "sliding.results", "-o", "sliding.html", cwd=cls.folder, SCABO_PYTHON=sys.executable)
+        assert (run.returncode, run.stderr) == (0, ""), run.stderr
+
+    def test_a_mechanism_is_played(self):
+        seen = self.seen["mechanism"]
+        self.assertIn("1 of 2 bodies moves, 'block'. Colours: displacements", seen["note"])
+        self.assertEqual(seen["fields"], [False, True])
+        self.assertLessEqual(seen["longest"], 0.06 * np.hypot(4, 2))
 
     def test_no_error_no_network_and_no_text_is_code(self):
         self.assertEqual(self.seen["errors"], [])
@@ -136,6 +153,75 @@ class Report(unittest.TestCase):
         np.testing.assert_allclose(self.seen["loop"]["points"], expected, rtol=1e-12)
         np.testing.assert_allclose(self.seen["loop"]["rings"], [expected[2], expected[0]], rtol=1e-12)
         self.assertEqual(self.seen["loop"]["clicked"], 2)
+
+    def test_smallest_and_largest_values_and_where_they_are(self):
+        grid = self.results.fields(2)
+        values, bodies = grid.point_data["von_mises"], grid.point_data["body"]
+        for seen, there in zip(self.seen["extremes"], (bodies > 0, bodies == 1)):
+            for key, of in (("smallest", np.argmin), ("largest", np.argmax)):
+                point = np.flatnonzero(there)[of(values[there])]
+                self.assertAlmostEqual(seen[key][0], values[point], delta=1e-6 * values.max())
+                np.testing.assert_allclose(seen[key][1:], grid.points[point], atol=1e-5)
+
+    def test_bodies_are_hidden_and_ordered(self):
+        self.assertEqual(self.seen["bodies"][0], {"hidden": [2, 1], "order": [1, 2]})
+        self.assertEqual(self.seen["bodies"][1], {"hidden": [], "order": [2, 1]})
+        self.assertEqual(self.seen["opacity"], [255, 0])
+
+    def saved(self, button):
+        with open(self.folder / self.seen["saved"][button], newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_values_along_a_line(self):
+        rows = self.saved("line-csv")
+        self.assertEqual(self.seen["saved"]["line-csv"], "beam_line_von_mises_2.csv")
+        at = np.array([[float(row["x"]), float(row["y"])] for row in rows])
+        np.testing.assert_allclose([at[0], at[-1]], [LINE[:2], LINE[2:]], atol=1e-5)
+        self.assertAlmostEqual(float(rows[-1]["distance"]), np.hypot(5.0, 2.4), places=5)
+        grid = self.results.fields(2)
+        a, b, c = (grid.points[self.triangles[:, k]] for k in range(3))
+        matrices = np.stack([np.column_stack([p, np.ones(len(p))]) for p in (a, b, c)], axis=2)
+        for row, (x, y) in list(zip(rows, at))[3::23]:
+            weights = np.linalg.solve(matrices, np.tile([[x], [y], [1.0]], (len(a), 1, 1)))[..., 0]
+            inside = np.flatnonzero((weights > 1e-6).all(axis=1))
+            if len(inside) != 1:
+                continue  # on a side
+            values = grid.point_data["von_mises"][self.triangles[inside[0]]]
+            self.assertAlmostEqual(float(row["von_mises"]), float(weights[inside[0]] @ values), delta=1e-4 * values.max())
+            self.assertEqual(row["body"], "lower" if y < 1.5 else "upper")
+        np.testing.assert_allclose(self.seen["drawn_line"], [1, 0.5, 2, 1], atol=0.03)
+
+    def test_files_of_the_page_are_those_of_the_program(self):
+        wanted = [row for row in support.rows_of(self.folder / "beam") if row["increment"] == "2"]
+        pairs = self.saved("pairs-csv")
+        self.assertEqual([row["state"] for row in pairs], [row["state"] for row in wanted])
+        for key in ("pressure", "shear", "gap", "normal_force"):
+            largest = max(abs(float(row[key])) for row in wanted)
+            np.testing.assert_allclose([float(row[key]) for row in pairs], [float(row[key]) for row in wanted], atol=1e-6 * largest, err_msg=key)
+        totals = [entry["contacts"]["joint"] for entry in self.results.increments]
+        for row, total in zip(self.saved("contacts-csv"), totals):
+            for key in ("normal_force", "tangential_force", "max_pressure", "max_gap", "stick", "slip", "open"):
+                self.assertEqual(float(row[key]), total[key], key)
+        reactions = self.saved("reactions-csv")
+        self.assertEqual([float(row["x"]) for row in reactions], [force[0] for entry in self.results.increments for force in entry["reactions"].values()])
+        picture = matplotlib.image.imread(self.folder / self.seen["saved"]["save-png"])
+        self.assertGreater(len(np.unique((32 * picture[..., :3]).astype(int).reshape(-1, 3), axis=0)), 60, "colours of the field")
+
+    def test_totals_are_those_of_the_increment(self):
+        total = self.results.increments[2]["contacts"]["joint"]
+        self.assertEqual(self.seen["totals"][0], "joint")
+        self.assertEqual(float(self.seen["totals"][1].removesuffix(" kN")), float(f"{total['normal_force'] / 1e3:.5g}"))
+        self.assertEqual(self.seen["totals"][5:], [str(total[key]) for key in ("stick", "slip", "open")])
+
+    def test_on_paper(self):
+        self.assertEqual(self.seen["paper"], {"image": "data:image/png;base64,", "theme": "light", "after": True})
+
+    def test_on_a_phone_the_picture_comes_first(self):
+        phone = self.seen["phone"]
+        self.assertLess(phone["bottom"], 844)
+        self.assertGreater(phone["verdict"], phone["bottom"])
+        self.assertLessEqual(phone["width"], 390, "nothing stands out at the side")
+        self.assertGreater(phone["right"] - phone["left"], 340)
 
     def test_the_keyboard_reaches_everything(self):
         wanted = ["units", "theme", "play", "increment", "quantity", "range", "magnification", "show-mesh", "show-elements", "field-view", "pick-x", "pair"]

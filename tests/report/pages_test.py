@@ -76,7 +76,7 @@ class Pages(unittest.TestCase):
         content, arrays = self.content(text), self.arrays(text)
         grid = made_up.grid()
         self.assertEqual(content["field"]["increments"], [1, 2])
-        np.testing.assert_allclose(arrays["points"].reshape(-1, 2) + content["field"]["centre"], grid["Points"][:, :2], atol=1e-6)
+        np.testing.assert_allclose(arrays["points_of_mesh_0"].reshape(-1, 2) + content["field"]["centre"], grid["Points"][:, :2], atol=1e-6)
         np.testing.assert_array_equal(arrays["von_mises_2"][:-4], grid["point"]["von_mises"][:-4].astype("f4"))
         self.assertTrue(np.isnan(arrays["von_mises_2"][-4:]).all(), "a rigid body has no stress")
         np.testing.assert_array_equal(arrays["uy_2"], (2 * grid["point"]["displacement"][:, 1]).astype("f4"))
@@ -190,6 +190,50 @@ class Pages(unittest.TestCase):
         broken("contact.csv", lambda text: text.replace(b"\n2,1,_seat,3", b"\n2,3,_seat,3"), "the increments have different pairs")
         broken("fields_0002.vtu", lambda text: text[:600], "is damaged")
         broken("fields.pvd", lambda text: text[:60], "is damaged")
+
+    def test_only_the_fields_that_are_asked_for(self):
+        whole = page.page_of(self.results)
+        text = page.page_of(self.results, fields="displacement, von_mises")
+        self.assertEqual([quantity["key"] for quantity in self.content(text)["field"]["quantities"]], ["ux", "uy", "von_mises"])
+        self.assertNotIn("xx_2", self.arrays(text))
+        self.assertIn("xx_2", self.arrays(whole))
+        self.assertLess(len(text), len(whole))
+        self.report(self.results, "--fields", "strain", status=1, says="there are no fields 'strain': give some of displacement, stress")
+        self.report(self.results, "--fields", "principal", status=1, says="has none of these fields")
+
+    def test_tables_have_more_contacts_than_curves(self):
+        summary = json.loads((self.results / "summary.json").read_text(encoding="utf-8"))
+        for entry in filter(lambda entry: entry["converged"], summary["increments"]):
+            one = entry["contacts"]["bend"]
+            entry["contacts"].update({f"c{k}": {**one, "normal_force": k} for k in range(12)})
+        self.change_summary(increments=summary["increments"])
+        totals = self.content(page.page_of(self.results))["totals"]
+        self.assertEqual((totals["count"], len(totals["contacts"])), (14, 14))
+        self.assertEqual(totals["curves"], ["bend", "_seat", "c6", "c7", "c8", "c9", "c10", "c11"])
+
+    def test_the_mechanism_is_in_the_page(self):
+        square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+        points = np.concatenate([square, square + [0, 1], [[0, 1], [1, 1]]])
+        zero = np.zeros(10)
+        moved = np.zeros((10, 3))
+        moved[4:8, 0] = 1.0
+        made_up.vtu(self.results / "mechanism.vtu", {
+            "Points": np.column_stack([points, zero]), "connectivity": np.arange(10), "offsets": [4, 8, 10], "types": [7, 7, 3],
+            "point": {"displacement": moved, "pair": np.array([0.0] * 8 + [1, 2]), "opening": zero, "slip": np.array([0.0] * 8 + [1, 1])},
+            "cell": {"body": [1, 2, 0], "motion": [0, 1, 0]}})
+        self.change_summary(status="mechanism", mechanism={"text": "1 of 2 bodies moves: 'upper' slides"},
+                            model={**json.loads((self.results / "summary.json").read_text(encoding="utf-8"))["model"],
+                                   "bodies": [{"name": name, "rigid": True, "unbounded": False, "materials": [], "nodes": 0, "super_elements": 0,
+                                               "finite_elements": 0} for name in "abcde"]})
+        text = page.page_of(self.results)
+        content, arrays = self.content(text), self.arrays(text)
+        self.assertEqual(content["mechanism"]["text"], "1 of 2 bodies moves: 'upper' slides.")
+        np.testing.assert_array_equal(arrays["mechanism_ux"], moved[:, 0])
+        np.testing.assert_array_equal(arrays["mechanism_sizes"], [4, 4])
+        np.testing.assert_array_equal(arrays["mechanism_slips"], [8, 9])
+        self.assertEqual(len(arrays["mechanism_opens"]), 0)
+        self.assertEqual(len(arrays["mechanism_sides"]), 2 * 8)
+        self.assertIsNone(self.content(page.page_of(made_up.write(self.directory / "other.results")))["mechanism"])
 
     def test_nothing_finished(self):
         self.change_summary(increments=[], status="failed", reason="a full disk")

@@ -71,15 +71,28 @@ class Program(support.InTemporaryDirectory):
         self.assertIn("The file mechanism.vtu shows the motion.", text)
 
     def test_of_bodies_that_come_and_go(self):
-        """Fields and pairs of the increments that have the mesh of the last one, and a sentence that says so."""
+        """Fields of all increments, each on its mesh; pairs of those that have the pairs of the last one, and a sentence that says so."""
         self.needs_the_page()
         (self.directory / "stages.yaml").write_text(STAGES, encoding="utf-8")
         self.scabo("run", "stages.yaml", "--report", "-q")
         text = (self.directory / "stages.report.html").read_text(encoding="utf-8")
         content = json.loads(re.search(r'id="content">(.*?)</script>', text, re.DOTALL)[1])
-        self.assertEqual([content[part]["increments"] for part in ("field", "pairs")], [[1, 4, 5]] * 2)
-        self.assertIn("those with the mesh of the last one", content["field"]["note"])
+        self.assertEqual([content[part]["increments"] for part in ("field", "pairs")], [[1, 2, 3, 4, 5], [1, 4, 5]])
+        self.assertEqual(content["field"]["mesh_of"], {"1": 0, "2": 1, "3": 1, "4": 0, "5": 0})
+        self.assertEqual(content["field"]["note"], "")
         self.assertIn("those with the pairs of the last one", content["pairs"]["note"])
+
+    def test_of_cracks_that_grow(self):
+        """Every state of growth has its mesh; the page shows those whose fields were written."""
+        self.needs_the_page()
+        self.assertEqual(support.scabo("new", "growth", "-o", self.directory / "growth.yaml").returncode, 0)
+        self.scabo("run", "growth.yaml", "--report", "-q")
+        text = (self.directory / "growth.report.html").read_text(encoding="utf-8")
+        field = json.loads(re.search(r'id="content">(.*?)</script>', text, re.DOTALL)[1])["field"]
+        self.assertGreater(len(field["increments"]), 2)
+        self.assertEqual(len(set(field["mesh_of"].values())), len(field["increments"]))
+        self.assertIn("Super-elements are drawn on the last mesh only.", field["note"])
+        self.assertIn(f'id="points_of_mesh_{len(field["increments"]) - 1}"', text)
 
     def test_a_report_that_cannot_be_written(self):
         self.needs_the_page()

@@ -34,5 +34,5 @@ def listed(numbers):
 
 
 def mesh_may_change(results):
-    """Whether bodies are added or removed in a run, or pairs found anew (`slip: large`), so that increments have meshes of their own."""
-    return not results.modal and any(entry.get("absent") or "pairs_found_anew" in entry for entry in results.increments)
+    """Whether bodies are added or removed in a run, pairs found anew (`slip: large`), or cracks grow, so that increments have meshes of their own."""
+    return not results.modal and any(entry.get("absent") or "pairs_found_anew" in entry or "growth" in entry for entry in results.increments)

@@ -19,6 +19,7 @@ def parser():
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N; the page can change them")
     options.add_argument("--size", type=float, default=25.0, metavar="MB",
                          help="largest size of the page in megabytes; default: 25. Of long runs it leaves out fields of increments")
+    options.add_argument("--fields", metavar="NAMES", help="fields that the page has, of displacement, stress, principal, von_mises; default: all")
     options.add_argument("-q", "--quiet", action="store_true", help="does not print the name of the page")
     return options
 
@@ -40,7 +41,7 @@ def main(words=None):
     except ImportError as error:
         return complain(f"{error}: install NumPy (apt install python3-numpy), or name another interpreter with SCABO_PYTHON", 3)
     try:
-        path = page.write(options.directory, options.output, options.units, options.size, options.mirror)
+        path = page.write(options.directory, options.output, options.units, options.size, options.mirror, options.fields)
     except (ResultsError, UnitsError) as error:
         return complain(error, 1)
     except OSError as error:

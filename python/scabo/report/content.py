@@ -6,12 +6,12 @@ import numpy as np
 from . import words
 from .choice import in_order_of_importance
 
-MOST_CONTACTS = 8     # with totals of their own, those with the largest forces; sums are of all
-MOST_SUPPORTS = 8
+MOST_CURVES = 8       # of contacts and of supports, those with the largest forces; sums are of all
+MOST_TOTALS = 100000  # numbers in the tables of contacts, and of reactions
 MOST_ROWS = 20000     # of convergence.csv
 MOST_HISTORY = 200000  # numbers of history.csv
 MOST_LISTED = 500     # bodies and contacts in the tables of the model
-TOTALS = ("normal_force", "tangential_force", "max_pressure", "max_gap")
+TOTALS = ("normal_force", "tangential_force", "max_pressure", "max_gap", "stick", "slip", "open")
 
 
 def content_of(results):
@@ -63,25 +63,29 @@ def series(increments, group, name, part):
     return values
 
 
-def largest(increments, group, size, most):
-    """Names with the largest sizes of all increments, in the order of the model, and how many there are."""
+def largest(increments, group, size, numbers):
+    """Names with the largest sizes of all increments, in the order of the model, how many there are, and those of them with curves. Each needs
+    so many numbers after every increment."""
     sizes = {}
     for entry in increments:
         for name, value in entry.get(group, {}).items():
             sizes[name] = max(sizes.get(name, 0.0), size(value))
-    chosen = set(sorted(sizes, key=sizes.get, reverse=True)[:most])
-    return [name for name in sizes if name in chosen], len(sizes)
+    most = max(MOST_CURVES, MOST_TOTALS // (numbers * max(1, len(increments))))
+    by_size = sorted(sizes, key=sizes.get, reverse=True)
+    chosen, curves = set(by_size[:most]), set(by_size[:MOST_CURVES])
+    return [name for name in sizes if name in chosen], len(sizes), [name for name in sizes if name in curves]
 
 
 def totals_of(increments):
-    names, count = largest(increments, "contacts", lambda contact: abs(contact["normal_force"] or 0.0), MOST_CONTACTS)
-    return {"count": count, "contacts": [{"name": name, **{key: series(increments, "contacts", name, key) for key in TOTALS}} for name in names]}
+    names, count, curves = largest(increments, "contacts", lambda contact: abs(contact["normal_force"] or 0.0), len(TOTALS))
+    return {"count": count, "curves": curves,
+            "contacts": [{"name": name, **{key: series(increments, "contacts", name, key) for key in TOTALS}} for name in names]}
 
 
 def reactions_of(increments):
-    names, count = largest(increments, "reactions", lambda force: math.hypot(*(part or 0.0 for part in force)), MOST_SUPPORTS)
-    return {"count": count, "supports": [{"name": name, "x": series(increments, "reactions", name, 0), "y": series(increments, "reactions", name, 1)}
-                                         for name in names]}
+    names, count, curves = largest(increments, "reactions", lambda force: math.hypot(*(part or 0.0 for part in force)), 2)
+    return {"count": count, "curves": curves,
+            "supports": [{"name": name, "x": series(increments, "reactions", name, 0), "y": series(increments, "reactions", name, 1)} for name in names]}
 
 
 def cracks_of(increments):

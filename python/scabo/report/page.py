@@ -7,7 +7,8 @@ import pathlib
 import tempfile
 
 from .content import content_of
-from .fields import add_fields
+from .fields import add_fields, asked_for
+from .mechanism import add_mechanism
 from .packing import Arrays
 from .pairs import add_pairs
 from .reading import Results, ResultsError, Units, refuse_impossible
@@ -32,13 +33,14 @@ def template():
                        "the sources of Scabo builds it, and `make install` takes it along (it needs Node.js 18 or newer and npm: apt install nodejs npm)")
 
 
-def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False):
+def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False, fields=None):
     """The text of the page for a results directory. `units`: length and force as in "m,N". `mirrored`: of bodies of revolution both halves
-    of the section. Raises ResultsError, UnitsError."""
+    of the section. `fields`: names of those that the page has, as in "displacement,von_mises"; None: all. Raises ResultsError, UnitsError."""
     text = template()
     if not (math.isfinite(megabytes) and megabytes > 0):
         raise ResultsError(f"--size {megabytes:g}: give a number of megabytes above 0")
     named = Units.parse(units) if units else None
+    quantities = asked_for(fields)
     results = Results(directory, mirrored)
     if results.in_space:
         raise ResultsError(f"{directory}: is of a model in space, of which there is no page yet: `scabo plot` draws it, and ParaView opens its "
@@ -48,9 +50,11 @@ def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False):
     content["units"] = [named.length, named.force] if named else None
     arrays = Arrays()
     room = max(0.0, megabytes * 1e6 - len(text) - len(json.dumps(content)))
-    fields = add_fields(results, arrays, 0.75 * room) if results.count else None
-    content["field"] = fields
-    content["pairs"] = add_pairs(results, arrays, 0.25 * room, fields["centre"] if fields else [0.0, 0.0])
+    shown = add_fields(results, arrays, 0.75 * room, quantities) if results.count else None
+    centre = shown["centre"] if shown else [0.0, 0.0]
+    content["field"] = shown
+    content["pairs"] = add_pairs(results, arrays, 0.25 * room, centre)
+    content["mechanism"] = add_mechanism(results, arrays, centre) if shown else None
     return filled(text, content, arrays)
 
 
@@ -103,14 +107,14 @@ def default_name(directory):
     return beside / f"{resolved.name.removesuffix('.results')}.report.html"
 
 
-def write(directory, output=None, units=None, megabytes=MEGABYTES, mirrored=False):
+def write(directory, output=None, units=None, megabytes=MEGABYTES, mirrored=False, fields=None):
     """Writes the page and returns its path; `output` None: `model.report.html` beside `model.results`. A page that is there is
     replaced when the new one is complete. Raises ResultsError and UnitsError, and OSError where it cannot be written."""
     refuse_impossible(pathlib.Path(directory))
     path = default_name(directory) if output is None else pathlib.Path(output)
     if path.is_dir():
         raise ResultsError(f"-o {path}: is a directory: name a file, as in -o {path / 'report.html'}")
-    text = page_of(directory, units, megabytes, mirrored)
+    text = page_of(directory, units, megabytes, mirrored, fields)
     if path.exists() and not path.is_file():  # a device or a pipe, which a new file must not replace
         path.write_text(text, encoding="utf-8")
         return path

@@ -1,7 +1,8 @@
 // Pressure, shear, gap and slip along a contact, with the state of every pair. A pair lights up here and in the field together.
 import type uPlot from "uplot";
 import { bytes, floats, whole } from "../arrays";
-import { checkbox, css, element, labelled, section } from "../dom";
+import { button, checkbox, css, element, labelled, section } from "../dom";
+import { fileName, saveCsv } from "../files";
 import type { Dimension } from "../content";
 import type { State } from "../state";
 import { counted } from "../units";
@@ -28,6 +29,8 @@ export class ContactPanel {
   private states: Uint8Array = new Uint8Array();
   private numbers: Uint32Array = new Uint32Array();
   private arrays: Record<string, Float32Array> = {};
+  private along: Float32Array = new Float32Array();
+  private shownIncrement = 0;
   private request = 0;
 
   constructor(private readonly state: State) {
@@ -44,7 +47,8 @@ export class ContactPanel {
     pairs.names.forEach((name, k) => this.chooser.append(element("option", { value: k, selected: k === state.shown.contact }, name)));
     this.chooser.addEventListener("change", () => state.set({ contact: Number(this.chooser.value), pair: -1 }));
     this.pairSlider.addEventListener("input", () => state.set({ pair: Number(this.pairSlider.value) === 0 ? -1 : this.start + Number(this.pairSlider.value) - 1 }));
-    this.root = section("contacts", "Contact", element("div", { class: "controls" }, pairs.names.length > 1 && labelled("Contact", this.chooser), labelled("Pair", this.pairSlider, "control grow"), this.onlyPart),
+    this.root = section("contacts", "Contact", element("div", { class: "controls" }, pairs.names.length > 1 && labelled("Contact", this.chooser), labelled("Pair", this.pairSlider, "control grow"), this.onlyPart,
+      button("CSV", () => this.save(), { id: "pairs-csv", title: "The pairs of this contact at this increment as a table" })),
       this.legend, element("div", { class: "stack" }, ...this.charts.map((chart) => chart.root)), this.values, this.note);
     state.on(["increment", "contact", "units"], () => void this.load());
     state.on(["pair"], () => this.light());
@@ -68,6 +72,8 @@ export class ContactPanel {
     if (request !== this.request) return;
     const cut = <T extends Float32Array | Uint8Array | Uint32Array>(array: T) => array.subarray(this.start, this.start + this.size) as T;
     this.states = cut(states);
+    this.along = cut(distance);
+    this.shownIncrement = increment;
     this.numbers = cut(numbers);
     [...CURVES.map((curve) => curve.key), "normal_force", "tangential_force"].forEach((key, k) => (this.arrays[key] = cut(values[k])));
     const along = cut(distance), length = shown.units.scale("length", along[along.length - 1] ?? 0);
@@ -140,6 +146,12 @@ export class ContactPanel {
     this.values.replaceChildren(row(content.pairs!.names[shown.contact], `pair ${this.numbers[index]}`, "pair", this.numbers[index]), row("state", STATES[this.states[index]], "state"),
       ...CURVES.map((curve) => row(curve.name, shown.units.text(curve.dimension, this.arrays[curve.key][index], 5), curve.key, this.arrays[curve.key][index])),
       row("normal force", force("normal_force"), "normal_force", this.arrays.normal_force[index]), row("tangential force", force("tangential_force"), "tangential_force", this.arrays.tangential_force[index]));
+  }
+
+  private save(): void {
+    const { content, shown } = this.state, keys = Object.keys(this.arrays);
+    saveCsv(fileName(content.directory, content.pairs!.names[shown.contact], this.shownIncrement), ["pair", "distance", ...keys, "state"],
+      [...this.along].map((distance, k) => [this.numbers[k], distance, ...keys.map((key) => this.arrays[key][k]), STATES[this.states[k]]]));
   }
 
   /** For tests. */

@@ -58,12 +58,12 @@ export class HistoryPanel {
 function groupsOf({ content }: State): Group[] {
   const rows = content.increments, groups: Group[] = [], { totals, reactions, history } = content;
   if (totals.count) {
-    const many = totals.count > totals.contacts.length ? `Of ${totals.count} contacts those ${totals.contacts.length} with the largest forces are in this page.` : "";
+    const many = totals.count > totals.curves.length ? `Of ${totals.count} contacts those ${totals.curves.length} with the largest forces are in this page.` : "";
     const names = (text: string, name: string) => (totals.count > 1 ? `${name}, ${text}` : text);
-    const first = totals.contacts.slice(0, MOST / 2);
+    const loaded = totals.contacts.filter(({ name }) => totals.curves.includes(name)), first = loaded.slice(0, MOST / 2);
     groups.push({ name: "forces of contacts", y: "force", dimension: "force", note: many, curves: first.flatMap((contact) => [
       { name: names("normal", contact.name), values: contact.normal_force }, { name: names("tangential", contact.name), values: contact.tangential_force }]) });
-    groups.push({ name: "largest pressure", y: "pressure", dimension: "stress", note: many, curves: totals.contacts.map((contact) => ({ name: contact.name, values: contact.max_pressure })) });
+    groups.push({ name: "largest pressure", y: "pressure", dimension: "stress", note: many, curves: loaded.map((contact) => ({ name: contact.name, values: contact.max_pressure })) });
     groups.push({ name: "pairs in each state", y: "pairs", dimension: "number", curves: (["stick", "slip", "open"] as const).map((state) => (
       { name: state, colour: `--${state}`, values: rows.map((row) => row[state]) })) });
   }
@@ -73,7 +73,7 @@ function groupsOf({ content }: State): Group[] {
   if (rows.some((row) => row.energy)) groups.push({ name: "energies", y: "energy", dimension: "energy", curves: (["external", "elastic", "friction"] as const).map((kind) => (
     { name: { external: "work of the loads", elastic: "elastic energy", friction: "dissipated by friction" }[kind], values: rows.map((row) => row.energy?.[kind] ?? null) })) });
   if (reactions.count) groups.push({ name: "reactions", y: "force", dimension: "force", note: reactions.count > MOST / 2 ? `Of ${reactions.count} supports those with the largest reactions are shown.` : "",
-    curves: reactions.supports.slice(0, MOST / 2).flatMap((support) => [{ name: `${support.name}, x`, values: support.x }, { name: `${support.name}, y`, values: support.y }]) });
+    curves: reactions.supports.filter(({ name }) => reactions.curves.includes(name)).slice(0, MOST / 2).flatMap((support) => [{ name: `${support.name}, x`, values: support.x }, { name: `${support.name}, y`, values: support.y }]) });
   for (const column of history?.columns ?? []) groups.push({ name: `history: ${column.name}`, y: column.name, dimension: "number", time: history!.time, note: history!.note,
     curves: [{ name: column.name, values: column.values }] });
   return groups;

@@ -94,11 +94,11 @@ function quantitiesOf({ content }: State): Quantity[] {
     quantities.push({ name: column.name, dimension: "number", values: rows.map((row) => at.get(row.time) ?? null) });
   }
   for (const name of Object.keys(rows[rows.length - 1]?.factors ?? {})) quantities.push({ name: `factor of ${name}`, dimension: "number", values: rows.map((row) => row.factors[name] ?? null) });
-  for (const contact of totals.contacts) {
+  for (const contact of totals.contacts.filter(({ name }) => totals.curves.includes(name))) {
     quantities.push({ name: `${contact.name}, tangential force`, dimension: "force", values: contact.tangential_force });
     quantities.push({ name: `${contact.name}, normal force`, dimension: "force", values: contact.normal_force });
   }
-  for (const support of reactions.supports) for (const part of ["x", "y"] as const) quantities.push({ name: `${support.name}, reaction ${part}`, dimension: "force", values: support[part] });
+  for (const support of reactions.supports.filter(({ name }) => reactions.curves.includes(name))) for (const part of ["x", "y"] as const) quantities.push({ name: `${support.name}, reaction ${part}`, dimension: "force", values: support[part] });
   return quantities.filter(({ values }) => values.some((value) => value !== null));
 }
 

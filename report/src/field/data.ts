@@ -1,8 +1,8 @@
 // The arrays of the fields: what is shown of one increment, and the values at a point of it.
-import { floats, whole } from "../arrays";
+import { floats, has, whole } from "../arrays";
 import type { Content, Dimension, Range } from "../content";
 import type { State } from "../state";
-import type { Geometry } from "./scene";
+import { trianglesOf, type Geometry, type Mechanism } from "./scene";
 
 export interface Quantity {
   key: string;
@@ -12,7 +12,6 @@ export interface Quantity {
 
 export class FieldData {
   readonly quantities: Quantity[];
-  body = new Uint32Array();
 
   constructor(readonly content: Content) {
     this.quantities = content.field!.quantities.slice();
@@ -24,13 +23,25 @@ export class FieldData {
     return this.content.field!.quantities.some((quantity) => quantity.key === "ux");
   }
 
-  async geometry(): Promise<Geometry> {
-    const [points, triangles, outline, mesh, elements, nodes, body, rigid, rigidSizes] = await Promise.all([
-      floats("points"), whole("triangles"), whole("outline"), whole("mesh"), whole("elements"), whole("nodes"), whole("body"), whole("rigid"),
-      whole("rigid_sizes"),
+  async geometry(mesh: number): Promise<Geometry> {
+    const name = (what: string) => `${what}_of_mesh_${mesh}`;
+    const [points, triangles, outline, sides, elements, nodes, body, rigid, rigidSizes] = await Promise.all([
+      floats(name("points")), whole(name("triangles")), whole(name("outline")), whole(name("mesh")), whole(name("elements")), whole(name("nodes")),
+      whole(name("body")), whole(name("rigid")), whole(name("rigid_sizes")),
     ]);
-    this.body = body as Uint32Array<ArrayBuffer>;
-    return { points, triangles, outline, mesh, elements, nodes, rigid, rigidSizes };
+    return { points, triangles, outline, mesh: sides, elements, nodes, body, rigid, rigidSizes };
+  }
+
+  meshOf(increment: number): number {
+    return this.content.field!.mesh_of[String(increment)];
+  }
+
+  /** Null where the run has no mechanism. */
+  async mechanism(): Promise<Mechanism | null> {
+    if (!this.content.mechanism) return null;
+    const [points, rings, sizes, sides, opens, slips, ux, uy] = await Promise.all([floats("mechanism_points"), whole("mechanism_rings"), whole("mechanism_sizes"),
+      whole("mechanism_sides"), whole("mechanism_opens"), whole("mechanism_slips"), floats("mechanism_ux"), floats("mechanism_uy")]);
+    return { points, triangles: new Uint32Array(trianglesOf(points, rings, sizes)), sides, opens, slips, ux, uy };
   }
 
   displacement(increment: number): Promise<[Float32Array | null, Float32Array | null]> {
@@ -39,12 +50,33 @@ export class FieldData {
   }
 
   async values(key: string, increment: number): Promise<Float32Array> {
-    if (key !== "displacement") return floats(`${key}_${increment}`);
+    if (has(`${key}_${increment}`)) return floats(`${key}_${increment}`);
+    if (key !== "displacement") return this.derived(key, increment);
     const [ux, uy] = await this.displacement(increment);
     const size = new Float32Array(ux!.length);
     for (let i = 0; i < size.length; ++i) size[i] = Math.hypot(ux![i], uy![i]);
     return size;
   }
+
+  /** Principal stresses, descending, and von Mises stress, from the stresses; those of one increment are kept. */
+  private async derived(key: string, increment: number): Promise<Float32Array> {
+    if (this.kept.increment !== increment) {
+      const [xx, yy, xy, zz] = await Promise.all(["xx", "yy", "xy", "zz"].map((name) => floats(`${name}_${increment}`)));
+      const [first, second, third, mises] = [0, 1, 2, 3].map(() => new Float32Array(xx.length));
+      for (let i = 0; i < xx.length; ++i) {
+        const middle = 0.5 * (xx[i] + yy[i]), radius = Math.hypot(0.5 * (xx[i] - yy[i]), xy[i]);
+        const high = middle + radius, low = middle - radius, out = zz[i];
+        first[i] = Math.max(high, out);
+        third[i] = Math.min(low, out);
+        second[i] = Math.max(low, Math.min(high, out));
+        mises[i] = Math.sqrt(0.5 * ((high - low) ** 2 + (low - out) ** 2 + (out - high) ** 2));
+      }
+      this.kept = { increment, arrays: { principal_1: first, principal_2: second, principal_3: third, von_mises: mises } };
+    }
+    return this.kept.arrays[key];
+  }
+
+  private kept: { increment: number; arrays: Record<string, Float32Array> } = { increment: 0, arrays: {} };
 
   quantity(key: string): Quantity {
     return this.quantities.find((quantity) => quantity.key === key)!;
@@ -62,10 +94,5 @@ export class FieldData {
 
   extremes(key: string, increment: number): Range {
     return this.content.field!.ranges[String(increment)][key] ?? [0, 0, 0, 0];
-  }
-
-  bodyName(point: number): string {
-    const number = this.body[point];
-    return this.content.model.bodies.listed[number - 1]?.name ?? `body ${number}`;
   }
 }

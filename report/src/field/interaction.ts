@@ -4,6 +4,8 @@ import type { Camera } from "./camera";
 export interface Actions {
   changed(): void; // the camera
   pick(px: number, py: number): void;
+  line(from: [number, number], to: [number, number]): void; // pixels; drawn with the Shift key, or where `drawsLine` says so
+  drawsLine(): boolean;
   hover(px: number, py: number): void;
   leave(): void;
   step(by: number): void; // increments
@@ -16,7 +18,7 @@ const PAN = 60, CLICK = 5; // pixels
 /** `stage` receives mouse and touch, because the canvas in it may be moved for a moment; the canvas has the keyboard. */
 export function interact(stage: HTMLElement, canvas: HTMLCanvasElement, camera: Camera, actions: Actions): void {
   const pointers = new Map<number, [number, number]>();
-  let moved = 0;
+  let moved = 0, start: [number, number] | null = null; // of a line
   const at = (event: PointerEvent | WheelEvent): [number, number] => {
     const box = stage.getBoundingClientRect();
     return [event.clientX - box.left - stage.clientLeft, event.clientY - box.top - stage.clientTop];
@@ -28,10 +30,17 @@ export function interact(stage: HTMLElement, canvas: HTMLCanvasElement, camera: 
     event.preventDefault();
     pointers.set(event.pointerId, at(event));
     moved = 0;
+    start = pointers.size === 1 && (event.shiftKey || actions.drawsLine()) ? at(event) : null;
   });
   stage.addEventListener("pointermove", (event) => {
     const now = at(event), before = pointers.get(event.pointerId);
     if (!before) return actions.hover(...now);
+    if (start) {
+      moved += Math.hypot(now[0] - before[0], now[1] - before[1]);
+      pointers.set(event.pointerId, now);
+      if (moved >= CLICK) actions.line(start, now);
+      return;
+    }
     if (pointers.size === 2) {
       const other = [...pointers].find(([id]) => id !== event.pointerId)![1];
       const distance = (point: [number, number]) => Math.hypot(point[0] - other[0], point[1] - other[1]);

@@ -1,19 +1,24 @@
 // The field view: picture, its controls, the legend and the values at the picked point.
 import { bytes, floats, whole } from "../arrays";
 import { button, checkbox, css, element, labelled, section, select } from "../dom";
-import type { State } from "../state";
+import type { Picked, State } from "../state";
+import { number } from "../units";
+import { fileName, savePng } from "../files";
 import { ColourBar } from "./bar";
+import { BodyList, nameOf } from "./bodies";
 import { Camera } from "./camera";
 import { levels } from "./colours";
 import { FieldData } from "./data";
 import { interact } from "./interaction";
 import { Overlay } from "./overlay";
 import { Shape } from "./pick";
+import { LinePanel } from "./line";
 import { Readout } from "./readout";
-import { FieldScene, type Geometry } from "./scene";
+import { depthsOf, drawerOn, FieldScene, type Drawer, type Geometry } from "./scene";
 
 const NEAR = 14; // pixels from the mouse to a pair
 const SLOW = 25; // milliseconds of a drawing
+const MOTION = 2400; // of a mechanism, there and back
 
 interface PairPlaces {
   x: Float32Array;
@@ -37,6 +42,10 @@ export class FieldPanel {
   private readonly note = element("p", { class: "note", role: "status" });
   private readonly data: FieldData;
   private readonly readout: Readout;
+  private readonly line: LinePanel;
+  private readonly extremes = element("p", { class: "extremes", id: "extremes" });
+  private drawer!: Drawer;
+  private mesh = -1;
   private scene!: FieldScene;
   private shape!: Shape;
   private geometry!: Geometry;
@@ -58,21 +67,18 @@ export class FieldPanel {
     const around = (point: [number, number]): [number, number] => [point[0] - field.centre[0], point[1] - field.centre[1]];
     this.camera = new Camera(around(field.low), around(field.high));
     this.readout = new Readout(state, this.data, (x, y) => this.pickPlace(x, y));
+    this.line = new LinePanel(state, this.data);
     this.stage.append(this.canvas, this.overlay.root);
-    this.root = section("field", "Field", this.controls(), this.stage, this.bar.root, this.note, this.readout.root);
+    const bodies = state.shown.order.length > 1 ? new BodyList(state).root : null;
+    this.root = section("field", "Field", this.controls(), this.stage, this.bar.root, this.extremes, this.note, bodies, this.readout.root, this.line.root);
   }
 
   async start(): Promise<void> {
-    this.geometry = await this.data.geometry();
-    this.scene = new FieldScene(this.canvas, this.geometry);
-    this.shape = new Shape(this.geometry.points, this.geometry.triangles);
-    if (this.state.content.pairs) {
-      const [x, y, a, b] = await Promise.all([floats("pair_x"), floats("pair_y"), whole("pair_a"), whole("pair_b")]);
-      this.pairs = { x, y, a, b };
-      this.scene.setPairs(x, y);
-    }
+    this.drawer = drawerOn(this.canvas);
+    await this.take(this.data.meshOf(this.state.available(this.state.content.field!.increments)));
     interact(this.stage, this.canvas, this.camera, {
       changed: () => this.draw(true), pick: (px, py) => this.pickPixel(px, py), hover: (px, py) => this.hover(px, py), leave: () => this.leave(),
+      line: (from, to) => { this.line.arm(false); this.state.set({ line: { from: this.undeformed(...from), to: this.undeformed(...to) } }); }, drawsLine: () => this.line.drawing,
       step: this.actions.step, play: this.actions.play, clear: () => this.state.set({ picked: null, pair: -1 }),
     });
     this.stage.addEventListener("pointerdown", () => this.showKeyboard(false));
@@ -86,13 +92,38 @@ export class FieldPanel {
     state.on(["mesh", "elements", "undeformed", "states"], () => { this.scene.show(state.shown); this.draw(); });
     state.on(["picked"], () => { this.readout.show(this.shape, this.current); this.draw(); });
     state.on(["pair"], () => this.draw());
+    state.on(["hidden", "order"], () => { this.order(); this.findExtremes(); this.draw(); });
+    state.on(["extremes"], () => { this.findExtremes(); this.draw(); });
+    state.on(["mechanism"], () => this.playMechanism());
+    state.on(["line", "hidden", "order", "units"], () => void this.line.show(this.shape, this.current).then(() => this.draw()));
     state.on(["dark"], () => { this.theme(); this.draw(); });
     new ResizeObserver(() => this.resize()).observe(this.stage);
-    this.theme();
-    this.scene.show(state.shown);
     this.resize();
     this.camera.reset();
     await this.load();
+  }
+
+  /** Another mesh, or the first one. Marks of pairs belong to the mesh of the last increment. */
+  private async take(mesh: number): Promise<void> {
+    const { state } = this, request = this.request, geometry = await this.data.geometry(mesh), { pairs } = state.content;
+    const places = pairs && mesh === 0 ? await Promise.all([floats("pair_x"), floats("pair_y"), whole("pair_a"), whole("pair_b")]) : null;
+    const mechanism = await this.data.mechanism();
+    if (request !== this.request) return;
+    const picked = state.shown.picked && this.shape ? this.shape.place(state.shown.picked).undeformed : null;
+    this.scene?.dispose();
+    this.mesh = mesh;
+    this.current = 0;
+    this.geometry = geometry;
+    this.scene = new FieldScene(this.drawer, geometry, state.shown.order.length);
+    this.shape = new Shape(geometry.points, geometry.triangles, geometry.body);
+    this.pairs = places && { x: places[0], y: places[1], a: places[2], b: places[3] };
+    if (this.pairs) this.scene.setPairs(this.pairs.x, this.pairs.y, pairs!.sizes);
+    if (mechanism) this.scene.setMechanism(mechanism);
+    this.order();
+    this.theme();
+    this.scene.show(state.shown);
+    this.resize();
+    if (picked) state.shown.picked = this.shape.pickUndeformed(...picked); // the same place
   }
 
   private controls(): HTMLElement {
@@ -116,11 +147,14 @@ export class FieldPanel {
       checkbox("Super-elements", shown.elements, (elements) => set({ elements }), "show-elements"),
       this.data.moves && checkbox("Undeformed", shown.undeformed, (undeformed) => set({ undeformed }), "show-undeformed"),
       content.pairs && checkbox("Contact states", shown.states, (states) => set({ states }), "show-states"),
-      checkbox("Bands", shown.bands, (bands) => set({ bands }), "show-bands"));
+      checkbox("Bands", shown.bands, (bands) => set({ bands }), "show-bands"),
+      checkbox("Smallest and largest", shown.extremes, (extremes) => set({ extremes }), "show-extremes"),
+      content.mechanism && checkbox("Mechanism", shown.mechanism, (mechanism) => set({ mechanism }), "show-mechanism"));
     const zoom = element("div", { class: "buttons", role: "group", "aria-label": "Zoom" },
       button("−", () => { this.camera.zoom(0.7); this.draw(true); }, { "aria-label": "Zoom out", title: "Zoom out (−)" }),
       button("+", () => { this.camera.zoom(1 / 0.7); this.draw(true); }, { "aria-label": "Zoom in", title: "Zoom in (+)" }),
-      button("Show all", () => { this.camera.reset(); this.draw(); }, { id: "show-all", title: "Show all (0)" }));
+      button("Show all", () => { this.camera.reset(); this.draw(); }, { id: "show-all", title: "Show all (0)" }),
+      button("PNG", () => this.savePicture(), { id: "save-png", title: "The picture with its legend as a file" }));
     return element("div", { class: "controls" }, labelled("Show", quantities), labelled("Colours span", ranges),
       this.data.moves && element("div", { class: "control" }, element("span", { class: "label" }, "Deformation ×"), element("span", { class: "pair-of" }, scale, exact)),
       checks, zoom);
@@ -155,7 +189,8 @@ export class FieldPanel {
   /** Values of the increment that is chosen; the last request counts, whichever array is unpacked first. */
   private async load(): Promise<void> {
     const { content, shown } = this.state, request = ++this.request;
-    const increment = this.state.available(content.field!.increments);
+    const increment = this.state.available(content.field!.increments), mesh = this.data.meshOf(increment);
+    if (mesh !== this.mesh) await this.take(mesh);
     const [[ux, uy], values, states] = await Promise.all([
       this.data.displacement(increment), this.data.values(shown.quantity, increment),
       content.pairs && bytes(`state_${this.state.available(content.pairs.increments)}`),
@@ -171,13 +206,105 @@ export class FieldPanel {
     this.note.textContent = differs + content.field!.note;
     this.colour();
     this.deform();
+    this.findExtremes();
     this.draw();
-    await this.readout.show(this.shape, increment);
+    await Promise.all([this.readout.show(this.shape, increment), this.line.show(this.shape, increment)]);
+    if (shown.line) this.draw(true); // its places have moved
     this.root.dataset.increment = String(increment);
     this.root.dataset.quantity = shown.quantity;
   }
 
   private displacements: [Float32Array | null, Float32Array | null] = [null, null];
+
+  /** Bodies that are hidden, and which is above which. */
+  private order(): void {
+    const { order, hidden } = this.state.shown, depths = depthsOf(this.geometry.body, order, hidden);
+    this.scene.setDepths(depths, this.pairs && [this.pairs.a, this.pairs.b]);
+    this.shape.order(depths);
+  }
+
+  private ofExtremes: Picked[] = [];
+
+  /** Of all points that are seen: marks in the picture, and a sentence. */
+  private findExtremes(): void {
+    const { shown, content } = this.state, quantity = this.data.quantity(shown.quantity), found = shown.extremes ? this.shape.extremes(this.values) : null;
+    this.ofExtremes = [];
+    this.extremes.replaceChildren();
+    if (!found) return;
+    const [cx, cy] = content.field!.centre;
+    for (const [name, point] of [["Smallest", found.least], ["Largest", found.greatest]] as const) {
+      const picked = this.shape.pickPoint(point)!, { undeformed: [x, y] } = this.shape.place(picked);
+      this.ofExtremes.push(picked);
+      const { low, high } = content.field!, length = shown.units.scale("length", Math.max(...[...low, ...high].map(Math.abs)));
+      const place = [x + cx, y + cy].map((value) => number(value * length.factor, 5)).join(", ");
+      this.extremes.append(element("span", { "data-key": name.toLowerCase(), "data-value": this.values[point], "data-x": x + cx, "data-y": y + cy }, `${name}: `,
+        button(shown.units.text(quantity.dimension, this.values[point]), () => this.state.set({ picked }), { class: "link", title: "Read all values there" }),
+        ` in ${nameOf(this.state, this.geometry.body[point])} at (${place})${length.unit ? ` ${length.unit}` : ""} `));
+    }
+  }
+
+  private mechanismFrame = 0;
+
+  /** From where the bodies are to the motion and back, again and again; at rest for those who want no motion. */
+  private playMechanism(): void {
+    cancelAnimationFrame(this.mechanismFrame);
+    const { mechanism } = this.state.content, shows = this.state.shown.mechanism;
+    this.root.classList.toggle("of-mechanism", shows);
+    if (!shows || !mechanism) {
+      this.scene.showMechanism(null);
+      this.load();
+      return;
+    }
+    this.note.textContent = `${mechanism.text} Colours: displacements, of which only the direction and the ratios mean something.`;
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches, start = performance.now();
+    const frame = (now: number) => {
+      this.scene.showMechanism(mechanism.length * (still ? 1 : 0.5 - 0.5 * Math.cos((2 * Math.PI * (now - start)) / MOTION)));
+      this.drawNow();
+      if (!still) this.mechanismFrame = requestAnimationFrame(frame);
+    };
+    frame(start);
+  }
+
+  /** The picture, its marks and its legend. */
+  private picture(): HTMLCanvasElement {
+    const { width, height } = this.camera, title = this.state.content.title, top = title ? 26 : 0;
+    this.drawNow();
+    const made = document.createElement("canvas"), ratio = this.canvas.width / width;
+    made.width = this.canvas.width;
+    made.height = Math.round((top + height + 62) * ratio);
+    const context = made.getContext("2d")!;
+    context.scale(ratio, ratio);
+    context.fillStyle = css("--card");
+    context.fillRect(0, 0, width, top + height + 62);
+    context.font = "bold 15px system-ui, sans-serif";
+    context.fillStyle = css("--ink");
+    context.fillText(title, 12, 19);
+    context.drawImage(this.canvas, 0, top, width, height);
+    this.overlay.draw(context, top, height);
+    if (!this.state.shown.mechanism) this.bar.draw(context, 20, top + height + 8, width - 40);
+    return made;
+  }
+
+  private savePicture(): void {
+    const { content, shown } = this.state;
+    savePng(fileName(content.directory, shown.mechanism ? "mechanism" : shown.quantity, this.current), this.picture());
+  }
+
+  /** On paper an image stands for the canvas, which a printer cannot ask to draw. */
+  print(begins: boolean): void {
+    if (!this.scene) return;
+    this.printed?.remove();
+    this.printed = begins ? element("img", { class: "printed", src: this.picture().toDataURL("image/png"), alt: "Field" }) : null;
+    if (this.printed) this.stage.before(this.printed);
+  }
+
+  private printed: HTMLImageElement | null = null;
+
+  /** Where a pixel is in the undeformed model; outside all bodies as if nothing had moved. */
+  private undeformed(px: number, py: number): [number, number] {
+    const at = this.camera.toPlane(px, py), picked = this.shape.pick(...at);
+    return picked ? this.shape.place(picked).undeformed : at;
+  }
 
   private colour(): void {
     const { shown } = this.state, quantity = this.data.quantity(shown.quantity);
@@ -252,7 +379,7 @@ export class FieldPanel {
 
   /** Draws once before the next frame, however often it is called. `moved`: only the camera has changed. */
   draw(moved = false): void {
-    if (!this.scene) return;
+    if (!this.scene || !this.current) return; // nothing is read yet
     this.changed ||= !moved;
     if (this.waiting) return;
     this.waiting = true;
@@ -294,6 +421,8 @@ export class FieldPanel {
     const { shown } = this.state;
     const picked = shown.picked ? this.shape.place(shown.picked).deformed : null;
     this.overlay.show(this.camera, picked, shown.pair >= 0 && this.pairs ? this.placesOf(shown.pair) : [], this.keyboard);
+    const fields = !shown.mechanism;
+    this.overlay.showPlaces(this.camera, fields ? this.ofExtremes.map((at) => this.shape.place(at).deformed) : [], fields ? this.line.places : []);
     this.overlay.showScale(this.camera, shown.units.scale("length", this.camera.width / this.camera.scale));
   }
 

@@ -2,6 +2,7 @@
 import { button, element } from "../dom";
 import type { State } from "../state";
 import { number } from "../units";
+import { hide, nameOf } from "./bodies";
 import type { FieldData } from "./data";
 import type { Shape } from "./pick";
 
@@ -46,8 +47,10 @@ export class Readout {
     const farthest = Math.max(...[...low, ...high].map(Math.abs)), length = units.scale("length", farthest);
     const digits = Math.min(15, 5 + Math.max(0, Math.floor(Math.log10(farthest / size))));
     const place = [x + cx, y + cy].map((value) => number(Math.abs(value) < 1e-7 * Math.abs(high[0] - low[0]) ? 0 : value * length.factor, digits)).join(", ");
-    this.where.textContent = `${this.data.bodyName(shape.corner(picked))}, at (${place})${length.unit ? ` ${length.unit}` : ""} `
-      + "of the undeformed shape. Values are interpolated linearly between the three nearest points of the results.";
+    const body = shape.body(picked);
+    this.where.textContent = `${nameOf(this.state, body)}, at (${place})${length.unit ? ` ${length.unit}` : ""} `
+      + "of the undeformed shape. Values are interpolated linearly between the three nearest points of the results. ";
+    if (this.state.shown.order.length > 1) this.where.append(button("Hide this body", () => hide(this.state, body, true), { class: "link", id: "hide-picked" }));
     this.values.replaceChildren(...quantities.map(({ key, name, dimension }, k) => {
       const value = shape.value(picked, arrays[k]);
       return element("div", { class: key === this.state.shown.quantity ? "value chosen" : "value", "data-key": key, "data-value": value },

@@ -1,8 +1,11 @@
 // Programs of the graphics processor. Displacements are magnified here, so that the slider changes one number and no array.
+// `depth` is that of the body of a point: bodies are drawn one above the other, each with its lines, which `lift` puts above its
+// own colours; what is hidden lies behind all that is drawn.
 
 const PLACE = `
-uniform vec2 centre; uniform vec2 zoom; uniform float magnification;
-vec4 placed(vec2 at, vec2 moved) { return vec4((at + magnification * moved - centre) * zoom, 0.0, 1.0); }
+uniform vec2 centre; uniform vec2 zoom; uniform float magnification; uniform float lift;
+attribute float depth;
+vec4 placed(vec2 at, vec2 moved) { return vec4((at + magnification * moved - centre) * zoom, depth - lift, 1.0); }
 `;
 
 export const fill = {
@@ -42,22 +45,32 @@ void main() {
   float length_ = max(length(along), 1e-6);
   vec2 across = vec2(-along.y, along.x) / length_;
   vec4 end = position.x < 0.5 ? a : b;
-  gl_Position = vec4(end.xy + (position.y * across + (position.x - 0.5) * along / length_) * width * pixel, 0.0, 1.0);
+  gl_Position = vec4(end.xy + (position.y * across + (position.x - 0.5) * along / length_) * width * pixel, a.z, 1.0);
 }`,
   fragment: plain.fragment,
 };
 
-// State of a pair by shape and colour: stick a disc, slip a triangle, open a hollow square.
+// State of a pair by shape and colour: stick a disc, slip a triangle, open a hollow square. It stands beside the joint, in the
+// direction `beside`, and covers less of it than the pairs are apart (`room`); where they are close, all of them are a band.
 export const mark = {
   vertex: `${PLACE}
-attribute float ux; attribute float uy; attribute float state; uniform float size; varying float kind;
-void main() { kind = state; gl_Position = placed(position.xy, vec2(ux, uy)); gl_PointSize = size; }`,
+attribute float ux; attribute float uy; attribute float state; attribute vec2 beside; attribute float room;
+uniform vec2 pixel; uniform vec2 sizes; varying float kind; varying float small;
+void main() {
+  kind = state;
+  float size = clamp(0.6 * room * zoom.x / pixel.x, sizes.x, sizes.y);
+  small = size < 0.5 * sizes.y ? 1.0 : 0.0;
+  gl_Position = placed(position.xy, vec2(ux, uy));
+  gl_Position.xy += beside * (0.5 * size + 0.2 * sizes.y) * pixel;
+  gl_PointSize = size;
+}`,
   fragment: `
-uniform vec3 open; uniform vec3 stick; uniform vec3 slip; uniform vec3 paper; varying float kind;
+uniform vec3 open; uniform vec3 stick; uniform vec3 slip; uniform vec3 paper; varying float kind; varying float small;
 void main() {
   vec2 at = 2.0 * gl_PointCoord - 1.0;
   float edge;
   vec3 colour = kind < 0.5 ? open : kind < 1.5 ? stick : slip;
+  if (small > 0.5) { gl_FragColor = vec4(colour, 1.0); return; }
   if (kind < 0.5) edge = max(abs(at.x), abs(at.y)) - 0.72;
   else if (kind < 1.5) edge = length(at) - 0.85;
   else edge = max(at.y - 0.75, abs(at.x) * 0.9 - 0.45 * (at.y + 0.95));
