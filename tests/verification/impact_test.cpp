@@ -143,5 +143,81 @@ TEST(Impact, ADiscHitsAWallAsWithSmallerElements) {
   EXPECT_LT(before, 0.01);
 }
 
+// A rigid block 0.5 x 2 that rocks on its corners by small rotations, from w0 at an edge on the ground: the weight
+// takes k = m g b/I off its velocity per time, I about a corner, and each impact leaves the part r = 1 - 3/2 b^2/(b^2 +
+// h^2) of it.
+TEST(Impact, ARigidBlockRocks) {
+  const double b = 0.25, h = 1.0, k = 9.81 * b / (4.0 / 3.0 * (b * b + h * h)), r = 1.0 - 1.5 * b * b / (b * b + h * h),
+               w0 = std::sqrt(k * std::atan(b / h));
+  const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: stress}}
+bodies:
+  ground: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [3, 1]}}}}}}
+  block: {{rigid: true, density: 1000, shape: {{rectangle: {{corner: [0, 0], size: [0.5, 2]}}}}}}
+supports: [{{on: ground, fix: [x, y]}}]
+initial: [{{on: block, velocity: [{0}, {1}], rotation: -{0}}}]
+loads: {{weight: {{gravity: [0, -9.81], on: block}}}}
+contacts: {{base: {{between: [ground.top, block.bottom], friction: 5}}}}
+steps: [{{dynamic: {{duration: 2.2, step: 5e-4}}, increments: 1100}}]
+output: {{fields: []}}
+)",
+                                                  w0, b * w0));
+  ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+  std::vector<double> impacts;
+  double before = 0.0;
+  for (const IncrementResult& at : solution.increments) {
+    const double turned = at.fields.displacements[1][2];
+    if (before != 0.0 && turned * before <= 0.0) impacts.push_back(*at.time);
+    before = turned;
+    EXPECT_LT(at.certificate.energy_balance, 1e-9);
+  }
+  ASSERT_GE(impacts.size(), 3u);
+  double expected = 0.0, w = w0;
+  for (std::size_t i = 0; i < 3; ++i, w *= r) {
+    expected += 2.0 * w / k;
+    EXPECT_NEAR(impacts[i], expected, 3e-3) << i;
+  }
+}
+
+// What a rigid block does, a stiff one does too where nothing hits: it slides on its ground under one cycle. Without
+// damping an elastic block chatters and slides with less friction.
+TEST(Impact, AStiffBlockSlidesAsARigidOne) {
+  const auto slips = [](const std::string& block, const std::string& young) {
+    const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress}}
+materials: {{granite: {{young: {}, poisson: 0.2, density: 1000, damping: {{ratio: 0.5, between: [1e-4, 1e4]}}}}}}
+bodies:
+  ground: {{rigid: true, shape: {{rectangle: {{corner: [-0.5, -1], size: [3, 1]}}}}}}
+  block: {{{}, shape: {{rectangle: {{corner: [0, 0], size: [2, 1]}}}}}}
+supports: [{{on: ground, fix: [x, y]}}]
+loads: {{weight: {{gravity: [0, -9.81], on: block}}}}
+contacts: {{base: {{between: [ground.top, block.bottom], friction: 0.3}}}}
+curves: {{quake: {{sine: {{amplitude: 4.905, periods: 1}}}}}}
+steps:
+  - {{name: rest}}
+  - {{name: shake, dynamic: {{duration: 0.5, step: 1e-3, ground: {{x: quake}}}}, increments: 10}}
+)",
+                                                    young, block));
+    std::vector<double> found;
+    for (std::size_t i = 0; i <= 10; ++i) found.push_back(increment_at(solution, i).contacts[0].pairs[0].slip);
+    return found;
+  };
+  const std::vector<double> rigid = slips("rigid: true, density: 1000", "1e10");
+  EXPECT_LT(*std::min_element(rigid.begin(), rigid.end()), -20e-3);
+  double before = 0.0;
+  for (const char* young : {"1e10", "1e11"}) {
+    const std::vector<double> stiff = slips("material: granite, mesh: {kind: fem, size: 0.5, order: 1}", young);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < rigid.size(); ++i) largest = std::max(largest, std::abs(stiff[i] - rigid[i]));
+    if (before > 0.0) {
+      EXPECT_LT(largest, 2e-5);
+      EXPECT_LT(largest, 0.2 * before);
+    }
+    before = largest;
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification
