@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Contact", "Increment", "Result"]
 
 _STATES = np.array(["open", "stick", "slip"])
-_PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "history")
+_PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "envelope", "spectrum", "history")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
 
 
@@ -316,8 +316,9 @@ class Result:
 
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
         """A figure of Matplotlib by ``scabo.plot``, whose functions describe the options: what="stress" on the deformed
-        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism" or "history". ``mirrored=True``
-        draws both halves of bodies of revolution. Results that are not in a directory are first written to a temporary one."""
+        shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism", "envelope", "spectrum"
+        (``columns="NAME"``, a velocity of the history) or "history". ``mirrored=True`` draws both halves of bodies of
+        revolution. Results that are not in a directory are first written to a temporary one."""
         if what not in _PICTURES:
             raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")
         try:

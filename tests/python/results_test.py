@@ -284,7 +284,7 @@ class Plot(InTemporaryDirectory):
         module = types.ModuleType("scabo.plot")
         module.Results = pathlib.Path
         module.stress, module.contact = self.draw("stress"), self.draw("contact")
-        module.history = self.draw("history")
+        module.history, module.spectrum = self.draw("history"), self.draw("spectrum")
         patched = unittest.mock.patch.dict(sys.modules, {"scabo.plot": module})
         patched.start()
         self.addCleanup(patched.stop)
@@ -309,6 +309,8 @@ class Plot(InTemporaryDirectory):
             self.assertEqual(options, {"increment": number, "component": "slip"})
         result.plot("history")
         self.assertEqual(self.calls.pop()[3], {})
+        result.plot("spectrum", columns="ground")
+        self.assertEqual(self.calls.pop()[::3], ("spectrum", {"columns": "ground"}))
         with self.assertRaises(IndexError):
             result.plot(increment=3)
         with self.assertRaisesRegex(ValueError, "what must be stress, .* or history, not 'strees'"):

@@ -1,4 +1,4 @@
-"""Examples 17 to 21, 23 to 28, 32 to 34, 40 to 44 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
+"""Examples 17 to 21, 23 to 28, 32 to 34, 39 to 44 and docs/practice.md: every number of their tables, by hand and from the run; the loads at which things
 slide; the closed forms behind the hand calculations."""
 import importlib.util
 import json
@@ -162,6 +162,12 @@ class Practice(support.InTemporaryDirectory):
         rows = self.history("28_koyna", [])
         self.assertLess(max(abs(row["base.ux"] - rows[-1]["base.ux"]) for row in rows[160:]), 1e-4)
         self.assertLess(abs(rows[-1]["lift.uy"]), 1e-9)
+
+    def test_cracked_plate_under_a_wave(self):
+        """Before the wave comes the tip is at rest."""
+        self.check("39_cracked_plate_under_a_wave", page=ROOT / "examples" / "39_cracked_plate_under_a_wave" / "README.md")
+        rows = self.history("39_cracked_plate_under_a_wave", [])
+        self.assertLess(max(abs(row["K_I"]) for row in rows[:18]), 1e-2 * rows[-1]["K_I"])
 
     def test_press_fit_of_revolution(self):
         self.check("32_press_fit_of_revolution", page=ROOT / "examples" / "32_press_fit_of_revolution" / "README.md")

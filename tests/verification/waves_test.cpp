@@ -190,6 +190,31 @@ steps:
   EXPECT_NEAR(last(solution).energy.friction - solution.increments[0].energy.friction, 0.8 * 12.0, 1e-4 * 9.6);
 }
 
+// The same block without friction and without a time step: a thousandth of the duration has 4.4 steps in a period, of
+// which 2.25 pass in 0.1 s. Steps are halved until they are a 36th of it where it is fast, so that the phase is late by
+// less than 0.1 and not by 2.3.
+TEST(Waves, TheStepIsHalvedForABlockOnASpring) {
+  const double w = 2.0 * std::numbers::pi * 2.25 / 0.1;
+  const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress}}
+bodies:
+  block: {{rigid: true, density: 1, shape: {{rectangle: {{corner: [0, 0], size: [1, 1]}}}}}}
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-5, -1], size: [14, 1]}}}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+springs: [{{on: block.bottom, k_n: {0}, k_t: {0}}}]
+contacts: {{never: {{between: [floor.top, block.bottom], friction: 0, gap: 9}}}}
+loads: {{push: {{on: block, force: [0, {0}]}}}}
+steps:
+  - {{name: push, loads: {{push: 1}}}}
+  - {{name: free, dynamic: {{duration: 10}}, loads: {{push: 0}}, increments: 100}}
+)",
+                                                  w * w));
+  const IncrementResult& at = solution.increments.at(1);
+  EXPECT_EQ(at.halvings, 3);
+  EXPECT_LT(std::abs(at.fields.displacements[0][1]), 0.1);
+}
+
 // A rigid block on a spring, w = 2 pi, under a force from t = 0: u = F/k (1 - cos w t). The error at the end falls with
 // the square of the step, and where output is asked for does not matter.
 TEST(Waves, TheErrorFallsWithTheSquareOfTheStep) {

@@ -22,6 +22,7 @@ class StaticThenDynamic {
       statics_.begin(step, begin, end, from);
   }
   double part_at_once(double rest) const { return in_time_ ? dynamics_.part_at_once(rest) : rest; }
+  double part_after(double at, double part) const { return in_time_ ? dynamics_.part_after(at, part) : part; }
   Attempt attempt(const State& from, double part) const {
     return in_time_ ? dynamics_.attempt(from, part) : statics_.attempt(from, part);
   }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "scabo/model/checking.hpp"
+#include "scabo/model/time_steps.hpp"
 
 namespace scabo::model {
 
@@ -161,6 +162,24 @@ void check_curve_of_support(Checking& checking, const std::string& path, const S
           fmt::format("curve '{}' jumps, which support '{}' cannot: give the jump a duration", curve.name, name));
 }
 
+/// A time step that the user gives is not longer than what happens within it.
+void check_step_resolves_curves(Checking& checking, const std::string& path, const Step& step) {
+  const DynamicStep& dynamic = *step.dynamic;
+  constexpr double most_lost = 0.5;
+  for (const std::size_t index : curves_in_time(step)) {
+    if (index >= checking.model.curves.size()) continue;
+    const Curve& curve = checking.model.curves[index];
+    const double lost = part_averaged_away(curve, dynamic.duration, *dynamic.step);
+    if (lost <= most_lost) continue;
+    checking.error(
+        path, "dynamic.step",
+        fmt::format("{} is longer than what happens in curve '{}', of which steps of that length average "
+                    "away {:.0f} %: give at most {:.2g}, which keeps 99 %",
+                    number_text(*dynamic.step), curve.name, 100.0 * lost, resolving_step(curve, dynamic.duration)));
+    return;
+  }
+}
+
 /// In time curves may begin anywhere, but supports do not jump.
 void check_dynamic_step(Checking& checking, const std::string& path, const Step& step, const Step* before) {
   const Model& model = checking.model;
@@ -175,6 +194,8 @@ void check_dynamic_step(Checking& checking, const std::string& path, const Step&
     checking.error(path, "dynamic.step",
                    fmt::format("must be at least {:.3g}, so that there are at most {:.0e} time steps, not {}",
                                dynamic.duration / limits::time_steps, limits::time_steps, number_text(*dynamic.step)));
+  else if (dynamic.step && known && *dynamic.step > 0.0)
+    check_step_resolves_curves(checking, path, step);
   if (step.automatic)
     checking.error(path, "increments",
                    "of a step in time must be a number: that of the times at which results are written; its time steps "

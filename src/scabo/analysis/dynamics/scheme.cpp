@@ -12,6 +12,7 @@
 #include "scabo/base/components.hpp"
 #include "scabo/element/plane/elasticity.hpp"
 #include "scabo/model/limits.hpp"
+#include "scabo/model/time_steps.hpp"
 
 namespace scabo::analysis {
 
@@ -87,7 +88,11 @@ double longest_time_step(const model::Model& model, const mesh::Mesh& mesh, cons
     if (fastest > 0.0) shortest = std::min(shortest, shortest_side(mesh.bodies[b]) / fastest);
   }
   constexpr double parts = 1000.0;
-  return std::isfinite(shortest) ? shortest : step.dynamic->duration / parts;
+  const double duration = step.dynamic->duration;
+  double longest = std::isfinite(shortest) ? shortest : duration / parts;
+  for (const std::size_t curve : model::curves_in_time(step))
+    longest = std::min(longest, model::resolving_step(model.curves[curve], duration));
+  return longest;
 }
 
 void Dynamics::begin(const Prepared& at_rest, std::size_t step, double begin, double end) {
@@ -109,12 +114,15 @@ void Dynamics::begin(const Prepared& at_rest, std::size_t step, double begin, do
     increment_.before = solution_.model.restart->motion->time;
   for (std::size_t before = 0; before < step; ++before)
     if (const auto& dynamic = solution_.model.steps[before].dynamic) increment_.before += dynamic->duration;
-  const double longest = longest_time_step(solution_.model, solution_.mesh, solution_.model.steps[step]);
+  if (step_ != step) {
+    step_ = step;
+    longest_ = longest_time_step(solution_.model, solution_.mesh, solution_.model.steps[step]);
+  }
+  const double longest = longest_;
   if (duration > model::limits::time_steps * longest)
     throw InputError(solution_.model.file,
                      {{solution_.model.steps[step].source,
-                       fmt::format("would need {:.0e} time steps of {:.3g}, the time in which a wave passes the "
-                                   "smallest element: give 'step'",
+                       fmt::format("would need {:.0e} time steps of {:.3g}, by its waves and curves: give 'step'",
                                    duration / longest, longest)}});
   constexpr double rounding = 1e-9;
   increment_.steps =
@@ -123,9 +131,15 @@ void Dynamics::begin(const Prepared& at_rest, std::size_t step, double begin, do
 
 double Dynamics::part_at_once(double rest) const { return std::min(rest, 1.0 / increment_.steps); }
 
+double Dynamics::part_after(double at, double part) const {
+  constexpr double rounding = 1e-6;
+  const double steps = at * increment_.steps;
+  return std::abs(steps - std::round(steps)) <= rounding ? 1.0 / increment_.steps : part;
+}
+
 const StepSystem& Dynamics::system_of(double size) const {
   constexpr double rounding = 1e-6;
-  constexpr std::size_t most = 3;  // factors of that many sizes are kept
+  constexpr std::size_t most = 8;  // factors of that many sizes are kept, which a step may be halved to again and again
   const auto found = std::find_if(systems_.begin(), systems_.end(),
                                   [&](const auto& system) { return std::abs(system->size - size) <= rounding * size; });
   if (found != systems_.end()) {
@@ -202,11 +216,15 @@ Attempt Dynamics::attempt(const State& from, double part) const {
   const double longest = without_rounding((increment_.end - increment_.begin) / increment_.steps);
   const int halvings = std::max(0, static_cast<int>(std::lround(std::log2(longest / (end - begin)))));
   const StepSystem& system = system_of(std::ldexp(longest, -halvings));
-  const bool may_halve = halvings < solution_.model.solver.halvings;
+  StepBounds bounds;
+  if (halvings < solution_.model.solver.halvings) {
+    bounds.added = 1e-4;
+    if (!solution_.model.steps[increment_.step].dynamic->step) bounds.error = 1e-3;
+  }
   const InTime in{*at_rest_, inertia_, system};
   const Acting acts = acting(begin, end, system);
-  Attempt made = from.velocity.empty() ? time_step(in, in_motion(from, system.size), acts, may_halve)
-                                       : time_step(in, from, acts, may_halve);
+  Attempt made = from.velocity.empty() ? time_step(in, in_motion(from, system.size), acts, bounds)
+                                       : time_step(in, from, acts, bounds);
   made.state.time = increment_.before + end;
   return made;
 }

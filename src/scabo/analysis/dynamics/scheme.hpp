@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scabo/analysis/dynamics/time_step.hpp"
@@ -17,6 +18,8 @@ class Dynamics {
 
   void begin(const Prepared& at_rest, std::size_t step, double begin, double end);
   double part_at_once(double rest) const;
+  /// A whole time step again where a halved one has come to its end.
+  double part_after(double at, double part) const;
   Attempt attempt(const State& from, double part) const;
 
  private:
@@ -42,10 +45,13 @@ class Dynamics {
   std::vector<Vector> mass_of_ground_[2];  ///< per part: M r of a motion of the ground along x and y
   mutable std::vector<std::unique_ptr<const StepSystem>> systems_;  ///< those of the sizes of this increment
   Increment increment_;
+  std::optional<std::size_t> step_;  ///< of which this is the longest time step
+  double longest_ = 0.0;
 };
 
-/// Longest time step of a step in time: as it says, or the time that a wave needs to pass the smallest element of the
-/// bodies with a mass; a thousandth of its duration where there is none.
+/// Longest time step of a step in time: as it says, or the shorter one of the time that a wave needs to pass the
+/// smallest element of the bodies with a mass, a thousandth of its duration where there is none, and of steps that
+/// resolve its curves (model/time_steps.hpp).
 double longest_time_step(const model::Model& model, const mesh::Mesh& mesh, const model::Step& step);
 
 }  // namespace scabo::analysis

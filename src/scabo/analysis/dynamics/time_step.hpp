@@ -12,6 +12,7 @@
 // slip stay.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -45,9 +46,15 @@ struct InTime {
   const StepSystem& system;
 };
 
-/// From a state with velocities. `may_halve`: the attempt is not accepted if contact or projection add more than 1e-4
-/// of the largest energy so far.
-Attempt time_step(const InTime& in, const State& from, const Acting& acting, bool may_halve);
+/// A time step that goes beyond these bounds is not accepted. Parts of the largest energy so far.
+struct StepBounds {
+  double added = std::numeric_limits<double>::infinity();  ///< energy that contact and projection add
+  /// Square root of the energy of the error by which the trapezoidal rule is wrong for rigid bodies on springs.
+  double error = std::numeric_limits<double>::infinity();
+};
+
+/// From a state with velocities.
+Attempt time_step(const InTime& in, const State& from, const Acting& acting, const StepBounds& bounds);
 
 /// 1/2 v'M v of all parts that are there.
 double kinetic_energy(const Prepared& prepared, const std::vector<system::PartInertia>& inertia,

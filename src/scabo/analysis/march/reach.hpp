@@ -4,6 +4,7 @@
 // begin of the increment, to 1, its end:
 //
 //     part_at_once(rest)      the part of the increment that an attempt goes, of the rest
+//     part_after(at, part)    the same after an accepted attempt over `part`, which ended at part `at`
 //     now()                   what its increments have in common at present
 //     attempt(from, part)     from an accepted state to that part of the increment
 //     is_same_scaled(from, tried, part)   whether the attempt to that part is the same problem as `tried`, scaled
@@ -60,6 +61,7 @@ Reached reach(const Scheme& scheme, Reached reached, std::optional<double> least
   const State from = reached.state;
   double part = scheme.part_at_once(1.0 - reached.part);
   int repeats = 0;
+  int halved = reached.halvings;  // how many times `part` is
   reached.mesh_is_due = false;
   while (reached.part < 1.0) {
     double next = std::min(1.0, reached.part + part);
@@ -74,8 +76,7 @@ Reached reach(const Scheme& scheme, Reached reached, std::optional<double> least
       record(prepared, tried, options, reached);
       continue;
     }
-    const bool may_halve =
-        least ? part > *least * (1.0 + rounding_of_parts) : reached.halvings < prepared.model.solver.halvings;
+    const bool may_halve = least ? part > *least * (1.0 + rounding_of_parts) : halved < prepared.model.solver.halvings;
     if (tried.accepted && least) {
       reached.changes = changes_between(prepared, from, tried.state);
       if (reached.changes.too_many(rule) && may_halve && repeats < rule.repeats) {
@@ -88,10 +89,11 @@ Reached reach(const Scheme& scheme, Reached reached, std::optional<double> least
       accept(std::move(tried), next, reached);
       reached.mesh_is_due = !least && reached.part < 1.0 && scheme.mesh_is_due(reached.state);
       if (least || reached.mesh_is_due) break;
+      if (const double longer = scheme.part_after(reached.part, part); longer > part) part = longer, halved = 0;
       continue;
     }
     if (!halves(scheme, tried, next, part, may_halve, least.has_value(), options, reached)) return reached;
-    ++reached.halvings;
+    reached.halvings = std::max(reached.halvings, ++halved);
     part = std::max(0.5 * part, std::min(part, least.value_or(0.0)));
   }
   return reached;

@@ -41,6 +41,12 @@ std::string stiffest_part(const Prepared& prepared, const State& state) {
 /// Reason why an increment with a contact solution is not accepted.
 std::string above_tolerance(const Prepared& prepared, const Attempt& tried, double tolerance) {
   const double worst = tried.certificate.worst();
+  if (worst <= tolerance)  // in time
+    return fmt::format(
+        "the energies of a time step do not balance: {:.2g} of the largest energy is missing or too much, which is more "
+        "than rounding of bodies that are not very much stiffer than what moves them; make such bodies rigid, or less "
+        "stiff",
+        tried.certificate.energy_balance);
   std::string reason =
       fmt::format("the largest figure of the certificate, {:.3g}, is above the tolerance {:.3g}", worst, tolerance);
   if (const std::string remedy = remedy_for(prepared, worst); !remedy.empty())

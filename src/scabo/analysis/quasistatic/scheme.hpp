@@ -21,6 +21,7 @@ class Quasistatic {
   void enter(std::size_t step, State& state);
   void begin(std::size_t step, double begin, double end, const State& from);
   double part_at_once(double rest) const { return rest; }
+  double part_after(double /*at*/, double part) const { return part; }
   Attempt attempt(const State& from, double part) const;
   bool is_same_scaled(const State& from, const Attempt& tried, double part) const;
   double beyond_mesh(const State& from, const State& to) const;

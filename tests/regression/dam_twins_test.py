@@ -1,0 +1,96 @@
+"""A dam with joints on massless rock under a synthetic motion of the ground, the section of examples/28_koyna with large elements, in twins: other
+units, mirrored, bodies in another order, results at other times, and in two halves. Crest, slips, opening and heat agree to 1e-8."""
+import csv
+import math
+
+import support
+from support import scabo
+
+DURATION, STEP = 0.8, 4e-3
+COLUMNS = ("crest", "lift.ux", "lift.uy", "base.ux", "base.uy", "shear", "heat")
+
+
+class DamTwins(support.InTemporaryDirectory):
+    def history(self, name, metre=1.0, side=1, reverse=False, duration=DURATION, since=0.0, increments=20, restart=None):
+        """Rows of history.csv in metres and newtons. Lengths of the model are in 1/`metre` m, masses in kg; side -1: mirrored; the ground
+        moves as from time `since` on."""
+        def points(*vertices):
+            return [[side * metre * x, metre * y] for x, y in (vertices if side > 0 else vertices[::-1])]
+
+        def mesh(size):
+            return f"mesh: {{size: {size * metre!r}}}"
+
+        force = metre  # kg m/s2 in those of the model
+        names = "names: {base: edge_1, lift: edge_3, face: edge_4}" if side > 0 else "names: {base: edge_3, lift: edge_1, face: edge_4}"
+        above = "names: {lift: edge_1, face: edge_4}" if side > 0 else "names: {lift: edge_3, face: edge_4}"
+        bodies = [
+            f"rock: {{material: rock, shape: {{polygon: {{vertices: {points((-70, -70), (140, -70), (140, 0), (-70, 0))}}}}}, {mesh(16)}}}",
+            f"lower: {{material: concrete, shape: {{polygon: {{vertices: {points((0, 0), (70, 0), (19.25, 66.5), (0, 66.5))}, {names}}}}}, {mesh(8)}}}",
+            f"upper: {{material: concrete, shape: {{polygon: {{vertices: {points((0, 66.5), (19.25, 66.5), (14.8, 103), (0, 103))}, {above}}}}}, {mesh(8)}}}"]
+        bottom = "edge_1" if side > 0 else "edge_3"
+        heel, crest = ("vertex_1", "vertex_4") if side > 0 else ("vertex_4", "vertex_1")  # both at x = 0, below and above
+        top = "edge_3" if side > 0 else "edge_1"
+        times = [0.02 * i for i in range(51)]
+        quake = [[t - since, side * metre * 4.0 * math.sin(6 * math.pi * t) * min(1.0, 4 * t)] for t in times]
+        water = f"water: {{level: {91.75 * metre!r}, unit_weight: {9810 * force / metre**3!r}}}"
+        added = f"level: {91.75 * metre!r}, bottom: 0, density: {1000 / metre**3!r}"
+        elastic = f"young: {31.027e9 * force / metre**2!r}, poisson: 0.2"
+        rest = "" if restart else "{name: rest}, "
+        model = self.directory / f"{name}.yaml"
+        model.write_text(f"""scabo: 1
+analysis: {{plane: stress, thickness: {metre!r}}}
+materials:
+  concrete: {{{elastic}, density: {2643 / metre**3!r}, damping: {{ratio: 0.05, between: [3, 16]}}}}
+  rock: {{{elastic}, density: 0}}
+bodies:
+  {(chr(10) + "  ").join(bodies[::-1] if reverse else bodies)}
+supports: [{{on: rock.{bottom}, fix: [x, y]}}]
+loads:
+  weight: {{gravity: [0, {-9.81 * metre!r}]}}
+  water: {{on: lower.face, {water}}}
+  water_above: {{on: upper.face, {water}}}
+added_mass: [{{on: lower.face, {added}}}, {{on: upper.face, {added}}}]
+contacts:
+  base: {{between: [rock.{top}, lower.base], friction: 1.0}}
+  lift: {{between: [lower.lift, upper.lift], friction: 0.7}}
+curves: {{quake: {{table: {quake}}}}}
+steps: [{rest}{{name: shake, dynamic: {{duration: {duration}, step: {STEP}, ground: {{x: quake}}}}, increments: {increments}}}]
+{f"restart: {restart}.results" if restart else ""}
+solver: {{halvings: 1}}
+output:
+  fields: []
+  points: [{{at: [0, 0], body: rock, name: foot}}]
+  history:
+    crest: upper.{crest}.ux
+    lift: {{displacement: upper.{heel}, relative_to: lower.{crest}}}
+    base: {{displacement: lower.{heel}, relative_to: foot}}
+    shear: base.tangential_force
+    heat: friction_energy
+""", encoding="utf-8")
+        run = scabo("run", model, "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(model.with_suffix(".results") / "history.csv", newline="", encoding="utf-8") as file:
+            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        unit = {"shear": side * force, "heat": force * metre, "lift.uy": metre, "base.uy": metre}
+        return [{column: row[column] / unit.get(column, side * metre) for column in COLUMNS} for row in rows]
+
+    def agree(self, rows, others):
+        for column in COLUMNS:
+            largest = max(abs(row[column]) for row in rows)
+            for row, other in zip(rows, others, strict=True):
+                self.assertAlmostEqual(other[column], row[column], delta=1e-8 * largest, msg=column)
+
+    def test_twins(self):
+        one = self.history("one")
+        for column, least in (("heat", 1e4), ("lift.ux", 1e-3), ("lift.uy", 1e-4)):  # its joints slide and open
+            self.assertGreater(max(abs(row[column]) for row in one), least, column)
+        self.agree(one, self.history("millimetres", metre=1000.0))
+        self.agree(one, self.history("mirrored", side=-1))
+        self.agree(one, self.history("reversed", reverse=True))
+        self.agree(one[::2], self.history("fewer", increments=10))
+        first = self.history("first", duration=DURATION / 2, increments=10)
+        self.agree(one, first + self.history("second", duration=DURATION / 2, increments=10, since=DURATION / 2, restart="first"))
+
+
+if __name__ == "__main__":
+    support.main()
