@@ -79,5 +79,39 @@ TEST(Beds, AreTheSameWithSidesSwappedAndInMillimetres) {
   }
 }
 
+// With friction on its surface, a bar to the ground, turned and mirrored.
+TEST(Beds, DoNotDependOnTheAxes) {
+  std::vector<double> forces, energies;
+  for (const auto& [angle, side] : {std::pair(0.0, 1.0), std::pair(0.7, 1.0), std::pair(2.2, -1.0)}) {
+    const auto point = [&, c = std::cos(angle), s = std::sin(angle), m = side](double x, double y) {
+      return fmt::format("[{:.17g}, {:.17g}]", c * m * x - s * y, s * m * x + c * y);
+    };
+    const auto box = [&](double x, double y, double width, double height) {
+      return fmt::format("{{polygon: {{vertices: [{}, {}, {}, {}], names: {{bottom: edge_1, top: edge_3}}}}}}",
+                         point(x, y), point(x + width, y), point(x + width, y + height), point(x, y + height));
+    };
+    const auto solution = run(fmt::format(R"(
+scabo: 1
+materials: {{stuff: {{young: 1e9, poisson: 0.2}}}}
+bodies:
+  floor: {{rigid: true, shape: {}}}
+  block: {{material: stuff, shape: {}, mesh: {{size: 0.2}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+bars: {{rod: {{between: [block.vertex_3, {}], k: 1e6}}}}
+loads: {{down: {{on: block.top, force: {}}}, turn: {{on: block.top, moment: {}}}}}
+contacts: {{bed: {{between: [floor.top, block.bottom], modulus: {}, friction: 0.3}}}}
+)",
+                                          box(-4, -1, 8, 1), box(-1, 0, 2, 1), point(3, 2), point(2e4, -weight),
+                                          -side * 0.5 * weight, modulus));
+    forces.push_back(last(solution).bars[0]);
+    energies.push_back(last(solution).energy.elastic);
+    EXPECT_GT(contact_of(last(solution)).open, 0);
+    EXPECT_NEAR(forces.back(), forces.front(), 1e-10 * weight);
+    EXPECT_NEAR(energies.back(), energies.front(), 1e-10 * energies.front());
+    EXPECT_NEAR(last(solution).energy.external - last(solution).energy.friction, energies.back(),
+                1e-9 * energies.back() + last(solution).energy.friction_error);
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification
