@@ -62,6 +62,8 @@ class Increment:
     """Totals of every contact."""
     reactions: dict[str, list[float]]
     """Force of every support on its body, [x, y]."""
+    bars: dict[str, dict[str, float]]
+    """Of a model with bars: the tension of every bar."""
     cracks: dict[str, dict[str, Any]]
     """Stress intensity factors."""
     certificate: dict[str, float]

@@ -33,7 +33,7 @@ class Models(support.InTemporaryDirectory):
 
     def test_every_kind_of_model_can_be_drawn(self):
         good = ROOT / "tests" / "input" / "good"
-        for name in ("ties.yaml", "outside.yaml", "mesh_file.yaml", "image_levels.yaml", "crack_faces.yaml", "springs.yaml", "revolution.yaml"):
+        for name in ("ties.yaml", "outside.yaml", "mesh_file.yaml", "image_levels.yaml", "crack_faces.yaml", "springs.yaml", "bars.yaml", "revolution.yaml"):
             with self.subTest(name=name):
                 run = scabo("plot", good / name, "-o", self.directory / "picture.png")
                 self.assertEqual((run.returncode, run.stderr), (0, ""))

@@ -71,6 +71,24 @@ steps:
 output: {every: 10, history: {tip: block.top_left.ux, kinetic: kinetic_energy}}
 """.replace("LONG", "20" if SANITIZED else "100").replace("DURATION", "0.06" if SANITIZED else "0.5")
 
+BOLTED = """
+scabo: 1
+title: A block with a bolt that is tightened, and then pulled again and again
+materials: {stuff: {young: 70e9, poisson: 0.3}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-0.5, -0.1], size: [1, 0.1]}}}
+  block: {material: stuff, shape: {rectangle: {corner: [-0.1, 0], size: [0.2, 0.3]}}, mesh: {kind: fem, size: 0.025}}
+supports: [{on: floor, fix: [x, y]}]
+bars: {bolt: {between: [block.top, [0, -0.15]], area: 8e-3, young: 210e9, preload: 1.5e6, tightened: tighten}}
+loads: {weight: {on: block.top, force: [0, -1e4]}, pull: {on: block.right, force: [2e5, 4e5]}}
+contacts: {joint: {between: [floor.top, block.bottom], friction: 0.3, modulus: 1e12}}
+steps:
+  - {name: weight, loads: {weight: 1, pull: 0}}
+  - {name: tighten, increments: 4}
+  - {name: pull, increments: LONG, loads: {pull: 1}}
+output: {every: 10, history: {bolt: bolt.tension}}
+""".replace("LONG", "20" if SANITIZED else "200")
+
 STEPS_OF_GROWTH = 5 if SANITIZED else 12
 GROWTH = """
 scabo: 1
@@ -193,6 +211,17 @@ class Resume(unittest.TestCase):
         run = scabo("resume", self.results, "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assert_same(content(self.directory / "whole"))
+
+    def test_killed_with_a_bolt_that_was_tightened(self):
+        self.model.write_text(BOLTED, encoding="utf-8")
+        run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        whole = content(self.directory / "whole")
+        for checkpoints in (1, 4, 8):
+            if self.killed(checkpoints):
+                self.assertEqual(scabo("resume", self.results, "--quiet").returncode, 0)
+            self.assert_same(whole)
+            shutil.rmtree(self.results)
 
     def test_killed_while_cracks_grow(self):
         for law in ("law: paris, C: 1e-29, m: 3, between: [{pull: 0.1}, {pull: 1}]", "toughness: {K_Ic: 1e6}")[:1 if SANITIZED else 2]:

@@ -1,4 +1,4 @@
-"""A model before it is solved: bodies and their cells, names of edges, supports, springs, loads and contacts."""
+"""A model before it is solved: bodies and their cells, names of edges, supports, springs, bars, loads and contacts."""
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
@@ -19,7 +19,8 @@ def model(drawing, units=None, window=None):
     """`drawing`: what the program writes of a model. Edges have the names by which the model file knows them, the user's where there are
     some; arrows show where loads act and along which direction, not how large they are."""
     units = units or Units()
-    points = np.array([x for body in drawing["bodies"] for loop in body["loops"] for x in loop])
+    points = np.array([x for body in drawing["bodies"] for loop in body["loops"] for x in loop] +
+                      [x for bar in drawing.get("bars", []) for x in bar["points"]])
     place = units.scale("length", np.abs(points if window is None else window).max())
     low, high = (points.min(axis=0), points.max(axis=0)) if window is None else (np.array(window[::2]), np.array(window[1::2]))
     size = place.factor * max(high - low)
@@ -36,6 +37,8 @@ def model(drawing, units=None, window=None):
     for kind, colour, mark in (("supports", style.BLUE, "-"), ("springs", style.GREEN, ":")):
         for entry in drawing[kind]:
             draw_held(axis, entry, colour, mark, place.factor, size)
+    for entry in drawing.get("bars", []):
+        draw_bar(axis, entry, place.factor)
     for entry in drawing["loads"]:
         draw_load(axis, entry, place.factor, size)
     axis.set_xlim(place.factor * low[0], place.factor * high[0])
@@ -59,9 +62,9 @@ def subtitle_of(drawing):
 
 def legend_of(drawing):
     entries = [("supports", "support", Line2D([], [], color=style.BLUE, linewidth=2)), ("springs", "spring", Line2D([], [], color=style.GREEN, linestyle=":")),
-               ("loads", "load", Line2D([], [], color=style.RED, marker=">", markersize=5)),
+               ("bars", "bar", Line2D([], [], color=style.GREEN, marker="o", markersize=4)), ("loads", "load", Line2D([], [], color=style.RED, marker=">", markersize=5)),
                ("contacts", "contact", Line2D([], [], color=style.ORANGE, linewidth=3)), ("ties", "tie", Line2D([], [], color=style.GREEN, linewidth=3))]
-    legend = [(artist, name) for kind, name, artist in entries if drawing[kind]]
+    legend = [(artist, name) for kind, name, artist in entries if drawing.get(kind)]
     if any(body["rigid"] for body in drawing["bodies"]):
         legend.append((Patch(facecolor="0.85", edgecolor="0.4", hatch="////"), "rigid"))
     return legend
@@ -114,6 +117,13 @@ def draw_held(axis, entry, colour, dashes, factor, size):
         for x in spread(points, MOST_ARROWS):
             for sign in (-1, 1):
                 axis.plot(*np.array([x + sign * back - half, x + sign * back + half]).T, color=colour, linestyle=dashes, linewidth=1.4, clip_on=True)
+
+
+def draw_bar(axis, entry, factor):
+    """From end to end, with a dot where it ends."""
+    points = factor * np.array(entry["points"]).reshape(-1, 2)
+    axis.plot(*points.T, color=style.GREEN, linewidth=1.6, marker="o", markersize=4, clip_on=True, zorder=5)
+    axis.annotate(short_name(entry["name"]), points.mean(axis=0), color=style.GREEN, fontsize=8, textcoords="offset points", xytext=(4, 2), annotation_clip=True)
 
 
 def draw_load(axis, entry, factor, size):

@@ -12,7 +12,7 @@ from .units import Units
 
 MOST_PANELS, MOST_LINES = 6, 12
 PREFERRED = (".normal_force", ".tangential_force", ".max_pressure", ".max_gap")  # of contacts, without a history
-DIMENSIONS = {"normal_force": "force", "tangential_force": "force", "pore_force": "force", "total_normal_force": "force", "force_x": "force",
+DIMENSIONS = {"normal_force": "force", "tangential_force": "force", "pore_force": "force", "total_normal_force": "force", "tension": "force", "force_x": "force",
               "force_y": "force", "reaction_x": "force", "reaction_y": "force", "max_gap": "length", "centre_x": "length", "centre_y": "length",
               "max_pressure": "stress", "moment": "energy", "external": "energy", "elastic": "energy", "friction": "energy"}
 

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "scabo/contact/constants.hpp"
@@ -17,7 +18,7 @@ std::vector<ContactState> strongest_states(const Problem& problem) {
   std::vector<ContactState> states;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
     const bool resists = problem.largest_mu(i) > neutral_constants.no_friction || problem.cohesion_of(i) > 0.0 ||
-                         problem.tension_of(i) > 0.0;
+                         (problem.tension_of(i) > 0.0 && std::isfinite(problem.tension_of(i)));
     states.push_back(resists ? ContactState::stick : ContactState::slip);
   }
   return states;

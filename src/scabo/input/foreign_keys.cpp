@@ -18,9 +18,8 @@ constexpr const char* about_contact_stiffness =
     "the sides of a contact do not give way, so that it has no stiffness: leave it out, and draw a soft layer as a "
     "body";
 constexpr const char* about_anchor =
-    "an anchor is an entry of 'springs', tensioned by its 'at_rest': {on: wall.head, k_x: 40e6, at_rest: [-5e-3, "
-    "null], "
-    "name: anchor}";
+    "an anchor is an entry of 'bars', with its preload: {between: [wall.head, [8, -2]], area: 1.2e-3, young: 195e9, "
+    "preload: 400e3}";
 
 struct ForeignKey {
   std::string_view key;         ///< without capitals, blanks, _ and -

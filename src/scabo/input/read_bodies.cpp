@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "scabo/geometry/box.hpp"
 #include "scabo/geometry/outline_checks.hpp"
@@ -179,32 +181,55 @@ void add_body(Reading& reading, Body body, const BodyState& state) {
   reading.bodies.push_back(state);
 }
 
-void move(Outline& outline, const Vec2& by) {
-  for (Edge& edge : outline.edges) {
-    edge.start += by;
-    edge.end += by;
-    if (edge.arc) edge.arc->centre += by;
-    for (Vec2& point : edge.points) point += by;
+/// How a copy lies: moved, or turned about a centre.
+struct Motion {
+  Vec2 by = Vec2::Zero();
+  double degrees = 0.0;
+  Vec2 centre = Vec2::Zero();
+
+  double radians() const { return degrees * std::numbers::pi / 180.0; }
+  Vec2 operator()(const Vec2& x) const {
+    if (degrees == 0.0) return x + by;
+    const double quarters = std::round(degrees / 90.0);  // which are exact
+    const double rest = (degrees - 90.0 * quarters) * std::numbers::pi / 180.0, c = std::cos(rest), s = std::sin(rest);
+    Vec2 arm = x - centre;
+    arm = Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
+    for (int quarter = static_cast<int>(std::remainder(quarters, 4.0)); quarter != 0; quarter += quarter < 0 ? 1 : -1)
+      arm = quarter > 0 ? Vec2(-arm.y(), arm.x()) : Vec2(arm.y(), -arm.x());
+    return centre + arm;
   }
-  for (Corner& corner : outline.corners) corner.position += by;
+};
+
+void move(Outline& outline, const Motion& motion) {
+  for (Edge& edge : outline.edges) {
+    edge.start = motion(edge.start);
+    edge.end = motion(edge.end);
+    if (edge.arc) {
+      edge.arc->centre = motion(edge.arc->centre);
+      if (motion.degrees != 0.0) edge.arc->start_angle += motion.radians();
+    }
+    for (Vec2& point : edge.points) point = motion(point);
+  }
+  for (Corner& corner : outline.corners) corner.position = motion(corner.position);
+  outline.rectangle = outline.rectangle && motion.degrees == 0.0;
 }
 
-Body moved(Body body, const Vec2& by) {
-  move(body.outline, by);
-  for (Region& region : body.regions) move(region.outline, by);
+Body moved(Body body, const Motion& motion) {
+  move(body.outline, motion);
+  for (Region& region : body.regions) move(region.outline, motion);
   for (Crack& crack : body.cracks) {
-    crack.tip += by;
-    crack.mouth += by;
-    for (Vec2& point : crack.path) point += by;
+    crack.tip = motion(crack.tip);
+    crack.mouth = motion(crack.mouth);
+    for (Vec2& point : crack.path) point = motion(point);
   }
-  body.mesh.centre += by;
+  body.mesh.centre = motion(body.mesh.centre);
   if (body.imported) {
     auto mesh = std::make_shared<files::ImportedMesh>(*body.imported);
-    for (Vec2& node : mesh->nodes) node += by;
+    for (Vec2& node : mesh->nodes) node = motion(node);
     body.imported = std::move(mesh);
   }
   for (LocalSize& local : body.mesh.refine)
-    if (local.near) *local.near += by;
+    if (local.near) local.near = motion(*local.near);
   return body;
 }
 
@@ -213,12 +238,35 @@ struct Copies {
   std::size_t rows = 0;      ///< 0 with one count
 };
 
+/// `repeat: {count: 12, centre: [0, 0], angle: 30}`: copies around a centre.
+Copies copies_around(Reading& reading, const MapReader& map, const Body& body) {
+  const std::size_t before = reading.report.count();
+  if (map.has("step")) map.refuse("step", "is that of copies along a line, without 'centre' and 'angle'");
+  const auto count_value = map.need("count"), centre_value = map.need("centre"), angle_value = map.need("angle");
+  const auto count = count_value ? read_integer(reading.report, *count_value, limits::copies) : std::nullopt;
+  const auto centre = centre_value ? read_vector(reading.report, *centre_value) : std::nullopt;
+  const auto angle = angle_value ? read_number(reading.report, *angle_value) : std::nullopt;
+  if (angle && *angle == 0.0) reading.report.error(*angle_value, "must not be 0: the copies would lie on each other");
+  if (body.image) reading.report.error(map.map(), "turns copies, and pixels of an image are not turned: give a 'step'");
+  Copies copies;
+  if (reading.report.count() > before || !count || !centre || !angle) {
+    reading.bodies_known = false;
+    return copies;
+  }
+  for (long i = 0; i < *count; ++i) {
+    copies.bodies.push_back(moved(body, {Vec2::Zero(), static_cast<double>(i) * *angle, *centre}));
+    copies.bodies.back().name += fmt::format("_{}", i + 1);
+  }
+  return copies;
+}
+
 /// `repeat: {count: 3, step: [1, 0]}` gives `block_1`, `block_2`, `block_3`; `{count: [2, 3], step: [[1, 0], [0, 1]]}`
 /// gives `block_1_1` to `block_2_3`. Nothing if it is broken.
 Copies copies_of(Reading& reading, const Value& value, const Body& body) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"count", "step"}, "{count: 3, step: [1, 0]}");
+  const MapReader map(report, value, {"count", "step", "centre", "angle"}, "{count: 3, step: [1, 0]}");
+  if (map.has("centre") || map.has("angle")) return copies_around(reading, map, body);
   const auto count_value = map.need("count"), step_value = map.need("step");
   std::vector<long> counts;
   std::vector<Vec2> steps;
@@ -253,7 +301,7 @@ Copies copies_of(Reading& reading, const Value& value, const Body& body) {
   for (long j = 0; j < (plane ? counts[1] : 1); ++j)
     for (long i = 0; i < counts[0]; ++i) {
       Body copy =
-          moved(body, static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0)));
+          moved(body, {static_cast<double>(i) * steps[0] + (plane ? static_cast<double>(j) * steps[1] : Vec2(0, 0))});
       copy.name += plane ? fmt::format("_{}_{}", i + 1, j + 1) : fmt::format("_{}", i + 1);
       copies.bodies.push_back(std::move(copy));
     }

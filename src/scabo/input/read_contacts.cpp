@@ -270,7 +270,7 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
   const std::size_t before = report.count();
   const MapReader map(report, entry.value,
                       {"between", "reach", "property", "friction", "gap", "fit_in", "cohesion", "tension", "bond",
-                       "shear_strength", "slip", "about"},
+                       "shear_strength", "slip", "about", "modulus"},
                       contact_example,
                       {{"kind", "leave it out; every contact is node-to-node"},
                        {"penalty", "leave it out; the contact conditions are met without a penalty"}});
@@ -295,6 +295,7 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
                      fmt::format("must be small or large, not '{}'{}", *kind, suggestion(*kind, {"small", "large"})));
     }
   if (const auto about = map.get("about")) contact.about = read_vector(report, *about).value_or(Vec2::Zero());
+  if (const auto modulus = map.get("modulus")) contact.modulus = number_or_unread(reading, modulus);
   if (const auto gap = map.get("gap")) contact.gap = read_number(report, *gap).value_or(0.0);
   if (contact.bond && map.has("gap")) map.refuse("gap", no_gap_beside_bond);
   if (const auto fit = map.get("fit_in")) {

@@ -82,6 +82,12 @@ void read_friction(Report& report, const Value& value, Contact& contact) {
 
 /// One number, until the pair first opens or slips; or `{lasting: 50e3}`, while it is closed.
 void read_cohesion(Report& report, const Value& value, Contact& contact) {
+  if (value.node->kind == Node::Kind::sequence) {
+    report.error(value, fmt::format("must be a number, until the joint first fails, or {{lasting: 50e3}}, while it is "
+                                    "closed, not {}",
+                                    describe(*value.node)));
+    return;
+  }
   if (value.node->kind != Node::Kind::map) {
     contact.cohesion = read_number(report, value).value_or(0.0);
     return;

@@ -148,9 +148,9 @@ void read_added_masses(Reading& reading, const Value& value) {
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo",   "title",  "parameters",         "analysis", "materials", "bodies",    "supports",
-                       "springs", "loads",  "contact_properties", "contacts", "ties",      "curves",    "steps",
-                       "solver",  "output", "tolerance",          "restart",  "initial",   "added_mass"},
+                      {"scabo",   "title",  "parameters",         "analysis", "materials", "bodies",     "supports",
+                       "springs", "loads",  "contact_properties", "contacts", "ties",      "curves",     "steps",
+                       "solver",  "output", "tolerance",          "restart",  "initial",   "added_mass", "bars"},
                       "'scabo: 1' and sections",
                       {{"units", about_units}, {"unit", about_units}, {"unit_system", about_units}});
   if (!map.is_map()) {
@@ -176,6 +176,7 @@ void read_sections(Reading& reading, const Value& root) {
 
   if (const auto supports = map.get("supports")) read_supports(reading, *supports);
   if (const auto springs = map.get("springs")) read_springs(reading, *springs);
+  if (const auto bars = map.get("bars")) read_bars(reading, *bars);
   if (const auto loads = map.get("loads")) read_loads(reading, *loads);
   read_contacts_and_ties(reading, map.get("contact_properties"), map.get("contacts"), map.get("ties"));
   find_contacts_of_loads(reading);
@@ -203,8 +204,8 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   Model& model = reading.model;
   if (model.analysis.type != AnalysisType::modal || root.node->kind != Node::Kind::map) return;
   std::vector<std::string> parts;
-  for (const char* section :
-       {"loads", "contact_properties", "contacts", "curves", "restart", "steps", "solver", "output", "tolerance"}) {
+  for (const char* section : {"bars", "loads", "contact_properties", "contacts", "curves", "restart", "steps", "solver",
+                              "output", "tolerance"}) {
     const MapEntry* entry = root.node->find(section);
     if (entry != nullptr && entry->value && entry->value->kind != Node::Kind::null) parts.emplace_back(section);
   }

@@ -45,6 +45,7 @@ constexpr QuantityWord history_words[] = {{"force_x", Quantity::Kind::contact_fo
                                           {"last_pair_in_contact", Quantity::Kind::end_pair, 1},
                                           {"pore_force", Quantity::Kind::pore_force, 0},
                                           {"total_normal_force", Quantity::Kind::total_normal_force, 0},
+                                          {"tension", Quantity::Kind::bar_tension, 0},
                                           {"T", Quantity::Kind::t_stress, 0},
                                           {"T_left", Quantity::Kind::t_stress, 1},
                                           {"T_right", Quantity::Kind::t_stress, 2},
@@ -115,6 +116,8 @@ class QuantityReader {
         return of_tip(name, word);
       case Quantity::Kind::contact_moment:
         return of_moment(name);
+      case Quantity::Kind::bar_tension:
+        return of_bar(name);
       default:
         return of_contact(name);
     }
@@ -164,6 +167,12 @@ class QuantityReader {
     std::vector<std::string> known;
     for (const Contact& contact : reading_.model.contacts) known.push_back(contact.name);
     return find("contact", name, known, reading_.conditions_known);
+  }
+
+  std::optional<Quantity> of_bar(const std::string& name) {
+    std::vector<std::string> known;
+    for (const Bar& bar : reading_.model.bars) known.push_back(bar.name);
+    return find("bar", name, known, reading_.conditions_known);
   }
 
   /// Of a contact, or of a support that prescribes a rotation.

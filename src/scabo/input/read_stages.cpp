@@ -74,6 +74,8 @@ void find_named_steps(Reading& reading) {
     if (const auto& added = reading.bodies[b].added) body.added = step_named(*added).value_or(0);
     if (const auto& removed = reading.bodies[b].removed) body.removed = step_named(*removed).value_or(-1);
   }
+  for (const auto& [bar, name] : reading.steps_of_bars)
+    reading.model.bars[bar].tightened = step_named(name).value_or(0);
   for (const auto& [entry, name] : reading.fits_of_contacts) {
     const int step = step_named(name).value_or(-1);
     for (const int contact : reading.contacts_of_entry[entry])

@@ -255,11 +255,13 @@ void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
   }
 }
 
-/// Whether a body is put in place or taken away in the step of this name.
+/// Whether a body is put in place or taken away, or a bar tightened, in the step of this name.
 bool has_stage(const Reading& reading, const std::string& step) {
   const auto named = [&](const std::optional<Value>& value) { return value && value->node->text == step; };
   return std::any_of(reading.bodies.begin(), reading.bodies.end(),
-                     [&](const auto& body) { return named(body.added) || named(body.removed); });
+                     [&](const auto& body) { return named(body.added) || named(body.removed); }) ||
+         std::any_of(reading.steps_of_bars.begin(), reading.steps_of_bars.end(),
+                     [&](const auto& of) { return of.second.node->text == step; });
 }
 
 void read_loads_of_step(Reading& reading, const Index& supports, const MapReader& map, Step& step, std::size_t number) {

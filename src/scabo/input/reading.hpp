@@ -84,6 +84,9 @@ struct Reading {
   /// `fit_in` of contacts, by their entry: the names of steps, which are read after contacts.
   std::vector<std::pair<std::string, Value>> fits_of_contacts;
 
+  /// `tightened` of bars, by their index in model.bars: the names of steps.
+  std::vector<std::pair<std::size_t, Value>> steps_of_bars;
+
   /// All texts within `contacts` and `ties`, which are read after the bodies whose sides they name.
   std::set<std::string> texts_of_contacts;
 
@@ -103,6 +106,7 @@ void read_materials(Reading& reading, const Value& value);
 void read_bodies(Reading& reading, const Value& value);
 void read_supports(Reading& reading, const Value& value);
 void read_springs(Reading& reading, const Value& value);
+void read_bars(Reading& reading, const Value& value);
 void read_loads(Reading& reading, const Value& value);
 void read_contacts_and_ties(Reading& reading, const std::optional<Value>& properties_section,
                             const std::optional<Value>& contacts, const std::optional<Value>& ties);

@@ -98,6 +98,9 @@ std::vector<Diagnostic> ambiguous_points(const model::Model& model, const Mesh& 
   };
   for (const model::Support& support : model.supports) look(support.on, support.on.source);
   for (const model::Spring& spring : model.springs) look(spring.on, spring.on.source);
+  for (const model::Bar& bar : model.bars)
+    for (const model::Bar::End& end : bar.between)
+      if (end.on) look(*end.on, end.on->source);
   for (const model::Load& load : model.loads)
     if (load.on) look(*load.on, load.on->source);
   return mistakes;

@@ -46,6 +46,9 @@ FixedNodes fixed_nodes(const model::Model& model, const std::vector<BodyMesh>& b
   };
   for (const model::Support& support : model.supports) hold(support.on);
   for (const model::Spring& spring : model.springs) hold(spring.on);
+  for (const model::Bar& bar : model.bars)
+    for (const model::Bar::End& end : bar.between)
+      if (end.on) hold(*end.on);
   for (const model::Load& load : model.loads)
     if (load.on) hold(*load.on);
   for (std::size_t b = 0; b < bodies.size(); ++b)

@@ -272,12 +272,16 @@ void check_law(Checking& checking, const std::string& path, const Contact& conta
   if (contact.shear_strength) good = checking.not_negative(path, "shear_strength", *contact.shear_strength) && good;
   good = checking.number(path, "gap", contact.gap) && good;
   checking.vector(path, "about", contact.about);
+  if (contact.modulus) good = checking.positive(path, "modulus", *contact.modulus) && good;
   if (!good) return;
   const auto refuse = [&](const char* key, bool given, const char* why) {
     if (given) checking.error_of_key(path, key, why);
   };
   const bool friction = contact.friction > 0.0 || contact.backward_friction || contact.dynamic_friction ||
                         !contact.friction_along.empty();
+  refuse("modulus", contact.modulus && (contact.bond || contact.cohesion > 0.0),
+         "is that of a bed of springs that only presses, which neither a bond nor a cohesion that is lost goes with: "
+         "leave one of them out");
   if (contact.bond || contact.shear_strength) {
     const char* why = contact.bond ? no_effect_beside_bond : replaced_by_shear_strength;
     refuse("friction", friction, why);
@@ -311,6 +315,10 @@ void check_contacts_and_ties(Checking& checking) {
       continue;
     }
     check_large_slip(checking, path, contact);
+    if (contact.modulus && checking.body(contact.a.body).rigid && checking.body(contact.b.body).rigid)
+      checking.error(
+          path, "modulus",
+          "two rigid edges meet in two pairs, which are no bed: give one of the bodies a material and a mesh");
     joined.add(checking, path, contact.a, contact.b, fmt::format("contact '{}'", contact.name));
   }
   for (std::size_t i = 0; i < model.ties.size(); ++i) {

@@ -72,12 +72,11 @@ std::string why_not_on(const Body& of, const Place& place, const std::string& ki
   }
   if (kind == "moment") {
     if (of.rigid) return place.kind == Place::Kind::body ? "" : fmt::format("'{0}' is rigid: write on: {0}", body);
-    const bool straight =
-        place.kind == Place::Kind::edge && is_straight(of.outline.edges[static_cast<std::size_t>(place.index)]);
-    return straight
+    const auto takes_moment = [](const Edge& edge) { return edge.arc || is_straight(edge); };
+    return place.kind == Place::Kind::edge && takes_moment(of.outline.edges[static_cast<std::size_t>(place.index)])
                ? ""
-               : "a moment on an elastic body acts on a straight edge, as a linear traction along its normal: name "
-                 "one, or give two opposite forces";
+               : "a moment on an elastic body acts on a straight edge, as a linear traction along its normal, or on an "
+                 "arc, as a torque: name one, or give two opposite forces";
   }
   if (kind == "gravity" || kind == "spin" || kind == "body_force" || kind == "temperature") {
     if (place.kind != Place::Kind::body) return fmt::format("{} acts on a whole body: write on: {}", kind, body);

@@ -135,6 +135,9 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
     case Quantity::Kind::spring_force:
       check_number_of(checking, path, "spring", quantity.index, model.springs.size());
       break;
+    case Quantity::Kind::bar_tension:
+      check_number_of(checking, path, "bar", quantity.index, model.bars.size());
+      break;
     case Quantity::Kind::displacement:
       check_point_of(checking, path, quantity);
       break;

@@ -77,6 +77,8 @@ void check_materials(Checking& checking);
 void check_bodies(Checking& checking);
 void check_supports(Checking& checking);
 void check_springs(Checking& checking);
+/// Bars, before contacts.
+void check_bars(Checking& checking);
 void check_loads(Checking& checking);
 void check_contacts_and_ties(Checking& checking);
 void check_steps(Checking& checking);
@@ -96,6 +98,8 @@ void check_bodies_held(Checking& checking);
 void check_something_loads(Checking& checking);
 void check_never_applied(Checking& checking);
 void check_conflicting_supports(Checking& checking);
+/// Bars that are tightened in steps, and what they and beds of springs in contacts do not go with.
+void check_bars_in_steps(Checking& checking);
 /// Steps over which interferences grow.
 void check_fits(Checking& checking);
 /// Steps in which cracks grow.

@@ -32,7 +32,9 @@ struct Contact {
   double tension = 0.0;                       ///< tensile strength, force / length^2, until first failure
   bool bond = false;                          ///< neither opens nor slips
   std::optional<double> shear_strength;       ///< prescribed friction bound (Tresca), force / length^2
-  double gap = 0.0;                           ///< length, added to the geometric gap; negative: an interference fit
+  /// Modulus of a bed of springs between the sides, which only presses, force / length^3; empty: none.
+  std::optional<double> modulus;
+  double gap = 0.0;  ///< length, added to the geometric gap; negative: an interference fit
   /// Index into Model::steps of the step over which interferences, negative gaps, grow from 0 to their values; -1: they
   /// are there from the start.
   int fit_in = -1;

@@ -16,6 +16,7 @@
 #include "scabo/base/extent.hpp"
 #include "scabo/base/types.hpp"
 #include "scabo/base/warning.hpp"
+#include "scabo/model/bar.hpp"
 #include "scabo/model/body.hpp"
 #include "scabo/model/contact.hpp"
 #include "scabo/model/curve.hpp"
@@ -90,6 +91,7 @@ struct Model {
   std::vector<Body> bodies;
   std::vector<Support> supports;
   std::vector<Spring> springs;
+  std::vector<Bar> bars;
   std::vector<Load> loads;
   std::vector<Contact> contacts;
   std::vector<Tie> ties;

@@ -30,6 +30,7 @@ struct Quantity {
     velocity,            ///< of a point, relative to the ground, length / time
     ground_velocity,     ///< of the ground, which was at rest before the first step in time, length / time
     spring_force,        ///< of springs on their body, force
+    bar_tension,         ///< of a bar, force
     pairs_in_state,      ///< of a contact: how many of its pairs are open, stick or slip (component 0, 1, 2)
     broken_pairs,        ///< of a contact with cohesion: how many have lost it
     end_pair,            ///< of a contact: number of the first (component 0) or last (1) pair that is not open
@@ -41,9 +42,9 @@ struct Quantity {
     corner_stress        ///< of a corner: K_tt or K_rt (component 0, 1), force / length^(3/2)
   };
   Kind kind = Kind::elastic_energy;
-  std::string name;        ///< as given by the user
-  int index = -1;          ///< contact, support, spring or body; displacement, velocity: -1 for the body with the point
-  int component = 0;       ///< 0: x or K_I, 1: y or K_II; others as above
+  std::string name;   ///< as given by the user
+  int index = -1;     ///< contact, support, spring, bar or body; displacement, velocity: -1 for the body with the point
+  int component = 0;  ///< 0: x or K_I, 1: y or K_II; others as above
   Vec2 at = Vec2::Zero();  ///< displacement, velocity: the point
   std::string crack;  ///< `flaw`; `flaw.start` or `flaw.end` if both ends are tips; the corner at the scaling centre
   Source source;

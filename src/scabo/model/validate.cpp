@@ -193,6 +193,8 @@ void check_something_loads(Checking& checking) {
     for (const auto& displacement : support.displacement)
       if (displacement.value_or(0.0) != 0.0) return;
   }
+  for (const Bar& bar : model.bars)
+    if (bar.preload != 0.0) return;
   for (const Contact& contact : model.contacts)
     if (may_interfere(checking, contact)) return;
   if (model.restart) return;
@@ -231,6 +233,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   check_bodies(checking);
   check_supports(checking);
   check_springs(checking);
+  check_bars(checking);
   check_loads(checking);
   check_contacts_and_ties(checking);
   check_steps(checking);
@@ -251,6 +254,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
   if (!checking.gaps.steps) {
     if (!modal) check_never_applied(checking);
     if (!modal) check_fits(checking);
+    if (!modal) check_bars_in_steps(checking);
     if (!modal) check_stages(checking);
     check_growth_steps(checking);
     check_limit_steps(checking);

@@ -162,7 +162,7 @@ std::string model_drawing(const model::Model& model, const mesh::Mesh& mesh) {
   std::size_t cells = 0;
   for (const mesh::BodyMesh& body : mesh.bodies) cells += body.cells.size();
   DrawingJson json = {{"title", model.title}};
-  for (const char* list : {"bodies", "contacts", "ties", "supports", "springs", "loads"})
+  for (const char* list : {"bodies", "contacts", "ties", "supports", "springs", "bars", "loads"})
     json[list] = DrawingJson::array();
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     json["bodies"].push_back(body_drawing(model.bodies[b], mesh.bodies[b], cells <= most_cells));
@@ -174,6 +174,14 @@ std::string model_drawing(const model::Model& model, const mesh::Mesh& mesh) {
     json["supports"].push_back(support_drawing(support, points_of(support.on, model, mesh)));
   for (const model::Spring& spring : model.springs)
     json["springs"].push_back(spring_drawing(spring, points_of(spring.on, model, mesh)));
+  for (const model::Bar& bar : model.bars) {
+    std::vector<Vec2> ends;
+    for (const model::Bar::End& end : bar.between) {
+      const std::vector<Vec2> points = end.on ? points_of(*end.on, model, mesh) : std::vector<Vec2>{end.at};
+      ends.push_back(0.5 * (points.front() + points.back()));
+    }
+    json["bars"].push_back(entry(bar.name, ends, {}));
+  }
   for (const model::Load& load : model.loads) json["loads"].push_back(load_drawing(load, model, mesh));
   return json.dump();
 }

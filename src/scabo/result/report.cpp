@@ -269,6 +269,15 @@ std::string report_springs(const model::Model& model, const analysis::IncrementR
   return table(rows);
 }
 
+std::string report_bars(const model::Model& model, const analysis::IncrementResult& increment) {
+  if (increment.bars.empty()) return {};
+  const double force = force_level(model, increment);
+  std::vector<std::vector<std::string>> rows = {{"bar", "tension"}};
+  for (std::size_t i = 0; i < increment.bars.size(); ++i)
+    rows.push_back({model.bars[i].name, shown(increment.bars[i], force)});
+  return table(rows);
+}
+
 std::string report_cracks(const analysis::IncrementResult& increment) {
   if (increment.cracks.empty()) return {};
   const auto number = [](const std::optional<double>& value) {
@@ -326,7 +335,7 @@ std::string report_totals(const model::Model& model, const analysis::IncrementRe
   std::string text;
   for (const std::string& part :
        {report_contacts(model, increment), report_reactions(model, increment), report_springs(model, increment),
-        report_cracks(increment), report_quantities(increment)})
+        report_bars(model, increment), report_cracks(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   return heading + text;
 }

@@ -43,6 +43,9 @@ std::string report_reactions(const model::Model& model, const analysis::Incremen
 /// Force of every entry of `springs` on its body; empty if there is none.
 std::string report_springs(const model::Model& model, const analysis::IncrementResult& increment);
 
+/// Tension of every bar; empty if there is none.
+std::string report_bars(const model::Model& model, const analysis::IncrementResult& increment);
+
 /// Table of stress intensity factors; empty without cracks.
 std::string report_cracks(const analysis::IncrementResult& increment);
 

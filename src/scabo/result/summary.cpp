@@ -223,6 +223,9 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
   for (std::size_t i = 0; i < increment.springs.size(); ++i)
     json["springs"][model.springs[i].name] = {number_or_null(increment.springs[i].x()),
                                               number_or_null(increment.springs[i].y())};
+  if (!model.bars.empty()) json["bars"] = Json::object();
+  for (std::size_t i = 0; i < increment.bars.size(); ++i)
+    json["bars"][model.bars[i].name] = {{"tension", number_or_null(increment.bars[i])}};
   if (model::has_stages(model.bodies)) json["absent"] = Json::array();
   for (const int body : increment.absent) json["absent"].push_back(model.bodies[static_cast<std::size_t>(body)].name);
   for (const analysis::CrackResult& crack : increment.cracks) json["cracks"][crack.name] = json_of(crack.factors);

@@ -182,13 +182,27 @@ class Applied {
         });
   }
 
-  /// Normal traction linear along a straight edge, without a resultant.
+  /// Uniform traction along an arc, whose moment about the centre of the arc is given.
+  void twist(double moment, const mesh::PlaceNodes& at) {
+    const Vec2& centre = edge().arc->centre;
+    apply_traction(at, [&](const Vec2& x, const Vec2&) {
+      const Vec2 arm = (x - centre).normalized();
+      return Vec2(-arm.y(), arm.x());
+    });
+    double of_unit = 0.0;
+    for (std::size_t node = 0; node < body_mesh_.nodes.size(); ++node)
+      of_unit += cross(body_mesh_.nodes[node] - centre, nodal.segment<2>(place_of(node)));
+    nodal *= moment / of_unit;
+  }
+
+  /// Normal traction linear along a straight edge, without a resultant; along an arc a tangential one.
   void operator()(const model::Moment& moment) {
     if (body_.rigid) {
       nodal = Vector::Unit(3, 2) * (moment.value / part_.lever());
       return;
     }
     const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
+    if (edge().arc) return twist(moment.value, at);
     const Vec2 start = edge().start, along = (edge().end - start) / edge().length();
     // Over the elements, between which the edge of an image may have gaps: length, first and second moment.
     double length = 0.0, first = 0.0, second = 0.0;

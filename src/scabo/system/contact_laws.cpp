@@ -7,6 +7,7 @@
 #include "scabo/contact/laws/lasting.hpp"
 #include "scabo/contact/laws/slip_weakening.hpp"
 #include "scabo/contact/laws/tresca.hpp"
+#include "scabo/contact/laws/two_sided.hpp"
 #include "scabo/system/tributary_lengths.hpp"
 
 namespace scabo::system {
@@ -71,6 +72,10 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
   std::vector<double> areas;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const ContactSystem::Pair& at = pairs[k];
+    if (at.is_bar()) {
+      laws.of_pair.push_back(std::make_shared<contact::TwoSided>());
+      continue;
+    }
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(at.contact)];
     const mesh::Interface& interface = mesh.interfaces[static_cast<std::size_t>(at.contact)];
     if (at.contact != contact_before) {
@@ -91,6 +96,7 @@ contact::JointLaws with_coefficients(const contact::JointLaws& laws, const std::
   const std::size_t contacts = model.contacts.size();
   std::vector<LawPointer> of_contact(contacts);  // one for all pairs
   for (std::size_t k = 0; k < pairs.size() && !coefficients.empty(); ++k) {
+    if (pairs[k].is_bar()) continue;
     const auto c = static_cast<std::size_t>(pairs[k].contact);
     const model::Contact& given = model.contacts[c];
     const double forward = coefficients[c], backward = coefficients[contacts + c];

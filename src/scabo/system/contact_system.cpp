@@ -8,6 +8,7 @@
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/joined_bodies.hpp"
+#include "scabo/system/tributary_lengths.hpp"
 
 namespace scabo::system {
 
@@ -60,8 +61,9 @@ std::vector<Eigen::SparseMatrix<double>> motion_of(const std::vector<PairPoints>
   std::vector<Triplets> entries(structure.parts.size());
   int row = 0;
   for (const PairPoints& pair : pairs) {
-    add_side(entries[pair.a.part], row, -1.0, *structure.parts[pair.a.part], pair.a, pair.directions);
-    add_side(entries[pair.b.part], row, 1.0, *structure.parts[pair.b.part], pair.b, pair.directions);
+    for (const auto& [side, sign] : {std::pair(&pair.a, -1.0), std::pair(&pair.b, 1.0)})
+      if (side->part != PairSide::ground)
+        add_side(entries[side->part], row, sign, *structure.parts[side->part], *side, pair.directions);
     row += static_cast<int>(pair.directions.cols());
   }
   std::vector<Eigen::SparseMatrix<double>> motion;
@@ -121,9 +123,11 @@ bool is_sparse(const std::vector<TouchedPart>& touched, const Structure& structu
 // Below, a dense LU takes less than a second, and the joined bodies are not used.
 constexpr Eigen::Index least_joined = 2500;
 
-/// W on the rows kept by `place` (-1: left out).
-contact::Delassus sum_of(std::vector<PartFlexibility> parts, const std::vector<int>& place, Eigen::Index rows,
+/// W on the rows kept by `place` (-1: left out), with the springs between sides on its diagonal; `softness`: of each
+/// row that is kept.
+contact::Delassus sum_of(std::vector<PartFlexibility> parts, const std::vector<int>& place, const Vector& softness,
                          bool is_sparse) {
+  const Eigen::Index rows = softness.size();
   Matrix dense;
   Triplets triplets;
   const auto all = [&](const PartFlexibility& part) {
@@ -158,15 +162,20 @@ contact::Delassus sum_of(std::vector<PartFlexibility> parts, const std::vector<i
     }
     part.block.resize(0, 0);
   }
-  if (!is_sparse) return {std::move(dense)};
+  if (!is_sparse) {
+    dense.diagonal() += softness;
+    return {std::move(dense)};
+  }
+  for (Eigen::Index row = 0; row < rows; ++row)
+    if (softness[row] > 0.0) triplets.emplace_back(row, row, softness[row]);
   Eigen::SparseMatrix<double> W(rows, rows);
   W.setFromTriplets(triplets.begin(), triplets.end());
   return contact::Delassus(std::move(W));
 }
 
-/// W with its bodies where all parts are rigid: W = Y'Y, Y = A^1/2 B' of each part.
+/// W with its bodies where all parts are rigid: W = Y'Y, Y = A^1/2 B' of each part, and a row for each spring.
 contact::Delassus with_bodies(contact::Delassus W, const std::vector<TouchedPart>& touched, const Structure& structure,
-                              const std::vector<int>& place) {
+                              const std::vector<int>& place, const Vector& softness) {
   constexpr Eigen::Index most = 6;  // degrees of freedom of a rigid body
   Triplets entries;
   int columns = 0;
@@ -182,6 +191,8 @@ contact::Delassus with_bodies(contact::Delassus W, const std::vector<TouchedPart
         for (int k = 0; k < rows.cols(); ++k) entries.emplace_back(row, columns + k, rows(i, k));
     columns += static_cast<int>(rows.cols());
   }
+  for (Eigen::Index row = 0; row < softness.size(); ++row)
+    if (softness[row] > 0.0) entries.emplace_back(static_cast<int>(row), columns++, std::sqrt(softness[row]));
   if (W.size() == 0) return W;
   Eigen::SparseMatrix<double> of_rows(W.size(), columns);
   of_rows.setFromTriplets(entries.begin(), entries.end());
@@ -194,88 +205,6 @@ std::vector<T> selected(const std::vector<T>& all, const std::vector<int>& which
   for (int i : which) some.push_back(all[static_cast<std::size_t>(i)]);
   return some;
 }
-
-/// Which pairs have both parts, and the new number of each of their rows, -1 of the others.
-std::vector<int> pairs_there(const std::vector<ContactSystem::Pair>& pairs, const Components& components,
-                             const Structure& structure, const model::Model& model, const std::vector<char>& absent,
-                             std::vector<int>& row_place) {
-  std::vector<int> there;
-  row_place.assign(static_cast<std::size_t>(components.count(pairs.size())), -1);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const model::Contact& contact = model.contacts[static_cast<std::size_t>(pairs[i].contact)];
-    if (absent[structure.dofs.part_of(contact.a.body)] || absent[structure.dofs.part_of(contact.b.body)]) continue;
-    for (int k = 0; k < components.dimension; ++k)
-      row_place[static_cast<std::size_t>(components.of(i, k))] = static_cast<int>(components.of(there.size(), k));
-    there.push_back(static_cast<int>(i));
-  }
-  return there;
-}
-
-}  // namespace
-
-Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& row_place,
-                                     const std::vector<int>& column_place, Eigen::Index rows, Eigen::Index columns) {
-  Triplets entries;
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
-    const int to = column_place.empty() ? static_cast<int>(column) : column_place[static_cast<std::size_t>(column)];
-    if (to < 0) continue;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
-      if (const int row = row_place[static_cast<std::size_t>(it.row())]; row >= 0)
-        entries.emplace_back(row, to, it.value());
-  }
-  Eigen::SparseMatrix<double> block(rows, columns);
-  block.setFromTriplets(entries.begin(), entries.end());
-  return block;
-}
-
-contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& place) {
-  std::vector<int> rows;
-  for (std::size_t row = 0; row < place.size(); ++row)
-    if (place[row] >= 0) rows.push_back(static_cast<int>(row));
-  const auto kept = static_cast<Eigen::Index>(rows.size());
-  if (rows.empty()) return {};
-  if (const Eigen::SparseMatrix<double>* Y = W.bodies()) {
-    Eigen::SparseMatrix<double> of_rows = block_of(Y->transpose(), place, {}, kept, Y->rows());
-    contact::Delassus block = W.is_sparse() ? contact::Delassus(block_of(W.sparse(), place, place, kept, kept))
-                                            : contact::Delassus(Matrix(W.dense()(rows, rows)));
-    return block.with_bodies(of_rows.transpose());
-  }
-  if (W.is_sparse()) return contact::Delassus(block_of(W.sparse(), place, place, kept, kept));
-  if (const contact::PairHolder* holder = W.is_dense() ? nullptr : W.holder())
-    if (Matrix block = holder->flexibility(rows); block.rows() == kept) return block;
-  return Matrix(W.dense()(rows, rows));
-}
-
-ContactSystem without_parts(const ContactSystem& whole, const Structure& structure, const model::Model& model,
-                            const std::vector<char>& absent) {
-  ContactSystem system;
-  std::vector<int> place, held_place, rigid_place(static_cast<std::size_t>(whole.rigid_motions()), -1);
-  system.components = whole.components;
-  const std::vector<int> there = pairs_there(whole.pairs, whole.components, structure, model, absent, place),
-                         held = pairs_there(whole.held, whole.components, structure, model, absent, held_place);
-  system.pairs = selected(whole.pairs, there);
-  system.held = selected(whole.held, held);
-  const auto kept = whole.components.count(there.size());
-  int columns = 0;
-  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
-    system.motion.push_back(block_of(whole.motion[p], place, {}, kept, whole.motion[p].cols()));
-    if (!whole.held_motion.empty())
-      system.held_motion.push_back(block_of(whole.held_motion[p], held_place, {}, whole.components.count(held.size()),
-                                            whole.held_motion[p].cols()));
-    system.first_rigid.push_back(columns);
-    for (Eigen::Index k = 0; !absent[p] && k < structure.parts[p]->rigid_motions().cols(); ++k)
-      rigid_place[static_cast<std::size_t>(whole.first_rigid[p] + k)] = columns++;
-  }
-  system.W = block_of(whole.W, place);
-  system.G = contact::RigidMap(block_of(whole.G.sparse(), place, rigid_place, kept, columns));
-  system.gap.resize(static_cast<Eigen::Index>(there.size()));
-  system.laws.of_pair = selected(whole.laws.of_pair, there);
-  system.laws.area = Vector(whole.laws.area(there));
-  for (std::size_t i = 0; i < there.size(); ++i) system.gap[static_cast<Eigen::Index>(i)] = whole.gap[there[i]];
-  return system;
-}
-
-namespace {
 
 /// What a part has to do for its flexibility, roughly.
 double work_of(const BodySystem& part, const Eigen::SparseMatrix<double>& motion) {
@@ -338,7 +267,7 @@ Eigen::SparseMatrix<double> rigid_map_of(const Structure& structure,
 /// Which pairs move. A pair whose gap is changed by no force and no rigid motion is held by supports on both sides.
 std::vector<char> moving_pairs(const std::vector<TouchedPart>& touched, const Structure& structure,
                                const std::vector<Vector>& diagonals, const Eigen::SparseMatrix<double>& G,
-                               const Components& components) {
+                               const std::vector<PairPoints>& points, const Components& components) {
   Vector diagonal = Vector::Zero(G.rows()), moved = Vector::Zero(G.rows());  // of W; by rigid motions, at most
   double largest = 0.0, largest_on_springs = 0.0;  // of the diagonal; a soft spring says nothing of stiff bodies
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
@@ -353,8 +282,16 @@ std::vector<char> moving_pairs(const std::vector<TouchedPart>& touched, const St
       moved[it.row()] = std::max(moved[it.row()], std::abs(it.value()));
   std::vector<char> moves;
   for (Eigen::Index row = 0; row < G.rows(); row += components.dimension)
-    moves.push_back(diagonal[row] > 1e-13 * largest || moved[row] > 1e-12);
+    moves.push_back(diagonal[row] > 1e-13 * largest || moved[row] > 1e-12 ||
+                    points[static_cast<std::size_t>(row / components.dimension)].softness > 0.0);
   return moves;
+}
+
+/// Of every row: springs act along the normal.
+Vector softness_of(const std::vector<PairPoints>& points, const Components& components) {
+  Vector softness = Vector::Zero(components.count(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) softness[components.of(i)] = points[i].softness;
+  return softness;
 }
 
 /// All but the laws; `joints`: number of contacts among which the pairs are.
@@ -371,13 +308,14 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   // Bodies are joined by the positions of their nodes, in the plane.
   const bool has_positions = components.dimension == 2 && structure.dofs.parts() == structure.parts.size();
   std::shared_ptr<const JoinedBodies> joined;
-  if (has_positions && !sparse && rows > least_joined) joined = JoinedBodies::of(structure, motion);
+  const bool is_joined = has_positions && !sparse && rows > least_joined;
+  if (is_joined) joined = JoinedBodies::of(structure, motion, softness_of(points, components));
   const bool by_products = joined && rows > most_formed;
   const auto products = by_products ? std::make_unique<const PairProducts>(structure, motion) : nullptr;
   Flexibilities flexibilities = flexibilities_of(touched, structure, motion, products.get(), components, threads);
 
   Eigen::SparseMatrix<double> G = rigid_map_of(structure, motion, rows, system.first_rigid);
-  const std::vector<char> moves = moving_pairs(touched, structure, flexibilities.diagonals, G, components);
+  const std::vector<char> moves = moving_pairs(touched, structure, flexibilities.diagonals, G, points, components);
   std::vector<int> moving, held, place(static_cast<std::size_t>(rows), -1);
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (int k = 0; moves[i] && k < components.dimension; ++k)
@@ -387,22 +325,27 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   system.pairs = selected(all, moving);
   system.held = selected(all, held);
   std::vector<int> numbers(joints, 0);
-  for (ContactSystem::Pair& pair : system.pairs) pair.number = ++numbers[static_cast<std::size_t>(pair.contact)];
+  for (ContactSystem::Pair& pair : system.pairs)
+    pair.number = pair.is_bar() ? pair.index + 1 : ++numbers[static_cast<std::size_t>(pair.contact)];
   const Eigen::Index kept = components.count(moving.size());
   system.motion = held.empty() ? motion : motion_of(selected(points, moving), structure);
   if (!held.empty()) {
     system.held_motion = motion_of(selected(points, held), structure);
-    if (joined) joined = JoinedBodies::of(structure, system.motion);
+    if (joined) joined = JoinedBodies::of(structure, system.motion, softness_of(selected(points, moving), components));
     G = block_of(G, place, {}, kept, G.cols());
   }
-  system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion))
-                         : sum_of(std::move(flexibilities.of_part), place, kept, sparse);
+  const Vector softness = softness_of(selected(points, moving), components);
+  system.W = by_products ? contact::Delassus(std::make_shared<const PairProducts>(structure, system.motion, softness))
+                         : sum_of(std::move(flexibilities.of_part), place, softness, sparse);
   if (joined) system.W = system.W.with_holder(joined);
-  system.W = with_bodies(std::move(system.W), touched, structure, place);
+  system.W = with_bodies(std::move(system.W), touched, structure, place, softness);
   system.G = contact::RigidMap(std::move(G));
   system.gap.resize(static_cast<Eigen::Index>(moving.size()));
-  for (std::size_t i = 0; i < moving.size(); ++i)
+  system.softness.resize(system.gap.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) {
     system.gap[static_cast<Eigen::Index>(i)] = points[static_cast<std::size_t>(moving[i])].gap;
+    system.softness[static_cast<Eigen::Index>(i)] = points[static_cast<std::size_t>(moving[i])].softness;
+  }
   return system;
 }
 
@@ -421,6 +364,18 @@ PairSide side_of(const Dofs& dofs, int body, int node, const Vec2& point) {
   return side;
 }
 
+/// Adds a pair for each bar, whose normal is its direction.
+void add_bars(const std::vector<BarSystem>& bars, std::vector<ContactSystem::Pair>& all,
+              std::vector<PairPoints>& points) {
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    all.push_back({-1, static_cast<int>(i), 0});
+    PairPoints made{bars[i].a, bars[i].b, {}, 0.0, bars[i].softness};
+    made.directions.resize(2, 2);
+    made.directions << bars[i].direction, tangent_of(bars[i].direction);
+    points.push_back(std::move(made));
+  }
+}
+
 }  // namespace
 
 ContactSystem condense(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh, int threads) {
@@ -428,17 +383,21 @@ ContactSystem condense(const Structure& structure, const model::Model& model, co
   std::vector<PairPoints> points;
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
     const auto contact = static_cast<int>(c);
+    const std::optional<double>& modulus = model.contacts[c].modulus;
+    const std::vector<double> areas = modulus ? tributary_areas(contact, model, mesh) : std::vector<double>();
     for (std::size_t i = 0; i < mesh.interfaces[c].pairs.size(); ++i) {
       const mesh::ContactPair& pair = mesh.interfaces[c].pairs[i];
       all.push_back({contact, static_cast<int>(i), 0});
       points.push_back({side_of(structure.dofs, model.contacts[c].a.body, pair.node_a, mesh.point_of(contact, pair, 0)),
                         side_of(structure.dofs, model.contacts[c].b.body, pair.node_b, mesh.point_of(contact, pair, 1)),
                         {},
-                        pair.gap});
+                        pair.gap,
+                        modulus ? 1.0 / (*modulus * areas[i]) : 0.0});
       points.back().directions.resize(2, 2);
       points.back().directions << pair.normal, tangent_of(pair.normal);
     }
   }
+  add_bars(structure.bars, all, points);
   ContactSystem system = condensed(structure, points, all, model.contacts.size(), threads);
   contact::JointLaws laws = contact_laws(system.pairs, model, mesh);
   return with_laws(std::move(system), std::move(laws));

@@ -18,18 +18,6 @@ inline constexpr double most_filled = 0.2;
 /// A dense W of more rows (1.2 GB) is not formed: for 10,001 pairs of two bodies it would take 3.2 GB, several times.
 inline constexpr Eigen::Index most_formed = 12000;
 
-/// One side of a pair: a point of a part.
-struct PairSide {
-  /// A node of the part, and its weight.
-  struct Node {
-    int node = -1;
-    double weight = 1.0;
-  };
-  std::size_t part = 0;
-  std::vector<Node> nodes;    ///< the weights add up to 1; none: of a rigid part
-  Vec2 point = Vec2::Zero();  ///< of a rigid part, which is plane
-};
-
 /// A contact pair, apart from its law.
 struct PairPoints {
   /// d x d, orthonormal columns: the normal, out of A towards B, and the tangents.
@@ -37,13 +25,16 @@ struct PairPoints {
   PairSide a, b;
   Directions directions;
   double gap = 0.0;
+  double softness = 0.0;  ///< length / force, of a spring between the sides along the normal
 };
 
 /// The part of the contact problem that does not change from increment to increment.
 struct ContactSystem {
   /// A pair that can move: contact, index into the interface's pairs, number shown to users (from 1 in each contact).
+  /// Bars come after all contacts: they have no contact, and the index is that of the bar.
   struct Pair {
     int contact = -1, index = -1, number = 0;
+    bool is_bar() const { return contact < 0; }
   };
   Components components;                                 // of a pair: d
   std::vector<Pair> pairs;                               // N
@@ -51,7 +42,8 @@ struct ContactSystem {
   std::vector<Pair> held;                                // pairs whose gap is fixed by supports, which are left out
   std::vector<Eigen::SparseMatrix<double>> held_motion;  // per part, rows as above
   Vector gap;                                            // N, initial; 0 if the pair is bonded in its initial position
-  contact::JointLaws laws;                               // law of every pair
+  Vector softness;          // N, length / force: of springs between the sides, which W includes; 0: none
+  contact::JointLaws laws;  // law of every pair
   contact::Delassus W;  // dN x dN, a sum over parts: sparse if there are many, by products beyond 6,000 pairs; those
                         // and large dense ones have a holder (joined_bodies.hpp), and need the structure
   contact::RigidMap G;  // dN x m
@@ -76,9 +68,10 @@ Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix, 
 contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& place);
 
 /// What is left of a system where some parts are absent: the pairs between parts that are there, in their order and
-/// with their numbers, and the rigid motions of these parts; `absent`: one for each part. W is a sum over parts, and a
-/// part contributes only to its own pairs, so that a block of W is exact.
+/// with their numbers, and the rigid motions of these parts; `absent`: one for each part; `waiting`: one for each
+/// bar, whose stiffness does not act yet, or empty. W is a sum over parts, and a part contributes only to its own
+/// pairs, so that a block of W is exact.
 ContactSystem without_parts(const ContactSystem& whole, const Structure& structure, const model::Model& model,
-                            const std::vector<char>& absent);
+                            const std::vector<char>& absent, const std::vector<char>& waiting = {});
 
 }  // namespace scabo::system

@@ -38,13 +38,15 @@ TouchedPart touched_part(const Eigen::SparseMatrix<double>& motion) {
   return touched;
 }
 
-PairProducts::PairProducts(const Structure& structure, const std::vector<Eigen::SparseMatrix<double>>& motion)
-    : size_(motion.empty() ? 0 : motion.front().rows()) {
+PairProducts::PairProducts(const Structure& structure, const std::vector<Eigen::SparseMatrix<double>>& motion,
+                           Vector softness)
+    : size_(motion.empty() ? 0 : motion.front().rows()), softness_(std::move(softness)) {
+  if (softness_.size() == 0) softness_ = Vector::Zero(size_);
   for (std::size_t p = 0; p < motion.size(); ++p) parts_.push_back({structure.parts[p].get(), touched_part(motion[p])});
 }
 
 Vector PairProducts::times(const Vector& p) const {
-  Vector sum = Vector::Zero(size_);
+  Vector sum = softness_.cwiseProduct(p);
   for (const Part& part : parts_) {
     const TouchedPart& touched = part.touched;
     if (touched.rows.empty() || !part.body->is_flexible()) continue;
@@ -93,18 +95,19 @@ Matrix PairProducts::diagonal_blocks_of(std::size_t p) const {
 Matrix PairProducts::diagonal_blocks() const {
   Matrix sum = Matrix::Zero(2, size_);
   for (std::size_t p = 0; p < parts_.size(); ++p) sum += diagonal_blocks_of(p);
+  for (Eigen::Index row = 0; row < size_; ++row) sum(plane_components.component_of(row), row) += softness_[row];
   return sum;
 }
 
 std::shared_ptr<const JoinedBodies> JoinedBodies::of(const Structure& structure,
-                                                     std::vector<Eigen::SparseMatrix<double>> motion) {
+                                                     std::vector<Eigen::SparseMatrix<double>> motion, Vector softness) {
   for (const auto& part : structure.parts)
     if (part->is_divided()) return nullptr;
-  return std::make_shared<const JoinedBodies>(structure, std::move(motion));
+  return std::make_shared<const JoinedBodies>(structure, std::move(motion), std::move(softness));
 }
 
-JoinedBodies::JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion)
-    : motion_(std::move(motion)) {
+JoinedBodies::JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion, Vector softness)
+    : motion_(std::move(motion)), of_springs_(std::move(softness)) {
   for (std::size_t p = 0; p < structure.parts.size(); ++p) {
     parts_.push_back({structure.parts[p].get(), structure.dofs.nodes(p)});
     operations_ += 2.0 * parts_.back().body->operations();
@@ -132,6 +135,7 @@ Matrix JoinedBodies::flexibility(const std::vector<int>& rows) const {
     const Matrix half = C * parts_[p].body->flexibility_by_factor(dofs);
     W += half * C.transpose();
   }
+  if (of_springs_.size() > 0) W.diagonal() += Vector(of_springs_(rows));
   return 0.5 * (W + W.transpose());
 }
 
@@ -184,6 +188,8 @@ void JoinedBodies::make() const {
   const double mean = rows > 0 ? made.softness.mean() : 0.0;
   for (double& softness : made.softness)
     if (softness == 0.0) softness = mean;
+  made.softness *= eps_of_softness;
+  if (of_springs_.size() > 0) made.softness += of_springs_;
 }
 
 /// Factor of the joined bodies.
@@ -196,7 +202,7 @@ class JoinedPairs final : public contact::HeldPairs {
         entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
     C_.resize(static_cast<Eigen::Index>(rows.size()), bodies.K.cols());
     C_.setFromTriplets(entries.begin(), entries.end());
-    hold_ = (eps_of_softness * bodies.softness(rows)).cwiseInverse();
+    hold_ = Vector(bodies.softness(rows)).cwiseInverse();
     const linalg::SparseMatrix held = hold_.asDiagonal() * C_, transposed = C_.transpose();
     const linalg::SparseMatrix springs = transposed * held;
     linalg::SparseMatrix joined = bodies.K + springs;

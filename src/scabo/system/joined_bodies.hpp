@@ -11,7 +11,8 @@
 // are resultants left where z = N'C'p is not zero: (E'N)' r = z. The rigid motions are then a = (E'N)^-1 E'v.
 //
 // eps is 1e-4 of the flexibility of single nodes, c'diag(K)^-1 c for the row c of C, so that (W_hh + eps)^-1 is within
-// about 1e-4 of W_hh^-1; less would cost p its digits, since u - C_h v cancels.
+// about 1e-4 of W_hh^-1; less would cost p its digits, since u - C_h v cancels. Springs between the sides add their
+// softness to it.
 #pragma once
 
 #include <Eigen/LU>
@@ -34,8 +35,9 @@ TouchedPart touched_part(const Eigen::SparseMatrix<double>& motion);
 /// Products with W, and its diagonal blocks. The parts must outlive this.
 class PairProducts final : public contact::PairOperator {
  public:
-  /// `motion`: per part, 2N x size of u.
-  PairProducts(const Structure& structure, const std::vector<Eigen::SparseMatrix<double>>& motion);
+  /// `motion`: per part, 2N x size of u; `softness`: of springs between the sides, 2N, or empty.
+  PairProducts(const Structure& structure, const std::vector<Eigen::SparseMatrix<double>>& motion,
+               Vector softness = {});
   Eigen::Index size() const override { return size_; }
   Vector times(const Vector& p) const override;
   Matrix diagonal_blocks() const override;
@@ -48,16 +50,18 @@ class PairProducts final : public contact::PairOperator {
     TouchedPart touched;
   };
   Eigen::Index size_ = 0;
+  Vector softness_;
   std::vector<Part> parts_;
 };
 
 /// Matrices of the joined bodies, made when pairs are first held. The parts must outlive this.
 class JoinedBodies final : public contact::PairHolder {
  public:
-  /// Null where the stiffness of a part is divided among processes. `motion`: per part, 2N x size of u.
+  /// Null where the stiffness of a part is divided among processes. `motion`: per part, 2N x size of u; `softness`: of
+  /// springs between the sides, 2N.
   static std::shared_ptr<const JoinedBodies> of(const Structure& structure,
-                                                std::vector<Eigen::SparseMatrix<double>> motion);
-  JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion);
+                                                std::vector<Eigen::SparseMatrix<double>> motion, Vector softness = {});
+  JoinedBodies(const Structure& structure, std::vector<Eigen::SparseMatrix<double>> motion, Vector softness = {});
   std::unique_ptr<contact::HeldPairs> hold(const std::vector<int>& rows) const override;
   double operations() const override { return operations_; }
   Matrix flexibility(const std::vector<int>& rows) const override;
@@ -77,7 +81,7 @@ class JoinedBodies final : public contact::PairHolder {
   struct Matrices {
     linalg::SparseMatrix K;
     Eigen::SparseMatrix<double, Eigen::RowMajor> C;  // 2N x v
-    Vector softness;                                 // 2N, c'diag(K)^-1 c
+    Vector softness;                                 // 2N, eps: of c'diag(K)^-1 c, and springs
     std::vector<Vec2> positions;                     // of v
     std::vector<Floating> floating;
     Eigen::Index rigid_motions = 0;
@@ -86,6 +90,7 @@ class JoinedBodies final : public contact::PairHolder {
 
   std::vector<Part> parts_;
   std::vector<Eigen::SparseMatrix<double>> motion_;
+  Vector of_springs_;  // 2N, softness
   double operations_ = 0.0;
   mutable Matrices matrices_;
   mutable std::once_flag made_;

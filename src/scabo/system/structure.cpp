@@ -228,13 +228,21 @@ std::unique_ptr<BodySystem> make_rigid_body(const model::Model& model, const mod
   return system;
 }
 
-/// For each part: whether it has a contact with pairs, other than with itself.
+/// For each part: whether it has a contact with pairs, or a bar, other than with itself.
 std::vector<bool> in_contact(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
   std::vector<bool> found(dofs.parts(), false);
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     if (!mesh.interfaces[c].pairs.empty() &&
         dofs.part_of(model.contacts[c].a.body) != dofs.part_of(model.contacts[c].b.body))
       for (const int body : {model.contacts[c].a.body, model.contacts[c].b.body}) found[dofs.part_of(body)] = true;
+  for (const model::Bar& bar : model.bars) {
+    const auto part = [&](const model::Bar::End& end) {
+      return end.on ? dofs.part_of(end.on->body) : PairSide::ground;
+    };
+    const std::size_t a = part(bar.between[0]), b = part(bar.between[1]);
+    for (const std::size_t p : {a, b})
+      if (a != b && p != PairSide::ground) found[p] = true;
+  }
   return found;
 }
 
@@ -310,8 +318,9 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh) {
 
 namespace {
 
-/// Degrees of freedom of every elastic part that belong to pairs, ascending.
-std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs) {
+/// Degrees of freedom of every elastic part that belong to pairs and bars, ascending.
+std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs,
+                                               const std::vector<BarSystem>& bars) {
   std::vector<std::vector<int>> of_part(dofs.parts());
   const auto add = [&](int body, int node) {
     if (node < 0) return;  // of a rigid body
@@ -323,6 +332,11 @@ std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const 
       add(model.contacts[c].a.body, pair.node_a);
       add(model.contacts[c].b.body, pair.node_b);
     }
+  for (const BarSystem& bar : bars)
+    for (const PairSide* side : {&bar.a, &bar.b})
+      for (const PairSide::Node& node : side->nodes)
+        for (int k = 0; k < dofs.components().dimension; ++k)
+          of_part[side->part].push_back(static_cast<int>(dofs.components().of(node.node, k)));
   for (std::vector<int>& list : of_part) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -349,6 +363,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                                    "or install libmumps-seq-dev"}});
   auto constraints = constraints_of(model, mesh, dofs);
   structure.springs = springs_of(model, mesh, dofs);
+  structure.bars = bars_of(model, mesh, dofs);
   structure.parts.resize(dofs.parts());
   const auto body_of = [&](std::size_t p) -> const model::Body& {
     return model.bodies[static_cast<std::size_t>(dofs.bodies_of(p).front())];
@@ -356,7 +371,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
   std::vector<std::size_t> elastic;
   std::vector<ElasticPart> parts;
   std::vector<double> stiffest;  // of those on springs
-  std::vector<std::vector<int>> contact_dofs = dofs_in_contacts(model, mesh, dofs);
+  std::vector<std::vector<int>> contact_dofs = dofs_in_contacts(model, mesh, dofs, structure.bars);
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
     if (body_of(p).rigid) {
       structure.parts[p] = make_rigid_body(model, body_of(p), std::move(constraints[p]), structure.springs.of_part[p]);

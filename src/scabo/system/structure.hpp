@@ -8,6 +8,7 @@
 #include "scabo/element/cell_library.hpp"
 #include "scabo/element/facet/radial_load.hpp"
 #include "scabo/element/plane/initial_stress.hpp"
+#include "scabo/system/bars.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/dofs.hpp"
 #include "scabo/system/ranks.hpp"
@@ -20,6 +21,7 @@ struct Structure {
   Dofs dofs;
   std::vector<std::unique_ptr<BodySystem>> parts;  ///< one for each part of `dofs`
   ModelSprings springs;                            ///< those of the parts, spring by spring
+  std::vector<BarSystem> bars;                     ///< one for each of the model
   /// [load][part]: generalised forces at factor 1; empty where the load does not act on the part. Of loads that move
   /// see forces_of_moving_load().
   std::vector<std::vector<Vector>> loads;

@@ -52,6 +52,19 @@ std::string blocks(const std::string& mesh, const std::string& upper, const std:
 }
 const std::string on_floor = "{on: lower.bottom, fix: [x, y]}";
 
+/// The same with a bed of springs in its contact.
+std::string soft_pairs(std::string text) {
+  const std::string friction = "friction: 0.3";
+  return text.insert(text.find(friction) + friction.size(), ", modulus: 1e11");
+}
+
+/// 2N, of springs between the sides.
+Vector softness_of_rows(const ContactSystem& system) {
+  Vector softness = Vector::Zero(2 * system.softness.size());
+  for (Eigen::Index i = 0; i < system.softness.size(); ++i) softness[2 * i] = system.softness[i];
+  return softness;
+}
+
 struct Case {
   std::string name, text;
 };
@@ -63,6 +76,9 @@ std::vector<Case> cases() {
                               on_floor + ", {on: lower.left, fix: {along: [1, 2]}}, "
                                          "{on: upper.left, fix: {along: [2, 1]}}")},
           {"rigid", blocks(fem, "rigid: true", on_floor)},
+          {"soft", soft_pairs(blocks(fem, floating, on_floor,
+                                     "bars: {rod: {between: [upper.top_left, [0, 3]], k: 1e9}, tie: {between: "
+                                     "[upper.top, lower.right], k: 3e9}}\n"))},
           {"springs", blocks(fem, floating, on_floor, "springs: [{on: upper.top, k_n: 1e9, k_t: 2e9}]\n")}};
 }
 
@@ -71,7 +87,7 @@ class Joined : public testing::TestWithParam<Case> {};
 TEST_P(Joined, ProductsAreThoseOfW) {
   const Condensed bodies(GetParam().text);
   const Matrix& W = bodies.system.W.dense();
-  const PairProducts products(bodies.structure, bodies.system.motion);
+  const PairProducts products(bodies.structure, bodies.system.motion, softness_of_rows(bodies.system));
   ASSERT_EQ(products.size(), W.rows());
   Vector p(W.rows());
   for (Eigen::Index k = 0; k < p.size(); ++k) p[k] = std::sin(3.0 * static_cast<double>(k));
@@ -86,7 +102,7 @@ TEST_P(Joined, HeldPairsHaveTheForcesThatGiveThemTheirMotions) {
   const Condensed bodies(GetParam().text);
   const Matrix& W = bodies.system.W.dense();
   const Matrix& G = bodies.system.G.dense();
-  const auto joined = JoinedBodies::of(bodies.structure, bodies.system.motion);
+  const auto joined = JoinedBodies::of(bodies.structure, bodies.system.motion, softness_of_rows(bodies.system));
   ASSERT_NE(joined, nullptr);
   std::vector<int> rows;
   for (int k = 0; k < W.rows(); ++k)
@@ -112,7 +128,7 @@ TEST_P(Joined, HeldPairsHaveTheForcesThatGiveThemTheirMotions) {
 TEST_P(Joined, GiveBlocksOfW) {
   const Condensed bodies(GetParam().text);
   const Matrix& W = bodies.system.W.dense();
-  const auto joined = JoinedBodies::of(bodies.structure, bodies.system.motion);
+  const auto joined = JoinedBodies::of(bodies.structure, bodies.system.motion, softness_of_rows(bodies.system));
   ASSERT_NE(joined, nullptr);
   const std::vector<int> rows = {6, 7, 0, 11};
   EXPECT_LT((joined->flexibility(rows) - W(rows, rows)).cwiseAbs().maxCoeff(), 1e-12 * W.cwiseAbs().maxCoeff());

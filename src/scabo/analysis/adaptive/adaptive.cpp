@@ -30,6 +30,9 @@ void hold_near_places(model::Model& model, const mesh::Mesh& mesh) {
   };
   for (model::Support& support : model.supports) hold(support.on);
   for (model::Spring& spring : model.springs) hold(spring.on);
+  for (model::Bar& bar : model.bars)
+    for (model::Bar::End& end : bar.between)
+      if (end.on) hold(*end.on);
   for (model::Load& load : model.loads)
     if (load.on) hold(*load.on);
 }

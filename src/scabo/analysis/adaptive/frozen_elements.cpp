@@ -50,6 +50,9 @@ std::vector<model::Place> singular_places(const StaticSolution& solution) {
     if (load.on && is_point(*load.on) && std::holds_alternative<model::Force>(load.kind)) places.push_back(*load.on);
   for (const model::Spring& spring : solution.model.springs)
     if (is_point(spring.on)) places.push_back(spring.on);
+  for (const model::Bar& bar : solution.model.bars)
+    for (const model::Bar::End& end : bar.between)
+      if (end.on && is_point(*end.on)) places.push_back(*end.on);
   const Reactions reactions = reactions_of(solution);
   for (std::size_t i = 0; i < solution.model.supports.size(); ++i) {
     const model::Place& place = solution.model.supports[i].on;

@@ -32,7 +32,7 @@ std::string slid_beyond_sides(const Prepared& prepared, const State& state) {
   if (prepared.contact.rigid_motions() == 0) return "";
   std::vector<double> slip(prepared.mesh.interfaces.size(), 0.0);
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
-    if (state.states[i] == contact::ContactState::open) continue;
+    if (prepared.contact.pairs[i].is_bar() || state.states[i] == contact::ContactState::open) continue;
     double& largest = slip[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
     largest = std::max(largest, std::abs(state.slip[static_cast<Eigen::Index>(i)]));
   }

@@ -119,7 +119,7 @@ Mechanism mechanism_of(const Prepared& prepared, const Vector& rigid, FlowRule r
   mechanism.rigid = rigid / largest;
   mechanism.work = loads.dot(mechanism.rigid);
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs)
-    mechanism.pairs.push_back(motion_of_pair(prepared, at, mechanism.bodies));
+    if (!at.is_bar()) mechanism.pairs.push_back(motion_of_pair(prepared, at, mechanism.bodies));
   return mechanism;
 }
 

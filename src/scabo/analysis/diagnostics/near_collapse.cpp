@@ -36,7 +36,7 @@ bool is_heated(const model::Model& model, const Factors& before, const Factors& 
 bool only_loads_grow(const Prepared& prepared, const State& state, std::size_t index) {
   const model::Model& model = prepared.model;
   const model::Step& step = model.steps[index];
-  if (!model.springs.empty() || !step.load_curves.empty() || !step.support_curves.empty() ||
+  if (!model.springs.empty() || !model.bars.empty() || !step.load_curves.empty() || !step.support_curves.empty() ||
       model::has_large_slip(model.contacts))
     return false;
   const Factors before = factors_in(model, index, 0.0);
@@ -67,6 +67,7 @@ std::string farthest(const Prepared& prepared, const State& state) {
   double largest = -1.0;
   int body = 0;
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
+    if (at.is_bar()) continue;
     const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(at.contact)];
     for (const int side : {0, 1}) {
       const double moved = displacement_of(prepared, state, at.contact, mesh_pair(prepared, at), side).norm();

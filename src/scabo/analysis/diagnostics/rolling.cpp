@@ -59,8 +59,10 @@ struct Turning {
 
 bool may_turn(const Prepared& prepared, std::size_t p) {
   const system::BodySystem& part = *prepared.structure.parts[p];
-  return !prepared.is_absent(p) && !part.has_springs() && !part.is_revolved() && part.rigid_motions().cols() > 0 &&
-         !part.rigid_coordinates().row(2).isZero(1e-9);
+  const bool has_bar = std::any_of(prepared.structure.bars.begin(), prepared.structure.bars.end(),
+                                   [&](const system::BarSystem& bar) { return bar.pull[p].size() > 0; });
+  return !prepared.is_absent(p) && !part.has_springs() && !has_bar && !part.is_revolved() &&
+         part.rigid_motions().cols() > 0 && !part.rigid_coordinates().row(2).isZero(1e-9);
 }
 
 /// How far a point of a part has moved whose u is that of a rigid motion.
@@ -105,6 +107,7 @@ void add_pairs(const Prepared& prepared, const State& state, std::vector<std::op
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const Vec2 p = state.p.segment<2>(place_of(i));
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
+    if (at.is_bar()) continue;
     const mesh::ContactPair& pair = mesh_pair(prepared, at);
     const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(at.contact)];
     const std::array<std::size_t, 2> part = {prepared.structure.dofs.part_of(contact.a.body),

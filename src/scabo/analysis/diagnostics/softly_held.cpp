@@ -49,6 +49,7 @@ std::vector<Eigen::Index> soft_pairs(const Prepared& prepared, const Vector& fle
   std::vector<Eigen::Index> found;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const auto pair = static_cast<Eigen::Index>(i);
+    if (prepared.contact.pairs[i].is_bar()) continue;  // it gives way as it should
     const model::Contact& contact = contact_at(prepared, pair);
     if (is_soft(contact.a.body, pair) || is_soft(contact.b.body, pair)) found.push_back(pair);
   }
@@ -112,8 +113,10 @@ std::optional<SoftlyHeld> softly_held(const Prepared& prepared, const State& to,
     held.difference.noalias() += prepared.contact.motion[p] * to.u[p];
     largest = std::max(largest, to.u[p].lpNorm<Eigen::Infinity>());
   }
-  for (Eigen::Index i = 0; i < solution.gap.size(); ++i)
-    held.difference.segment<2>(place_of(i)) -= Vec2(solution.gap[i], solution.slip_increment[i]);
+  for (Eigen::Index i = 0; i < solution.gap.size(); ++i) {
+    const double of_spring = prepared.contact.softness[i] * solution.p[place_of(i)];
+    held.difference.segment<2>(place_of(i)) -= Vec2(solution.gap[i] - of_spring, solution.slip_increment[i]);
+  }
   const double force = std::max(force_scale, solution.p.lpNorm<Eigen::Infinity>());
   Eigen::Index worst = pairs.front();
   for (const Eigen::Index pair : pairs) {
@@ -137,6 +140,7 @@ double flexibility_in_contact(const Prepared& prepared, int body) {
   double most = 0.0;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const auto pair = static_cast<Eigen::Index>(i);
+    if (prepared.contact.pairs[i].is_bar()) continue;
     const model::Contact& contact = contact_at(prepared, pair);
     if (contact.a.body == body || contact.b.body == body) most = std::max(most, flexibility_at(prepared, body, pair));
   }

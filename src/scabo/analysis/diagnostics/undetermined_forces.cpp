@@ -79,10 +79,15 @@ contact::ActionOfPairs action_of_pairs(const Prepared& prepared) {
       if (any) add_block(2, true);
     }
   }
+  for (Eigen::Index i = 0; i < prepared.contact.softness.size(); ++i) {
+    if (prepared.contact.softness[i] == 0.0) continue;  // else the force is that of the spring between the sides
+    entries.emplace_back(rows, static_cast<int>(place_of(i)), 1.0);
+    add_block(1, false);
+  }
   action.on_bodies.resize(rows, 2 * static_cast<Eigen::Index>(prepared.contact.pairs.size()));
   action.on_bodies.setFromTriplets(entries.begin(), entries.end());
   for (const system::ContactSystem::Pair& pair : prepared.contact.pairs)
-    action.normal.push_back(mesh_pair(prepared, pair).normal);
+    action.normal.push_back(normal_of(prepared, pair));
   action.area = prepared.contact.laws.area;
   return action;
 }
@@ -102,7 +107,7 @@ Sparse free_forces(const State& state, const contact::Problem& problem) {
         entries.emplace_back(2 * i + 1, columns++, 1.0);
       continue;
     }
-    const bool bonded = std::isinf(problem.tension_of(i));
+    const bool bonded = std::isinf(problem.cohesion_of(i));
     const bool sticks =
         bonded || (pair == contact::ContactState::stick && problem.friction_bound(i, p_n, p_t) - std::abs(p_t) > room);
     entries.emplace_back(2 * i, columns, 1.0);
@@ -193,7 +198,7 @@ std::optional<Warning> undetermined_forces_warning(const Prepared& prepared, con
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
     const Vec2 force = change.segment<2>(static_cast<Eigen::Index>(2 * i));
-    if (force.isZero(0.0)) continue;
+    if (force.isZero(0.0) || at.is_bar()) continue;
     ++pairs;
     const auto c = static_cast<std::size_t>(at.contact);
     concerned[c] = true;

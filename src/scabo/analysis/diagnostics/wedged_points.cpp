@@ -28,6 +28,7 @@ std::map<std::pair<int, int>, std::vector<Touching>> shared_nodes(const Prepared
   std::map<std::pair<int, int>, std::vector<Touching>> nodes;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
+    if (at.is_bar()) continue;
     const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(at.contact)];
     const mesh::ContactPair& pair = mesh_pair(prepared, at);
     const auto number = static_cast<Eigen::Index>(i);

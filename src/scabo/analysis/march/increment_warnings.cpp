@@ -51,7 +51,7 @@ Rounded most_rounded_part(const Prepared& prepared, const State& state, double l
 std::vector<Warning> without_cohesion(const Prepared& prepared, const State& state) {
   std::vector<int> closed(prepared.model.contacts.size(), 0), without = closed;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
-    if (state.states[i] == contact::ContactState::open) continue;
+    if (prepared.contact.pairs[i].is_bar() || state.states[i] == contact::ContactState::open) continue;
     const auto c = static_cast<std::size_t>(prepared.contact.pairs[i].contact);
     ++closed[c];
     without[c] += state.history[i].broken && prepared.model.contacts[c].lasting_cohesion > 0.0;

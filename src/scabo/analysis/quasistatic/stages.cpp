@@ -26,6 +26,14 @@ std::vector<char> absent_in(const Prepared& whole, std::size_t step) {
   return absent;
 }
 
+/// Per bar: its stiffness does not act in a step.
+std::vector<char> waiting_in(const model::Model& model, std::size_t step) {
+  std::vector<char> waiting;
+  for (const model::Bar& bar : model.bars) waiting.push_back(bar.acts_in(static_cast<int>(step)) ? 0 : 1);
+  if (std::none_of(waiting.begin(), waiting.end(), [](char does) { return does != 0; })) waiting.clear();
+  return waiting;
+}
+
 /// Number of every pair by contact and index.
 std::map<std::pair<int, int>, Eigen::Index> numbers_of(const std::vector<Pair>& pairs) {
   std::map<std::pair<int, int>, Eigen::Index> numbers;
@@ -53,16 +61,25 @@ void set_offsets(const std::vector<Eigen::Index>& places, const Vector& motion, 
       offset.segment<2>(row) = -motion.segment<2>(row);
 }
 
+/// The parts of both sides of a pair.
+std::pair<std::size_t, std::size_t> parts_of(const Prepared& prepared, const Pair& pair) {
+  if (pair.is_bar()) {
+    const system::BarSystem& bar = prepared.structure.bars[static_cast<std::size_t>(pair.index)];
+    return {bar.a.part, bar.b.part};
+  }
+  const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(pair.contact)];
+  return {prepared.structure.dofs.part_of(contact.a.body), prepared.structure.dofs.part_of(contact.b.body)};
+}
+
 /// Takes the bodies of parts that are no longer there out of a state: what they exerted on the others is released.
 void take_away(const Prepared& before, const std::vector<char>& absent, State& state) {
   state.released.assign(absent.size(), Vector());
   Vector vanishing = Vector::Zero(state.p.size());  // forces of the pairs of what is taken away
-  const auto gone = [&](std::size_t p) { return absent[p] && !before.is_absent(p); };
+  const auto gone = [&](std::size_t p) { return p != system::PairSide::ground && absent[p] && !before.is_absent(p); };
   for (std::size_t i = 0; i < before.contact.pairs.size(); ++i) {
-    const model::Contact& contact = before.model.contacts[static_cast<std::size_t>(before.contact.pairs[i].contact)];
+    const auto [a, b] = parts_of(before, before.contact.pairs[i]);
     const auto row = static_cast<Eigen::Index>(2 * i);
-    if (gone(before.structure.dofs.part_of(contact.a.body)) || gone(before.structure.dofs.part_of(contact.b.body)))
-      vanishing.segment<2>(row) = state.p.segment<2>(row);
+    if (gone(a) || gone(b)) vanishing.segment<2>(row) = state.p.segment<2>(row);
   }
   for (std::size_t p = 0; p < absent.size(); ++p) {
     if (!absent[p]) {
@@ -94,31 +111,37 @@ void refer_new_parts(const Prepared& whole, const std::vector<char>& before, con
 
 }  // namespace
 
-Stages::Stages(const Prepared& whole, std::size_t step) : whole_(whole) { set(absent_in(whole, step)); }
+Stages::Stages(const Prepared& whole, std::size_t step) : whole_(whole) {
+  set(absent_in(whole, step), waiting_in(whole.model, step));
+}
 
-void Stages::set(std::vector<char> absent) {
+void Stages::set(std::vector<char> absent, std::vector<char> waiting) {
   now_.reset();
   contact_.reset();
-  if (absent.empty()) return;
-  contact_ = system::without_parts(whole_.contact, whole_.structure, whole_.model, absent);
+  waiting_ = std::move(waiting);
+  if (absent.empty() && waiting_.empty()) return;
+  if (absent.empty()) absent.assign(whole_.structure.parts.size(), 0);
+  contact_ = system::without_parts(whole_.contact, whole_.structure, whole_.model, absent, waiting_);
   now_.emplace(whole_.discretisation, *contact_, whole_.on_iteration, std::move(absent));
 }
 
 void Stages::enter(std::size_t step, State& state) {
-  if (!model::has_stages(whole_.model.bodies)) return;
+  std::vector<char> waiting = waiting_in(whole_.model, step);
+  if (!model::has_stages(whole_.model.bodies) && waiting == waiting_) return;
   state.factors.presence = presence_at(whole_.model, static_cast<int>(step) - 1);
   state.factors.release = takes_away(whole_.model, step) ? 1.0 : 0.0;
   state.released.clear();
   std::vector<char> absent = absent_in(whole_, step);
-  if (absent == now().absent) return;
+  const std::vector<char> none(whole_.structure.parts.size(), 0);
+  const auto all_there = [&](const std::vector<char>& of) { return of.empty() || of == none; };
+  if (waiting == waiting_ && (absent == now().absent || (all_there(absent) && all_there(now().absent)))) return;
 
   const std::vector<Pair> pairs_before = now().contact.pairs, held_before = now().contact.held;
   const std::vector<int> first_before = now().contact.first_rigid;
   const std::vector<char> absent_before = now().absent;
-  const std::vector<char> none(whole_.structure.parts.size(), 0);
   if (takes_away(whole_.model, step)) take_away(now(), absent.empty() ? none : absent, state);
   refer_new_parts(whole_, absent_before, absent, state);
-  set(std::move(absent));
+  set(std::move(absent), std::move(waiting));
   const system::ContactSystem& contact = now().contact;
 
   ParentMaps maps{places_before(pairs_before, contact.pairs), places_before(held_before, contact.held), {}};

@@ -13,7 +13,8 @@
 //                   remains still act, and fall linearly to zero over the step:  f += (1 - s) B' p,  s from 0 to 1
 //
 // so that both are continuous, and increments follow them as they follow loads. The elastic energy of a body that is
-// taken away leaves with it: it is taken off the work of the loads.
+// taken away leaves with it: it is taken off the work of the loads. The stiffness of a bar with preload
+// (system/bars.hpp) is a pair that is put in place after the step in which it is tightened.
 #pragma once
 
 #include <optional>
@@ -35,9 +36,10 @@ class Stages {
   void enter(std::size_t step, State& state);
 
  private:
-  void set(std::vector<char> absent);
+  void set(std::vector<char> absent, std::vector<char> waiting);
 
   const Prepared& whole_;
+  std::vector<char> waiting_;  // per bar: its stiffness does not act yet; empty: of all it does
   std::optional<system::ContactSystem> contact_;
   std::optional<Prepared> now_;  // empty: all bodies are there
 };

@@ -104,6 +104,7 @@ std::string fingerprint_of_contact(const Prepared& now, const State& state, std:
   const auto index = static_cast<int>(contact);
   for (std::size_t i = 0; i < now.contact.pairs.size(); ++i) {
     if (now.contact.pairs[i].contact != index) continue;
+    of.add(now.contact.softness[static_cast<Eigen::Index>(i)]);
     const mesh::ContactPair& pair =
         now.mesh.interfaces[contact].pairs[static_cast<std::size_t>(now.contact.pairs[i].index)];
     of.add(pair.normal), of.add(pair.point_a), of.add(pair.point_b);
@@ -144,6 +145,11 @@ std::vector<EndState::Agreement> agreements_of(const Prepared& now, const State&
     of.add(spring.stiffness[0]), of.add(spring.stiffness[1]);
     of.add(static_cast<double>(spring.on.kind)), of.add(static_cast<double>(spring.on.index)), of.add(spring.on.near);
     add("spring", spring.name, of.text());
+  }
+  for (std::size_t b = 0; b < model.bars.size(); ++b) {
+    Fingerprint of;
+    of.add(now.structure.bars[b].softness), of.add(now.structure.bars[b].direction), of.add(model.bars[b].preload);
+    add("bar", model.bars[b].name, of.text());
   }
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     if (body_is_there(now, model.contacts[c].a.body) && body_is_there(now, model.contacts[c].b.body))

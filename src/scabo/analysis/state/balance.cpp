@@ -49,6 +49,9 @@ double work_on_references(const Prepared& prepared, const State& state) {
   return work;
 }
 
+/// N, of the pairs.
+Vector normal_forces(const State& state) { return state.p(Eigen::seqN(0, state.p.size() / 2, 2)); }
+
 }  // namespace
 
 std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to) {
@@ -142,6 +145,8 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.elastic += thermal;
     energy.external += thermal - thermal_energy(prepared, from.factors, p, from.u[p]);
   }
+  if (to.p.size() > 0)  // springs between the sides of pairs, and bars
+    energy.elastic += 0.5 * prepared.contact.softness.dot(normal_forces(to).cwiseAbs2());
   if (!prepared.references.empty()) {
     const double reached = work_on_references(prepared, to);
     energy.elastic -= reached;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scabo/analysis/state/balance.hpp"
+#include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/state.hpp"
 #include "scabo/base/components.hpp"
 #include "scabo/system/tributary_lengths.hpp"
@@ -79,6 +80,7 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
   std::vector<int> on_axis(results.size(), -1);  // of each contact, the pair there
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
     const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
+    if (at.is_bar()) continue;
     const mesh::ContactPair& pair = mesh_pair(prepared, at);
     const model::Contact& contact = prepared.model.contacts[static_cast<std::size_t>(at.contact)];
     const auto k = static_cast<Eigen::Index>(i);
@@ -226,6 +228,16 @@ Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, 
   return u;
 }
 
+std::vector<double> tensions_of(const Prepared& prepared, const State& state) {
+  std::vector<double> tensions;
+  for (std::size_t bar = 0; bar < prepared.model.bars.size(); ++bar)
+    tensions.push_back(preload_of(prepared, state.factors, bar));
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i)
+    if (const system::ContactSystem::Pair& at = prepared.contact.pairs[i]; at.is_bar())
+      tensions[static_cast<std::size_t>(at.index)] -= state.p[place_of(i)];
+  return tensions;
+}
+
 IncrementResult describe(const Prepared& prepared, const State& state) {
   const system::Dofs& dofs = prepared.structure.dofs;
   IncrementResult result;
@@ -238,6 +250,7 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
   add_reactions(prepared, state, result);
   result.springs =
       system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u, state.factors.loads);
+  result.bars = tensions_of(prepared, state);
   result.fields = fields_of(prepared, state);
   for (int body = 0; body < static_cast<int>(prepared.model.bodies.size()); ++body)
     if (prepared.is_absent(dofs.part_of(body))) result.absent.push_back(body);

@@ -67,6 +67,7 @@ class SumOverEdge {
   void apply_contacts() {
     for (std::size_t i = 0; i < prepared_.contact.pairs.size(); ++i) {
       const system::ContactSystem::Pair& at = prepared_.contact.pairs[i];
+      if (at.is_bar()) continue;
       const mesh::ContactPair& pair =
           prepared_.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
       const auto k = static_cast<Eigen::Index>(i);
@@ -94,6 +95,21 @@ class SumOverEdge {
       const Vector against = prepared_.structure.springs.of_spring[s] * state_.u[part];
       for (const auto& [in_part, node] : number_in_part_)
         apply(is_elsewhere(on), node, -against.segment<2>(place_of(in_part)));
+    }
+  }
+
+  void apply_bars() {
+    const std::vector<double> tensions = tensions_of(prepared_, state_);
+    for (std::size_t b = 0; b < tensions.size(); ++b) {
+      const system::BarSystem& bar = prepared_.structure.bars[b];
+      for (const std::size_t end : {0, 1}) {
+        const auto& on = prepared_.model.bars[b].between[end].on;
+        if (!on || on->body != edge_.on.body) continue;
+        const Vec2 force = (end == 0 ? tensions[b] : -tensions[b]) * bar.direction;
+        for (const system::PairSide::Node& node : (end == 0 ? bar.a : bar.b).nodes)
+          if (const auto found = number_in_part_.find(node.node); found != number_in_part_.end())
+            apply(is_elsewhere(*on), found->second, node.weight * force);
+      }
     }
   }
 
@@ -232,6 +248,7 @@ std::vector<EdgeForces> edge_forces(const Prepared& prepared, const State& state
     sum.apply_contacts();
     sum.apply_reactions();
     sum.apply_springs();
+    sum.apply_bars();
     sum.apply_released();
     results.push_back(sum.sum());
   }

@@ -143,6 +143,8 @@ struct Table {
       field(
           "fits", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.fits; }),
       field(
+          "preloads", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.preloads; }),
+      field(
           "released", whole, 0, in_this_run, [](auto& state) -> auto& { return state.released; }),
       field(
           "p", pair, 2, lasts, [](auto& state) -> auto& { return state.p; }),

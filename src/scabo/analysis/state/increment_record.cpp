@@ -201,6 +201,7 @@ void exchange(Io& io, IncrementResult& of) {
   exchange(io, of.reactions);
   exchange(io, of.moments);
   exchange(io, of.springs);
+  exchange(io, of.bars);
   exchange(io, of.absent);
   io(of.largest_force);
   exchange(io, of.certificate);

@@ -23,6 +23,9 @@ double sum_of_loads(const Prepared& prepared, std::size_t p, const Factors& fact
     if (prepared.structure.loads[load][p].size() > 0)
       sum += std::abs(factors.loads[load]) * prepared.structure.loads[load][p].lpNorm<1>();
   if (!released.empty()) sum += released[p].lpNorm<1>();
+  for (std::size_t b = 0; b < factors.preloads.size(); ++b)
+    if (const Vector& pull = prepared.structure.bars[b].pull[p]; pull.size() > 0)
+      sum += std::abs(preload_of(prepared, factors, b)) * pull.lpNorm<1>();
   return sum;
 }
 
@@ -37,6 +40,10 @@ std::vector<std::vector<Vector>> moving_forces(const Prepared& prepared, const F
 }
 
 }  // namespace
+
+double preload_of(const Prepared& prepared, const Factors& factors, std::size_t bar) {
+  return factors.preloads.empty() ? 0.0 : factors.preloads[bar] * prepared.model.bars[bar].preload;
+}
 
 double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p) {
   if (prepared.is_absent(p)) return 0.0;
@@ -56,6 +63,8 @@ Factors between(const Factors& from, const Factors& to, double part) {
   for (std::size_t b = 0; b < to.presence.size(); ++b)
     factors.presence[b] = from.presence[b] + part * (to.presence[b] - from.presence[b]);
   for (std::size_t c = 0; c < to.fits.size(); ++c) factors.fits[c] = from.fits[c] + part * (to.fits[c] - from.fits[c]);
+  for (std::size_t b = 0; b < to.preloads.size(); ++b)
+    factors.preloads[b] = from.preloads[b] + part * (to.preloads[b] - from.preloads[b]);
   factors.release = from.release + part * (to.release - from.release);
   return factors;
 }
@@ -89,6 +98,14 @@ std::vector<double> fits_at(const model::Model& model, int step) {
   return any ? fits : std::vector<double>();
 }
 
+std::vector<double> preloads_at(const model::Model& model, int step) {
+  std::vector<double> preloads;
+  for (const model::Bar& bar : model.bars) preloads.push_back(bar.tightened <= step ? 1.0 : 0.0);
+  const bool any =
+      std::any_of(model.bars.begin(), model.bars.end(), [](const model::Bar& bar) { return bar.preload != 0.0; });
+  return any ? preloads : std::vector<double>();
+}
+
 void take_out_rounding(const Matrix& rigid, double sum, Vector& forces) {
   Vector resultants(rigid.cols());
   for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
@@ -115,6 +132,9 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& fact
       const Vector& of = moving[load].empty() ? prepared.structure.loads[load][p] : moving[load][p];
       if (of.size() > 0) forces[p] += presence * factors.loads[load] * of;
     }
+    for (std::size_t b = 0; b < factors.preloads.size(); ++b)
+      if (const Vector& pull = prepared.structure.bars[b].pull[p]; pull.size() > 0)
+        forces[p] += preload_of(prepared, factors, b) * pull;
     if (!released.empty() && released[p].size() > 0 && factors.release != 0.0)
       forces[p] += factors.release * released[p];
     if (const Matrix& rigid = prepared.structure.parts[p]->rigid_motions(); rigid.cols() > 0)

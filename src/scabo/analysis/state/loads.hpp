@@ -11,6 +11,9 @@ namespace scabo::analysis {
 std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& factors,
                                    const std::vector<Vector>& released);
 
+/// What acts of the preload of a bar, a force.
+double preload_of(const Prepared& prepared, const Factors& factors, std::size_t bar);
+
 /// Takes out of the forces on part `p` resultants along its free rigid motions that are rounding, spread over all
 /// forces. Contact balances the resultants without them (loads_on_motions); left in, they would be found unbalanced on
 /// the few degrees of freedom that hold the part in displacement(): with a thousand pairs, 5e-11 of the largest force.

@@ -100,6 +100,7 @@ Reference reference_at(const model::Body& body, int number, const mesh::Mesh& me
 void take_off_pairs(const Prepared& prepared, const FieldState& fields, std::vector<ContactResult>& contacts) {
   std::vector<std::size_t> next(contacts.size(), 0);
   for (const system::ContactSystem::Pair& at : prepared.contact.pairs) {
+    if (at.is_bar()) continue;
     const auto c = static_cast<std::size_t>(at.contact);
     const Vec2& normal = prepared.mesh.interfaces[c].pairs[static_cast<std::size_t>(at.index)].normal;
     const auto translation_of = [&](const model::Place& side) {

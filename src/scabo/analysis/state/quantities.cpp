@@ -171,6 +171,8 @@ std::optional<double> value_of(const Discretisation& discretisation, const Incre
       return increment.moments[index];
     case Kind::spring_force:
       return increment.springs[index][quantity.component];
+    case Kind::bar_tension:
+      return increment.bars[index];
     case Kind::displacement:
       return displacement_of_point(discretisation, increment, quantity);
     case Kind::velocity:

@@ -198,6 +198,7 @@ struct IncrementResult {
   std::vector<std::optional<double>> moments;
   std::vector<EdgeForces> edges;  ///< one for each model::EdgeResultant of the history, in its order
   std::vector<Vec2> springs;      ///< one for each of the model, in its order: force on the body
+  std::vector<double> bars;       ///< tension of each of the model, in its order; pressure is negative
   std::vector<int> absent;        ///< bodies that are not there: not yet added, or removed; ascending
   /// Largest applied force, contact force or reaction at a node or pair: the scale for judging other forces. Where all
   /// of these are rounding, the forces by which the stiffness would resist displacements as large.

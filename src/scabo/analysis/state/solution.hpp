@@ -16,9 +16,10 @@ struct DiscreteProblem {
   contact::Start start;  ///< the previous accepted state
   contact::Solution solution;
   bool accepted = false;
-  double force_scale = 0.0;          ///< contact::SolverOptions::force_scale
-  std::vector<int> contact_of_pair;  ///< index into Model::contacts, one for each pair of the problem
-  std::vector<int> number_of_pair;   ///< PairResult::pair
+  double force_scale = 0.0;  ///< contact::SolverOptions::force_scale
+  /// Index into Model::contacts, one for each pair of the problem; beyond them that of a bar.
+  std::vector<int> contact_of_pair;
+  std::vector<int> number_of_pair;  ///< PairResult::pair
 };
 
 /// One pass of refinement (adaptive.hpp).

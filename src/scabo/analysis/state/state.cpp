@@ -10,6 +10,11 @@ const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::Conta
   return prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
 }
 
+Vec2 normal_of(const Prepared& prepared, const system::ContactSystem::Pair& at) {
+  return at.is_bar() ? prepared.structure.bars[static_cast<std::size_t>(at.index)].direction
+                     : mesh_pair(prepared, at).normal;
+}
+
 const system::BodySystem& part_of(const Prepared& prepared, int body) {
   return *prepared.structure.parts[prepared.structure.dofs.part_of(body)];
 }
@@ -18,6 +23,10 @@ std::vector<bool> touching_pairs(const Prepared& prepared) {
   constexpr double rounding_of_points = 1e-9;  // of a body's size
   std::vector<bool> touching;
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    if (prepared.contact.pairs[i].is_bar()) {
+      touching.push_back(true);
+      continue;
+    }
     const model::Contact& contact =
         prepared.model.contacts[static_cast<std::size_t>(prepared.contact.pairs[i].contact)];
     const double size = std::max(part_of(prepared, contact.a.body).lever(), part_of(prepared, contact.b.body).lever());
@@ -31,6 +40,7 @@ State initial_state(const Prepared& prepared) {
   state.factors = {std::vector<double>(prepared.model.loads.size(), 0.0),
                    std::vector<double>(prepared.model.supports.size(), 0.0), coefficients_at_start(prepared.model)};
   state.factors.fits = fits_at(prepared.model, -1);
+  state.factors.preloads = preloads_at(prepared.model, -1);
   const auto N = static_cast<Eigen::Index>(prepared.contact.pairs.size());
   state.p = Vector::Zero(2 * N);
   state.rigid_motion = Vector::Zero(prepared.contact.rigid_motions());

@@ -44,7 +44,10 @@ struct Prepared {
   bool is_absent(std::size_t part) const { return !absent.empty() && absent[part] != 0; }
 };
 
+/// Of a contact, not of a bar.
 const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::ContactSystem::Pair& at);
+/// n of a pair: of a bar its direction.
+Vec2 normal_of(const Prepared& prepared, const system::ContactSystem::Pair& at);
 /// The part that a body belongs to.
 const system::BodySystem& part_of(const Prepared& prepared, int body);
 
@@ -60,6 +63,7 @@ struct Factors {
   std::vector<double> presence = {};  ///< per body, part of its loads that acts, 0 to 1; empty: all of all
   double release = 0.0;               ///< part of State::released that acts
   std::vector<double> fits = {};      ///< per contact, part of its interferences that is there; empty: all of all
+  std::vector<double> preloads = {};  ///< per bar, part of its preload that acts; empty: no bar has any
   double time = 0.0;                  ///< since the begin of the first step in time, of loads that move
 };
 /// Part of its loads that acts on part `p`, 0 to 1.
@@ -69,6 +73,8 @@ Factors between(const Factors& from, const Factors& to, double part);
 double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i);
 /// Factors::fits at the end of a step; step -1: before the first.
 std::vector<double> fits_at(const model::Model& model, int step);
+/// Factors::preloads at the end of a step; step -1: before the first.
+std::vector<double> preloads_at(const model::Model& model, int step);
 /// Coefficients of friction before the first step; empty if no step changes one.
 std::vector<double> coefficients_at_start(const model::Model& model);
 
@@ -128,6 +134,9 @@ std::vector<Vector> displacements_without_motions(const Prepared& prepared, cons
 
 /// Pairs whose points lie on each other, or overlap, as the bodies are drawn.
 std::vector<bool> touching_pairs(const Prepared& prepared);
+
+/// Tension of every bar: what acts of its preload, and the force of its stiffness.
+std::vector<double> tensions_of(const Prepared& prepared, const State& state);
 
 /// The results of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);

@@ -13,21 +13,23 @@ Factors start_of(const model::Model& model, std::size_t step) {
   if (step == 0 && model.restart)
     return {
         model.restart->load_factors, model.restart->support_factors, coefficients_at_start(model), presence, release,
-        fits_at(model, -1)};
+        fits_at(model, -1),          preloads_at(model, -1)};
   if (step == 0)
     return {std::vector<double>(model.loads.size(), 0.0),
             std::vector<double>(model.supports.size(), 0.0),
             coefficients_at_start(model),
             presence,
             release,
-            fits_at(model, -1)};
+            fits_at(model, -1),
+            preloads_at(model, -1)};
   const model::Step& before = model.steps[step - 1];
   return {before.load_factors,
           before.support_factors,
           model::coefficients_of(before),
           presence,
           release,
-          fits_at(model, static_cast<int>(step) - 1)};
+          fits_at(model, static_cast<int>(step) - 1),
+          preloads_at(model, static_cast<int>(step) - 1)};
 }
 
 }  // namespace
@@ -52,8 +54,8 @@ Factors held_in(const model::Model& model, std::size_t index, double time, const
   const model::Step& step = model.steps[index];
   const auto number = static_cast<int>(index);
   Factors factors{
-      step.load_factors,     step.support_factors, model::coefficients_of(step), presence_at(model, number), 0.0,
-      fits_at(model, number)};
+      step.load_factors,      step.support_factors,      model::coefficients_of(step), presence_at(model, number), 0.0,
+      fits_at(model, number), preloads_at(model, number)};
   const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of, const auto& value) {
     for (std::size_t i = 0; i < curves.size(); ++i)
       if (curves[i] >= 0) of[i] = value(model.curves[static_cast<std::size_t>(curves[i])]);
@@ -94,7 +96,8 @@ Factors factors_in(const model::Model& model, std::size_t index, double s) {
   if (step.dynamic) return factors_at_time(model, index, s * step.dynamic->duration);
   Factors factors = between(start_of(model, index),
                             {step.load_factors, step.support_factors, model::coefficients_of(step),
-                             presence_at(model, static_cast<int>(index)), 0.0, fits_at(model, static_cast<int>(index))},
+                             presence_at(model, static_cast<int>(index)), 0.0, fits_at(model, static_cast<int>(index)),
+                             preloads_at(model, static_cast<int>(index))},
                             s);
   if (s == 1.0) return factors;  // those of the curves
   const auto follow = [&](const std::vector<int>& curves, std::vector<double>& of) {

@@ -62,13 +62,13 @@ Matrix rays_of(const Problem& problem) {
   return rays;
 }
 
-/// The directions in which bonded pairs carry any force, both ways.
+/// The directions in which pairs carry any force, both ways: all of bonded ones, of bars the normal.
 Matrix unlimited(const Problem& problem) {
   const Eigen::Index d = problem.dimension;
   std::vector<Vector> columns;
   for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
-    const bool normal = std::isinf(problem.tension_of(i)), tangent = normal || std::isinf(problem.cohesion_of(i));
-    for (Eigen::Index k = normal ? 0 : 1; k < d && tangent; ++k)
+    const bool normal = std::isinf(problem.tension_of(i)), tangent = std::isinf(problem.cohesion_of(i));
+    for (Eigen::Index k = normal ? 0 : 1; k < (tangent ? d : 1); ++k)
       for (double sign : {-1.0, 1.0}) columns.emplace_back(sign * problem.G.dense().row(d * i + k).transpose());
   }
   Matrix result(problem.G.cols(), static_cast<Eigen::Index>(columns.size()));

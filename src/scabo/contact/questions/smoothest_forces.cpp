@@ -91,11 +91,11 @@ Freedom freedom_of(const Problem& problem, const Solution& solution, Index i, co
     freedom.limits = {{{0.0, 1.0}, -cohesion}, {{0.0, -1.0}, -cohesion}};
     return freedom;
   }
-  const bool bonded = std::isinf(problem.tension_of(i));
+  const bool bonded = std::isinf(problem.cohesion_of(i)), two_sided = std::isinf(problem.tension_of(i));
   const bool slips = moves && state != ContactState::stick;
   const bool frictionless = !bonded && problem.largest_mu(i) == 0.0 && problem.cohesion_of(i) == 0.0;
   // Rounding leaves a tensile force where there is none: no strength is in it, and such a pair may press.
-  const bool pulled = problem.tension_of(i) > 0.0 && p_n < -no_force * scales.force;
+  const bool pulled = problem.tension_of(i) > 0.0 && !two_sided && p_n < -no_force * scales.force;
   freedom.C(0, 0) = 1.0;
   freedom.columns = 1;
   if (frictionless || slips) {

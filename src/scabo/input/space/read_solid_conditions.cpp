@@ -241,8 +241,8 @@ void SpaceReader::load(const Entry& entry) {
 
 void SpaceReader::pair_of_faces(const Entry& entry, bool tied) {
   const Later later =
-      only_in_the_plane({"property", "cohesion", "tension", "bond", "shear_strength", "slip", "interference", "fit",
-                         "reach", "matching", "residual_friction", "slip_distance", "dynamic_friction"});
+      only_in_the_plane({"property", "cohesion", "tension", "bond", "shear_strength", "slip", "modulus", "interference",
+                         "fit", "reach", "matching", "residual_friction", "slip_distance", "dynamic_friction"});
   const MapReader map(
       report_, entry.value,
       tied ? std::vector<std::string>{"between"}

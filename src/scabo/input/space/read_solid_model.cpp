@@ -51,7 +51,7 @@ SpaceModel SpaceReader::read(const Value& root) {
       {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
        "curves", "steps", "solver"},
       "'scabo: 1' and sections",
-      only_in_the_plane({"springs", "contact_properties", "output", "tolerance", "restart", "initial"}));
+      only_in_the_plane({"springs", "bars", "contact_properties", "output", "tolerance", "restart", "initial"}));
   if (const auto version = map.need("scabo"); version && number(version, 1.0) != 1.0)
     report_.error(*version, fmt::format("this program reads format version 1, not {}", version->node->text));
   if (const auto title = map.get("title")) model_.title = read_text(report_, *title).value_or("");
