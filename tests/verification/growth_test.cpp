@@ -1,34 +1,16 @@
 // Cracks that grow: loads against closed forms, paths against their twins and against what was published.
+#include "growth.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "verification/run.hpp"
-
 namespace scabo::verification {
 namespace {
 
 using std::numbers::pi;
-
-/// The increment with the state of growth `index`, from 0.
-const analysis::GrowthResult& growth_at(const analysis::StaticSolution& solution, std::size_t index) {
-  const auto& growth = increment_at(solution, index).growth;
-  if (!growth) throw std::runtime_error("the increment has no growing crack");
-  return *growth;
-}
-
-const std::vector<Vec2>& path_of(const analysis::StaticSolution& solution) {
-  if (!solution.grown || solution.grown->paths.empty()) throw std::runtime_error("no crack has grown");
-  return solution.grown->paths.front().points;
-}
-
-/// Work is stored, taken by contacts or released, to rounding.
-void expect_balance(const analysis::GrowthEnergy& energy) {
-  EXPECT_NEAR(energy.external - energy.elastic - energy.contact - energy.released, 0.0,
-              1e-9 * (std::abs(energy.external) + std::abs(energy.elastic)));
-}
 
 // Double cantilever under moments M at the ends of its arms, of height h: G = 12 M^2 / (E' h^3) per unit width, at any
 // length, so that the moment at which the crack grows is (E' G_c h^3 / 12)^1/2. The crack goes straight on.
@@ -332,96 +314,6 @@ steps: {}
   EXPECT_NEAR(rest + 0.2, alone, 1e-9 * alone);
 }
 
-/// An inclined crack at the middle of a wide plate under compression along y, friction 0.3: K_II = 0.35 sqrt(pi) at
-/// unit stress, by the stress on its line.
-analysis::StaticSolution closed_crack(const std::string& growth) {
-  return run(fmt::format(R"(scabo: 1
-analysis: {{plane: stress}}
-materials: {{stone: {{young: 200, poisson: 0.3}}}}
-bodies:
-  plate:
-    material: stone
-    shape: {{rectangle: {{corner: [-50, -50], size: [100, 100]}}}}
-    mesh: {{kind: quadtree, size: 10, order: 2, refine: [{{near: [0.7, 0.7], size: 0.025}}, {{near: [-0.7, -0.7], size: 0.025}}]}}
-    cracks: [{{path: [[-0.70710678118654752, -0.70710678118654752], [0.70710678118654752, 0.70710678118654752]], name: flaw}}]
-contacts: {{faces: {{between: [plate.flaw.left, plate.flaw.right], friction: 0.3}}}}
-supports: [{{on: plate.bottom_left, fix: [x, y]}}, {{on: plate.bottom_right, fix: [y]}}]
-loads:
-  up: {{on: plate.top, traction: [0, -1]}}
-  down: {{on: plate.bottom, traction: [0, 1]}}
-steps: [{{growth: {{{}}}}}]
-)",
-                         growth));
-}
-const double K_II_of_closed_crack = 0.35 * std::sqrt(pi);
-
-// Wing cracks: the tips of a closed crack that slides are in pure mode II, and kink by 70.5 degrees of the hoop stress,
-// at K_II = (3/4)^1/2 K_Ic. The wings need more load the longer they are, and turn towards it.
-TEST(Growth, AClosedCrackGrowsWings) {
-  const auto solution = closed_crack("toughness: {K_Ic: 1}, step: 0.1, until: {steps: 2}");
-  ASSERT_EQ(last(solution).increment, 3);
-  const analysis::GrowthResult& first = growth_at(solution, 0);
-  ASSERT_EQ(first.tips.size(), 2u);
-  EXPECT_NEAR(first.load_factor * K_II_of_closed_crack / std::sqrt(0.75), 1.0, 2e-3);
-  for (const analysis::TipResult& tip : first.tips) {
-    EXPECT_TRUE(tip.grows);
-    EXPECT_NEAR(tip.kink * 180.0 / pi, 70.5288, 0.1);
-    EXPECT_NEAR(tip.K_I, 0.0, 1e-3);
-  }
-  EXPECT_GT(growth_at(solution, 1).load_factor, 1.1 * first.load_factor);
-  EXPECT_GT(growth_at(solution, 2).load_factor, 1.1 * growth_at(solution, 1).load_factor);
-  const std::vector<Vec2>& path = path_of(solution);
-  ASSERT_EQ(path.size(), 6u);
-  const auto from_load = [&](std::size_t k) {  // angle of a segment from the y axis
-    const Vec2 along = path[k + 1] - path[k];
-    return std::atan2(std::abs(along.x()), along.y());
-  };
-  EXPECT_LT(from_load(4), 0.9 * from_load(3));
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((path[k] + path[5 - k]).norm(), 0.0, 1e-3);
-  for (const std::size_t k : {1u, 2u}) {
-    const analysis::GrowthResult& at = growth_at(solution, k);
-    for (const analysis::TipResult& tip : at.tips) EXPECT_LT(std::abs(tip.K_II), 0.05 * tip.K_I);
-    ASSERT_TRUE(at.energy.has_value());
-    expect_balance(*at.energy);
-    EXPECT_NEAR(at.energy->released / at.energy->integral, 1.0, 0.015);
-    const double friction = increment_at(solution, k).energy.friction - increment_at(solution, k - 1).energy.friction;
-    EXPECT_GT(friction, 0.0);
-    EXPECT_NEAR(at.energy->contact / friction, 1.0, 0.02);
-  }
-}
-
-// In shear, where the criterion says so: straight on at G = G_c.
-TEST(Growth, AClosedCrackGrowsInShear) {
-  const auto solution = closed_crack("criterion: straight, toughness: {G_c: 0.005}, step: 0.4, until: {steps: 1}");
-  ASSERT_EQ(last(solution).increment, 2);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double a = 1.0 + 0.2 * static_cast<double>(k);
-    EXPECT_NEAR(growth_at(solution, k).load_factor * K_II_of_closed_crack * std::sqrt(a), 1.0, 2e-3);
-  }
-  EXPECT_NEAR((path_of(solution).back() - Vec2::Constant(1.2 * std::sqrt(0.5))).norm(), 0.0, 1e-9);
-}
-
-// A crack whose faces stick has no factors, whatever the load.
-TEST(Growth, AClosedCrackThatSticksDoesNotGrow) {
-  const auto solution = run(R"(scabo: 1
-analysis: {plane: strain}
-materials: {stone: {young: 30e9, poisson: 0.2}}
-bodies:
-  plate:
-    material: stone
-    shape: {rectangle: {corner: [0, 0], size: [1, 2]}}
-    mesh: {kind: quadtree, size: 0.25}
-    cracks: [{path: [[0, 0.8], [0.25, 1]], name: flaw}]
-contacts: {faces: {between: [plate.flaw.left, plate.flaw.right], friction: 2}}
-supports: [{on: plate.bottom, fix: [x, y]}]
-loads: {push: {on: plate.top, traction: [0, -1e6]}}
-steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.125}}]
-)");
-  EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
-  EXPECT_NE(solution.reason.find("no factor of the scaled loads makes a tip critical"), std::string::npos)
-      << solution.reason;
-}
-
 // A crack that runs through its body ends the run, broken; one that ends in a hole leaves the body in one piece.
 TEST(Growth, ABodyThatIsSplitIsBroken) {
   const auto through = [](const std::string& holes) {
@@ -448,128 +340,6 @@ steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: 0.2}}}}]
   EXPECT_NE(whole.grown->ended.find("meets edge 'right' at"), std::string::npos) << whole.grown->ended;
   EXPECT_FALSE(hollow.grown->broken);
   EXPECT_NE(hollow.grown->ended.find("meets edge 'bore'"), std::string::npos) << hollow.grown->ended;
-}
-
-// A crack that its load closes is no result.
-TEST(Growth, AClosedCrackWithoutContactEndsTheRunWithASentence) {
-  const auto solution = run(R"(scabo: 1
-analysis: {plane: strain}
-materials: {stone: {young: 30e9, poisson: 0.2}}
-bodies:
-  plate:
-    material: stone
-    shape: {rectangle: {corner: [0, 0], size: [1, 2]}}
-    mesh: {kind: quadtree, size: 0.125}
-    cracks: [{path: [[0, 0.8], [0.25, 1]], name: flaw}]
-supports: [{on: plate.bottom, fix: [x, y]}]
-loads: {push: {on: plate.top, traction: [0, -1e6]}}
-steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.125}}]
-)");
-  EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
-  EXPECT_NE(solution.reason.find("close the crack at its tip 'plate.flaw.end'"), std::string::npos) << solution.reason;
-}
-
-// A crack through a bent plate, open at its growing end and overlapping at the other.
-TEST(Growth, FacesThatOverlapElsewhereEndTheRunWithASentence) {
-  const auto solution = run(R"(scabo: 1
-analysis: {plane: strain}
-materials: {stone: {young: 30e9, poisson: 0.2}}
-bodies:
-  plate:
-    material: stone
-    shape: {rectangle: {corner: [0, 0], size: [4, 1]}}
-    mesh: {kind: quadtree, size: 0.25}
-    cracks: [{path: [[2, 0.2], [2, 0.85]], name: flaw}]
-supports: [{on: plate.bottom_left, fix: [x, y]}, {on: plate.bottom_right, fix: [y]}]
-loads: {left: {on: plate.left, moment: 1e3}, right: {on: plate.right, moment: -1e3}}
-steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.05, cracks: [plate.flaw.end]}}]
-)");
-  EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
-  EXPECT_NE(solution.reason.find("the faces of crack 'plate.flaw' overlap by"), std::string::npos) << solution.reason;
-}
-
-/// An edge crack of length 0.2 in a strip under cycles of tension, and what else the growth says.
-analysis::StaticSolution cycled(const std::string& growth, const std::string& more = "") {
-  return run(fmt::format(R"(scabo: 1
-analysis: {{plane: strain}}
-materials: {{steel: {{young: 200e9, poisson: 0.3}}}}
-bodies:
-  strip:
-    material: steel
-    shape: {{rectangle: {{corner: [0, 0], size: [1, 3]}}}}
-    mesh: {{kind: quadtree, size: 0.25, order: 3}}
-    cracks: [{{path: [[0, 1.5], [0.2, 1.5]], name: flaw}}]
-supports: [{{on: strip.bottom, fix: [y]}}, {{on: strip.bottom_left, fix: [x]}}]
-loads: {{pull: {{on: strip.top, traction: [0, 50e6]}}{}}}
-steps: [{{growth: {{{}}}}}]
-)",
-                         more, growth));
-}
-
-// Life of an edge crack by Paris' law against Simpson's rule over every second state, from the ranges that the run
-// reports.
-TEST(FatigueGrowth, LifeIsTheIntegralOverTheRangesOfTheRun) {
-  const double C = 1e-29, m = 3.0, step = 0.02;
-  const auto solution =
-      cycled("law: paris, C: 1e-29, m: 3, between: [{pull: 0.1}, {pull: 1}], step: 0.02, until: {length: 0.4}");
-  last(solution);
-  ASSERT_EQ(solution.increments.size(), 11u);
-  double life = 0.0;
-  for (std::size_t k = 0; k + 2 < 11; k += 2) {
-    const auto slowness = [&](std::size_t i) {
-      return 1.0 / (C * std::pow(growth_at(solution, i).tips.at(0).range.value(), m));
-    };
-    life += 2.0 * step / 6.0 * (slowness(k) + 4.0 * slowness(k + 1) + slowness(k + 2));
-  }
-  EXPECT_NEAR(growth_at(solution, 10).cycles.value() / life, 1.0, 1e-3);
-  const analysis::TipResult& first = growth_at(solution, 0).tips[0];
-  EXPECT_NEAR(first.range.value() / (0.9 * first.K_I), 1.0, 1e-9);
-  EXPECT_EQ(growth_at(solution, 0).cycles.value(), 0.0);
-}
-
-// 105,199.70 cycles (VERIFICATION: Paris' law in the infinite plate, a from 10 to 20 mm, range 100 MPa).
-TEST(FatigueGrowth, ACentralCrackByParis) {
-  const auto solution = run(R"(scabo: 1
-analysis: {plane: stress}
-materials: {steel: {young: 200e9, poisson: 0.3}}
-bodies:
-  plate:
-    material: steel
-    shape: {rectangle: {corner: [-2, -2], size: [4, 4]}}
-    mesh: {kind: quadtree, size: 0.4, order: 3}
-    cracks: [{path: [[-0.01, 0], [0.01, 0]], name: flaw}]
-supports: [{on: plate.bottom_left, fix: [x, y]}, {on: plate.bottom_right, fix: [y]}]
-loads:
-  up: {on: plate.top, traction: [0, 100e6]}
-  down: {on: plate.bottom, traction: [0, -100e6]}
-steps: [{growth: {law: paris, C: 1e-29, m: 3, between: [{up: 0, down: 0}, {up: 1, down: 1}], step: 2e-3,
-         until: {length: 0.04}}}]
-)");
-  last(solution);
-  EXPECT_NEAR(growth_at(solution, solution.increments.size() - 1).cycles.value() / 105199.70, 1.0, 1e-3);
-}
-
-TEST(FatigueGrowth, ABreakEndsIt) {
-  const auto solution = cycled(
-      "law: walker, C: 1e-29, m: 3, gamma: 0.5, between: [{pull: 0.5}, {pull: 1}], step: 0.05, toughness: {K_Ic: "
-      "100e6}");
-  last(solution);
-  EXPECT_NE(solution.grown->ended.find("the body breaks at 'strip.flaw.end' after"), std::string::npos)
-      << solution.grown->ended;
-}
-
-TEST(FatigueGrowth, CyclesThatNoLawKnowsEndTheRunWithASentence) {
-  const std::string law = "law: paris, C: 1e-29, m: 3, step: 0.02, until: {steps: 1}, between: ";
-  const auto reason = [&](const std::string& between, const std::string& more = "") {
-    const auto solution = cycled(law + between, more);
-    EXPECT_EQ(solution.outcome, analysis::Outcome::not_converged);
-    return solution.reason;
-  };
-  EXPECT_NE(reason("[{pull: 1}, {pull: 0.1}]").find("exchange the two"), std::string::npos);
-  EXPECT_NE(reason("[{pull: -0.5}, {pull: 1}]").find("overlap by"), std::string::npos);
-  EXPECT_NE(reason("[{pull: 0.5, drag: 0}, {pull: 1, drag: 1}]", ", drag: {on: strip.top, traction: [20e6, 0]}")
-                .find("turns within a cycle"),
-            std::string::npos);
 }
 
 // Bittencourt, Wawrzynek, Ingraffea, Sousa (1996): beam of 20 x 8 with three holes of radius .25 in three-point

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "blocks.hpp"
 #include "run.hpp"
@@ -121,9 +123,11 @@ TEST(Wall, HasTheSameForcesAsItsTwins) {
     blocks.unit = unit, blocks.angle = angle, blocks.mirrored = mirrored, blocks.reversed = reversed;
     return blocks;
   };
-  for (const Blocks& blocks :
-       {with(1024.0, 0.0, false, false), with(1e3, 0.0, false, false), with(1.0, 137.0, false, false),
-        with(1.0, 0.0, true, true), with(1e-3, 30.0, true, false)}) {
+  std::vector<Blocks> others = {with(1024.0, 0.0, false, false), with(1e-3, 30.0, true, false),
+                                with(1.0, 0.0, true, true)};
+  if (std::getenv("SCABO_LONG"))  // what the second one does at once, alone
+    others.insert(others.end(), {with(1e3, 0.0, false, false), with(1.0, 137.0, false, false)});
+  for (const Blocks& blocks : others) {
     SCOPED_TRACE(fmt::format("unit {}, turned by {}{}{}", blocks.unit, blocks.angle,
                              blocks.mirrored ? ", mirrored" : "", blocks.reversed ? ", reversed" : ""));
     const Twin twin(blocks, push);

@@ -114,38 +114,6 @@ std::optional<double> figure_of(const element::StressIntensity& factors, const m
   }
 }
 
-std::optional<double> value_of(const ContactResult& contact, const model::Quantity& quantity) {
-  switch (quantity.kind) {
-    case Kind::normal_force:
-      return contact.normal_force;
-    case Kind::tangential_force:
-      return contact.tangential_force;
-    case Kind::max_gap:
-      return contact.max_gap;
-    case Kind::contact_force:
-      return contact.force[quantity.component];
-    case Kind::contact_moment:
-      return contact.moment;
-    case Kind::centre_of_pressure:
-      return contact.centre_of_pressure ? std::optional((*contact.centre_of_pressure)[quantity.component])
-                                        : std::nullopt;
-    case Kind::max_pressure:
-      return contact.max_pressure;
-    case Kind::pairs_in_state:
-      return quantity.component == 0 ? contact.open : quantity.component == 1 ? contact.stick : contact.slip;
-    case Kind::broken_pairs:
-      return contact.broken;
-    case Kind::end_pair:
-      return quantity.component == 0 ? contact.first_in_contact : contact.last_in_contact;
-    case Kind::pore_force:
-      return contact.pore_force;
-    case Kind::total_normal_force:
-      return contact.pore_force ? std::optional(contact.normal_force + *contact.pore_force) : std::nullopt;
-    default:
-      throw BrokenInvariant("a number that is none of a contact");
-  }
-}
-
 }  // namespace
 
 std::optional<double> value_of(const Discretisation& discretisation, const IncrementResult& increment,
@@ -164,7 +132,7 @@ std::optional<double> value_of(const Discretisation& discretisation, const Incre
     case Kind::end_pair:
     case Kind::pore_force:
     case Kind::total_normal_force:
-      return value_of(increment.contacts[index], quantity);
+      return value_in(increment.contacts[index], quantity);
     case Kind::reaction:
       return increment.reactions[index][quantity.component];
     case Kind::support_moment:

@@ -10,6 +10,9 @@ namespace scabo::analysis {
 std::optional<double> value_of(const Discretisation& discretisation, const IncrementResult& increment,
                                const model::Quantity& quantity);
 
+/// The same for a number of one contact.
+std::optional<double> value_in(const ContactResult& contact, const model::Quantity& quantity);
+
 /// What rounding and the tolerance of the certificate leave uncertain of the number, in its unit: `tolerance` times the
 /// largest force, displacement or stress intensity factor of the increment. Zero by symmetry is not found more exactly.
 double rounding_of(const Discretisation& discretisation, const IncrementResult& increment,
