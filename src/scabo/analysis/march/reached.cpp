@@ -43,7 +43,8 @@ std::string above_tolerance(const Prepared& prepared, const Attempt& tried, doub
   const double worst = tried.certificate.worst();
   if (worst <= tolerance)  // in time
     return fmt::format(
-        "the energies of a time step do not balance: {:.2g} of the largest energy is missing or too much, which is more "
+        "the energies of a time step do not balance: {:.2g} of the largest energy is missing or too much, which is "
+        "more "
         "than rounding of bodies that are not very much stiffer than what moves them; make such bodies rigid, or less "
         "stiff",
         tried.certificate.energy_balance);
