@@ -3,126 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "scabo/result/contact_table.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/summary.hpp"
-#include "unit/result/solutions.hpp"
+#include "unit/result/finished_run.hpp"
 
 namespace scabo::result {
 namespace {
 
-using namespace scabo::test;
-using Json = nlohmann::ordered_json;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
-
-const Mat2 small_gradient = (Mat2() << 1e-4, 0.0, 0.0, -2e-4).finished();
-
-analysis::ContactResult contact_result() {
-  analysis::ContactResult contact;
-  contact.name = "joint, left";
-  analysis::PairResult open, slip;
-  open.pair = 1;
-  open.position = {0.1, 1.0};
-  open.gap = 1e-4;
-  open.state = contact::ContactState::open;
-  slip.pair = 2;
-  slip.position = {0.2, 1.0};
-  slip.slip = -0.3;
-  slip.normal_force = 100.0;
-  slip.tangential_force = 1.0 / 3.0;
-  slip.pressure = 4e5;
-  slip.shear = -2.5;
-  slip.state = contact::ContactState::slip;
-  slip.displacement_a = {1.5, 2.5};
-  slip.displacement_b = {3.5, 4.5};
-  contact.pairs = {open, slip};
-  contact.normal_force = 100.0;
-  contact.tangential_force = 1.0 / 3.0;
-  contact.open = contact.slip = 1;
-  contact.max_gap = 1e-4;
-  contact.max_pressure = 4e5;
-  contact.first_in_contact = contact.last_in_contact = 2;
-  return contact;
-}
-
-analysis::StaticSolution two_bodies() {
-  auto model = model_of(
-      {elastic("upper", rectangle({0.0, 1.0}, {1.0, 1.0}), 0.5), finite_elements("lower", {0.0, 0.0}, {1.0, 1.0}, 0.5)},
-      model::Plane::stress);
-  model.supports.resize(2);
-  model.supports[0].name = "lower.bottom";
-  model.supports[1].name = "upper.top";
-  return solution_of(model);
-}
-
-analysis::IncrementResult increment_number(const analysis::StaticSolution& solution, int number) {
-  auto increment = increment_of(solution, linear_field(small_gradient));
-  increment.increment = number;
-  increment.reached = 0.25 * number;
-  increment.factors = {{"tip", 0.25 * number}};
-  increment.newton_iterations = 3;
-  increment.residual = 1e-15;
-  increment.contacts = {contact_result()};
-  increment.reactions = {{1.0, -2.0}, {0.1, 0.2}};
-  increment.certificate.penetration = 3e-13;
-  increment.energy = {5.0, 4.0, 1.0};
-  return increment;
-}
-
-std::vector<std::string> names_in(const std::filesystem::path& path) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path)) names.push_back(entry.path().filename().string());
-  return names;
-}
-
-std::vector<std::string> keys_of(const Json& json) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : json.items()) keys.push_back(key);
-  return keys;
-}
-
-/// A run of two converged increments and one that is not.
-class FinishedRun {
- public:
-  explicit FinishedRun(const std::filesystem::path& path) : solution(two_bodies()), directory(path, solution.model) {
-    for (const int number : {1, 2}) add(increment_number(solution, number));
-    analysis::IncrementResult failed;
-    failed.step = 1;
-    failed.step_name = "press";
-    failed.increment = 3;
-    failed.residual = std::numeric_limits<double>::quiet_NaN();
-    failed.newton_iterations = 50;
-    failed.reason = "the line search found no descent";
-    add(failed);
-    solution.outcome = analysis::Outcome::not_converged;
-    solution.reason = "step press, increment 3: the line search found no descent";
-    solution.warnings = {{WarningKind::few_pairs, "joint", "a first warning"}};
-    solution.timing.total = 1.25;
-    directory.finish(solution);
-  }
-
-  analysis::StaticSolution solution;
-  ResultsDirectory directory;
-
- private:
-  void add(analysis::IncrementResult increment) {
-    solution.increments.push_back(std::move(increment));
-    directory.add(solution, solution.increments.back());
-  }
-};
-
-class Results : public testing::Test {
- protected:
-  TemporaryDirectory holder_;
-  std::filesystem::path path_ = holder_.path() / "deep" / "out";
-};
 
 TEST_F(Results, FilesOfARun) {
   const FinishedRun run(path_);
@@ -196,116 +89,6 @@ TEST_F(Results, ContactTable) {
             "step,increment,contact,pair,x,y,gap,slip,normal_force,tangential_force,pressure,shear,state,"
             "normal_displacement_a,tangential_displacement_a,normal_displacement_b,tangential_displacement_b\n" +
                 rows + second);
-}
-
-TEST_F(Results, SummaryHasTheDocumentedKeys) {
-  const FinishedRun run(path_);
-  const Json summary = Json::parse(content_of(path_ / "summary.json"));
-  EXPECT_THAT(keys_of(summary), ElementsAre("scabo", "title", "status", "reason", "warnings", "warning_kinds", "model",
-                                            "passes", "increments", "timing", "peak_memory_bytes"));
-  EXPECT_THAT(keys_of(summary["model"]), ElementsAre("nodes", "dofs", "super_elements", "contact_pairs", "plane",
-                                                     "thickness", "materials", "bodies", "contacts", "steps"));
-  EXPECT_THAT(keys_of(summary["model"]["materials"][0]), ElementsAre("name", "law", "young", "poisson", "density"));
-  EXPECT_THAT(keys_of(summary["model"]["bodies"][0]),
-              ElementsAre("name", "rigid", "unbounded", "materials", "nodes", "super_elements", "finite_elements"));
-  EXPECT_THAT(keys_of(summary["timing"]), ElementsAre("read", "mesh", "super_elements", "assemble", "factorise",
-                                                      "condense", "newton", "recover", "write", "total"));
-  const Json& increment = summary["increments"][0];
-  EXPECT_THAT(keys_of(increment), ElementsAre("step", "increment", "reached", "factors", "converged",
-                                              "newton_iterations", "coarse_iterations", "residual", "contacts",
-                                              "reactions", "cracks", "certificate", "energy", "error"));
-  EXPECT_THAT(keys_of(increment["contacts"]["joint, left"]),
-              ElementsAre("normal_force", "tangential_force", "force", "moment", "centre_of_pressure", "open", "stick",
-                          "slip", "max_gap", "max_pressure", "first_pair_in_contact", "last_pair_in_contact"));
-  EXPECT_THAT(keys_of(increment["certificate"]), ElementsAre("equilibrium", "penetration", "tension", "friction_excess",
-                                                             "complementarity", "slip_direction", "rigid_balance"));
-  EXPECT_THAT(keys_of(increment["energy"]), ElementsAre("external", "elastic", "friction", "friction_error"));
-}
-
-// A run drops the pairs of earlier increments; the summary once counted 0 pairs for it.
-TEST_F(Results, PairsAreCountedByTheTotalsThatRemain) {
-  analysis::StaticSolution solution = two_bodies();
-  for (const int number : {1, 2}) solution.increments.push_back(increment_number(solution, number));
-  for (analysis::ContactResult& contact : solution.increments.front().contacts) contact.pairs.clear();
-  EXPECT_EQ(sizes_of(solution).contact_pairs, 2);
-}
-
-TEST_F(Results, SummaryValues) {
-  const FinishedRun run(path_);
-  const Json summary = Json::parse(content_of(path_ / "summary.json"));
-  EXPECT_EQ(summary["status"], "not_converged");
-  EXPECT_EQ(summary["reason"], "step press, increment 3: the line search found no descent");
-  EXPECT_EQ(summary["warnings"], Json::array({"a first warning"}));
-  EXPECT_EQ(summary["warning_kinds"], Json::array({"few_pairs"}));
-  EXPECT_EQ(summary["model"]["nodes"], 16 + 21);
-  EXPECT_EQ(summary["model"]["dofs"], 2 * (16 + 21));
-  EXPECT_EQ(summary["model"]["super_elements"], 1);
-  EXPECT_EQ(summary["model"]["contact_pairs"], 2);
-  EXPECT_EQ(summary["model"]["plane"], "stress");
-  const Json& bodies = summary["model"]["bodies"];
-  ASSERT_EQ(bodies.size(), 2U);
-  EXPECT_EQ(bodies[0]["name"], "upper");
-  EXPECT_EQ(bodies[0]["materials"], Json::array({run.solution.model.materials[0].name}));
-  EXPECT_EQ(bodies[0]["super_elements"], 1);
-  EXPECT_EQ(bodies[1]["finite_elements"], 4);
-  EXPECT_EQ(bodies[1]["nodes"], 21);
-  ASSERT_EQ(summary["increments"].size(), 3U);
-  const Json& increment = summary["increments"][1];
-  EXPECT_EQ(increment["increment"], 2);
-  EXPECT_EQ(increment["factors"]["tip"], 0.5);
-  EXPECT_EQ(increment["contacts"]["joint, left"]["tangential_force"].get<double>(), 1.0 / 3.0);
-  EXPECT_EQ(increment["contacts"]["joint, left"]["first_pair_in_contact"], 2);
-  EXPECT_EQ(increment["reactions"]["lower.bottom"], Json::array({1.0, -2.0}));
-  EXPECT_EQ(increment["certificate"]["penetration"], 3e-13);
-  EXPECT_EQ(increment["energy"]["friction"], 1.0);
-  EXPECT_EQ(summary["timing"]["total"], 1.25);
-  EXPECT_GT(summary["timing"]["recover"], 0.0);
-  EXPECT_GT(summary["peak_memory_bytes"], 1000000);
-}
-
-TEST_F(Results, AnIncrementThatDidNotConvergeIsNoResult) {
-  const FinishedRun run(path_);
-  const Json summary = Json::parse(content_of(path_ / "summary.json"));
-  const Json& failed = summary["increments"][2];
-  EXPECT_EQ(failed["converged"], false);
-  EXPECT_EQ(failed["newton_iterations"], 50);
-  EXPECT_TRUE(failed["residual"].is_null());
-  EXPECT_TRUE(failed["contacts"].empty());
-  EXPECT_TRUE(failed["reactions"].empty());
-  EXPECT_TRUE(failed["certificate"].is_null());
-  EXPECT_TRUE(failed["energy"].is_null());
-  EXPECT_THAT(content_of(path_ / "log.txt"), HasSubstr("NOT CONVERGED: the line search found no descent"));
-}
-
-TEST_F(Results, NothingInContactIsNull) {
-  auto solution = two_bodies();
-  auto increment = increment_number(solution, 1);
-  increment.contacts[0].first_in_contact.reset();
-  increment.contacts[0].last_in_contact.reset();
-  solution.increments = {increment};
-  const Json summary = Json::parse(summary_content(solution, solution.timing, false));
-  EXPECT_TRUE(summary["increments"][0]["contacts"]["joint, left"]["first_pair_in_contact"].is_null());
-  EXPECT_TRUE(summary["reason"].is_null());
-}
-
-TEST_F(Results, ARunningSummarySaysSo) {
-  const auto solution = two_bodies();
-  const Json summary = Json::parse(summary_content(solution, solution.timing, true));
-  EXPECT_EQ(summary["status"], "running");
-  EXPECT_TRUE(summary["timing"]["total"].is_null());
-}
-
-TEST_F(Results, ATitleThatIsNoUtf8DoesNotLoseTheSummary) {
-  auto solution = two_bodies();
-  solution.model.title = "b\xf6se";
-  EXPECT_NO_THROW(Json::parse(summary_content(solution, solution.timing, false)));
-}
-
-TEST_F(Results, TimeOfTheCollectionRunsFromStepToStep) {
-  const FinishedRun run(path_);
-  const std::string collection = content_of(path_ / "fields.pvd");
-  EXPECT_THAT(collection, HasSubstr(R"(<DataSet timestep="0.25" part="0" file="fields_0001.vtu"/>)"));
-  EXPECT_THAT(collection, HasSubstr(R"(<DataSet timestep="0.5" part="0" file="fields_0002.vtu"/>)"));
 }
 
 TEST_F(Results, FinishedIncrementsAreReadableWithoutTheEndOfTheRun) {
