@@ -21,7 +21,7 @@
 #include "scabo/element/plane/finite_element.hpp"
 #include "scabo/linalg/dense.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
-#include "scabo/mesh/many_cells.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
 #include "scabo/system/assembly.hpp"
 
 using namespace scabo;

@@ -22,7 +22,7 @@
 #include "scabo/element/plane/batch.hpp"
 #include "scabo/files/read_mesh_file.hpp"
 #include "scabo/linalg/dense.hpp"
-#include "scabo/mesh/many_cells.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
 
 namespace {
 

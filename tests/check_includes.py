@@ -39,6 +39,8 @@ PLAIN_VALUES = ["linalg/parallel.hpp", "contact/delassus.hpp", "contact/rigid_ma
 ROOMS = {"element": ["sbfem", "facet", "plane", "space"],
          "analysis": ["state", "diagnostics", "march", "quasistatic", "dynamics", "modal", "growth", "adaptive", "space"]}
 SCHEMES = ["quasistatic", "dynamics", "modal"]
+# Rooms that never include each other; what they share stands beside them.
+APART = {"mesh": ["plane", "space"]}
 # A room that may include fewer parts than the part it belongs to: the algebra of super-elements knows no coordinates.
 ALLOWED_IN_ROOM = {"element/sbfem": ["base", "linalg"]}
 
@@ -81,6 +83,8 @@ def violation_of_room(part, header, included):
     """The same for two files of one part."""
     rooms = ROOMS.get(part, [])
     own, target = (name.split("/")[1] for name in (header, included))
+    if own != target and own in APART.get(part, []) and target in APART.get(part, []):
+        return f"{part}/{own}/ and {part}/{target}/ do not include each other"
     if own not in rooms:
         return None
     if target not in rooms:
@@ -138,6 +142,8 @@ class SelfTest(unittest.TestCase):
         "model/model.hpp": ["base/types.hpp"],
         "input/read.hpp": ["model/model.hpp"],
         "mesh/mesh.hpp": ["model/model.hpp"],
+        "mesh/plane/quadtree.hpp": ["mesh/mesh.hpp"],
+        "mesh/space/solid.hpp": ["model/model.hpp"],
         "element/sbfem/doubling.hpp": ["linalg/dense.hpp"],
         "element/facet/ring.hpp": ["element/sbfem/doubling.hpp", "mesh/mesh.hpp"],
         "element/plane/law.hpp": ["element/facet/ring.hpp"],
@@ -177,6 +183,7 @@ class SelfTest(unittest.TestCase):
             ("src/scabo/model/read.cpp", '#include "scabo/linalg/dense.hpp"', "not linalg/"),
             ("src/scabo/mesh/mesh.cpp", '#include "scabo/linalg/dense.hpp"', "not linalg/"),
             ("src/scabo/mesh/mesh.cpp", '  #  include "scabo/contact/problem.hpp"', "not contact/"),
+            ("src/scabo/mesh/space/solid.hpp", '#include "scabo/mesh/plane/quadtree.hpp"', "do not include each other"),
             ("src/scabo/linalg/dense.cpp", '#include "scabo/mesh/mesh.hpp"', "not mesh/"),
             ("src/scabo/base/log.cpp", '#include "scabo/linalg/dense.hpp"', "no other part"),
             ("src/scabo/system/load.cpp", '#include "scabo/analysis/static.hpp"', "not analysis/"),

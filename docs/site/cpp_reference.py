@@ -18,7 +18,7 @@ SOURCE = ROOT / "src" / "scabo"
 FOLDERS = {
     "input": ("Model files", ["read_model.hpp"]),
     "model": ("The model", ["model.hpp", "*.hpp"]),
-    "mesh": ("Meshes", ["mesh.hpp", "domain.hpp"]),
+    "mesh": ("Meshes", ["mesh.hpp", "plane/domain.hpp"]),
     "element": ("Super-elements", ["sbfem/super_element.hpp", "sbfem/modal_solution.hpp", "facet/coefficient_matrices.hpp", "facet/mass.hpp",
                                    "plane/elasticity.hpp", "plane/stiffness.hpp", "plane/interior_field.hpp", "plane/stress_intensity.hpp",
                                    "plane/singular_field.hpp", "cell_library.hpp"]),

@@ -8,7 +8,7 @@
 
 #include "arrays.hpp"
 #include "scabo/analysis/diagnostics/mechanism.hpp"
-#include "scabo/mesh/output_points.hpp"
+#include "scabo/mesh/plane/output_points.hpp"
 #include "scabo/result/history.hpp"
 #include "scabo/result/point_tables.hpp"
 #include "scabo/result/recovery.hpp"

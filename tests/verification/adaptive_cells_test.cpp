@@ -8,7 +8,7 @@
 
 #include "scabo/analysis/adaptive/adaptive.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
-#include "scabo/mesh/division.hpp"
+#include "scabo/mesh/plane/division.hpp"
 #include "verification/models.hpp"
 #include "verification/run.hpp"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "run.hpp"
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/system/loads.hpp"
 

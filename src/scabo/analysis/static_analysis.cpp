@@ -12,7 +12,7 @@
 #include "scabo/analysis/state/outside.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/mesh/output_points.hpp"
+#include "scabo/mesh/plane/output_points.hpp"
 #include "scabo/model/validate.hpp"
 
 namespace scabo::analysis {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "scabo/base/types.hpp"
-#include "scabo/geometry/outline.hpp"
+#include "scabo/geometry/plane/outline.hpp"
 
 namespace scabo::geometry {
 

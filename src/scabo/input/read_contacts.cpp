@@ -10,8 +10,8 @@
 #include <variant>
 
 #include "scabo/geometry/box.hpp"
-#include "scabo/geometry/foot_points.hpp"
-#include "scabo/geometry/touching.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
+#include "scabo/geometry/plane/touching.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/model/side_faces.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/input/read_inner_loads.hpp"
 #include "scabo/input/suggestions.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/plane/outline_checks.hpp"
 #include "scabo/input/reading.hpp"
 #include "scabo/input/suggestions.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scabo/geometry/box_tree.hpp"
-#include "scabo/geometry/common_area.hpp"
+#include "scabo/geometry/plane/common_area.hpp"
 
 namespace scabo::model {
 

@@ -10,7 +10,7 @@
 #include "scabo/base/error.hpp"
 #include "scabo/base/types.hpp"
 #include "scabo/files/imported_mesh.hpp"
-#include "scabo/geometry/outline.hpp"
+#include "scabo/geometry/plane/outline.hpp"
 #include "scabo/model/image_shape.hpp"
 
 namespace scabo::model {

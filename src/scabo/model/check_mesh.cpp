@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/geometry/foot_points.hpp"
-#include "scabo/geometry/outline_checks.hpp"
-#include "scabo/geometry/pieces.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
+#include "scabo/geometry/plane/outline_checks.hpp"
+#include "scabo/geometry/plane/pieces.hpp"
 #include "scabo/model/body_check.hpp"
 
 namespace scabo::model {

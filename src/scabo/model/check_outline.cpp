@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "scabo/geometry/box.hpp"
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/model/checking.hpp"
 
 namespace scabo::model {

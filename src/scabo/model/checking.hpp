@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/plane/outline_checks.hpp"
 #include "scabo/model/limits.hpp"
 #include "scabo/model/validate.hpp"
 #include "scabo/model/wording.hpp"

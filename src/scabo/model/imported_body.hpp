@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "scabo/files/imported_mesh.hpp"
-#include "scabo/geometry/outline.hpp"
+#include "scabo/geometry/plane/outline.hpp"
 
 namespace scabo::model {
 

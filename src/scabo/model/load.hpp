@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "scabo/geometry/outline.hpp"
+#include "scabo/geometry/plane/outline.hpp"
 #include "scabo/model/place.hpp"
 
 namespace scabo::model {

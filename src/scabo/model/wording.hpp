@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scabo/base/types.hpp"
-#include "scabo/geometry/outline.hpp"
+#include "scabo/geometry/plane/outline.hpp"
 
 namespace scabo::model {
 

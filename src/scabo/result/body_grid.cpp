@@ -8,7 +8,7 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/element/plane/finite_element.hpp"
-#include "scabo/geometry/polygon.hpp"
+#include "scabo/geometry/plane/polygon.hpp"
 
 namespace scabo::result {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "scabo/geometry/polygon.hpp"
+#include "scabo/geometry/plane/polygon.hpp"
 
 namespace scabo::result {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scabo/geometry/box.hpp"
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 
 namespace scabo::result {
 

@@ -11,7 +11,7 @@
 
 #include "scabo/analysis/state/discretisation.hpp"
 #include "scabo/analysis/state/results.hpp"
-#include "scabo/mesh/output_points.hpp"
+#include "scabo/mesh/plane/output_points.hpp"
 
 namespace scabo::result {
 

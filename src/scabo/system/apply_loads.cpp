@@ -8,7 +8,7 @@
 #include "scabo/base/components.hpp"
 #include "scabo/element/plane/finite_element.hpp"
 #include "scabo/element/sbfem/modal_solution.hpp"
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 #include "scabo/system/pore_pressure.hpp"

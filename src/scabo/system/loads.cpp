@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "scabo/base/components.hpp"
-#include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 
 namespace scabo::system {
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "scabo/base/components.hpp"
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"
 #include "scabo/system/tributary_lengths.hpp"

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "scabo/mesh/concurrent_rays.hpp"
-#include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/plane/concurrent_rays.hpp"
+#include "scabo/mesh/plane/interface.hpp"
 
 namespace scabo::system {
 

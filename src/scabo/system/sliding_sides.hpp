@@ -1,10 +1,10 @@
 // Normals of sides along which a body slides or rolls that contact alone holds.
 //
-// Two arcs, or an arc and a straight edge, press along lines through one point, or parallel ones (mesh/rays.hpp).
+// Two arcs, or an arc and a straight edge, press along lines through one point, or parallel ones (mesh/plane/rays.hpp).
 // Without friction a body that may turn about that point, or move across, is not held against this motion. The normals
 // of pairs have that property only as exactly as nodes are opposite each other, and those weighted like the forces of a
-// pressure (mesh/interface.hpp) only as exactly as elements are arcs. However small their deviations are, the motion
-// would then be determined by them alone: equilibrium along it asks that the contact forces times the deviations
+// pressure (mesh/plane/interface.hpp) only as exactly as elements are arcs. However small their deviations are, the
+// motion would then be determined by them alone: equilibrium along it asks that the contact forces times the deviations
 // vanish, for which the body would move by the depth of the contact over the size of the deviations, and the forces
 // would be others by as much as they are.
 #pragma once

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "scabo/geometry/foot_points.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/system/loads.hpp"
 #include "scabo/system/structure.hpp"
 

@@ -9,9 +9,9 @@
 #include <set>
 
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 #include "scabo/model/side_faces.hpp"
 #include "scabo/system/assembly.hpp"
 #include "scabo/system/loads.hpp"

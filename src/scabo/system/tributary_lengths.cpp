@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scabo/geometry/line_basis.hpp"
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 
 namespace scabo::system {
 
@@ -69,7 +69,8 @@ std::vector<double> lengths_of_side(const model::Place& place, const mesh::Mesh&
   return lengths;
 }
 
-/// A tip at which the faces of a crack are closed but, over a short length, free of traction (mesh/tip_rings.hpp).
+/// A tip at which the faces of a crack are closed but, over a short length, free of traction
+/// (mesh/plane/tip_rings.hpp).
 struct ClosedTip {
   Vec2 at = Vec2::Zero();
   double free = 0.0;  ///< length, > 0

@@ -6,8 +6,8 @@
 //     w_i = | sum over its elements of the Gauss-Lobatto weight of the node times x,eta |                      (1)
 //
 // On a straight quadratic element these are 1/6, 4/6 and 1/6 of its length. The sum is one of vectors: rotated by 90
-// degrees it is the integral of N_i n, along which contact presses (mesh/contact_side.hpp), so that a uniform pressure
-// p has exactly the nodal forces p w_i, also on curved edges.
+// degrees it is the integral of N_i n, along which contact presses (mesh/plane/contact_side.hpp), so that a uniform
+// pressure p has exactly the nodal forces p w_i, also on curved edges.
 //
 // Only the edges of the contact itself count, and of them only elements all of whose nodes take part: under the corner
 // of a block that stands in the middle of a floor, the elements of the floor beside the block do not count. A node
@@ -15,9 +15,9 @@
 // It does not change if the sides are swapped, and on matching elements both sides agree except for the gap between
 // curved sides. Two rigid sides have two pairs, each with half of the length in which they face each other.
 //
-// Beside the tip of a crack whose faces are in contact, a length d of them is free of traction (mesh/tip_rings.hpp),
-// though the crack is closed there. What it would carry passes beside it, as at a crack of length d that a pressure p
-// closes: at the distance r from the tip
+// Beside the tip of a crack whose faces are in contact, a length d of them is free of traction
+// (mesh/plane/tip_rings.hpp), though the crack is closed there. What it would carry passes beside it, as at a crack of
+// length d that a pressure p closes: at the distance r from the tip
 //
 //     p (r - d / 2) / sqrt(r (r - d)),                                                                       (2)
 //

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "scabo/geometry/box.hpp"
-#include "scabo/geometry/foot_points.hpp"
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
+#include "scabo/geometry/plane/outline_checks.hpp"
 
 namespace scabo::geometry {
 namespace {

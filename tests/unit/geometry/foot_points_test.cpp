@@ -1,10 +1,10 @@
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "scabo/mesh/contact_side.hpp"
+#include "scabo/mesh/plane/contact_side.hpp"
 #include "unit/mesh/models.hpp"
 
 namespace scabo::mesh {

@@ -1,5 +1,5 @@
 // Crossing outlines and what a scaling centre sees.
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/plane/outline_checks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "unit/input/models.hpp"
 
 namespace scabo::geometry {

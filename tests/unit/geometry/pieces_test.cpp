@@ -1,5 +1,5 @@
 // Edges that cross, touch or lie on each other, and outlines that overlap or share area.
-#include "scabo/geometry/pieces.hpp"
+#include "scabo/geometry/plane/pieces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "scabo/geometry/common_area.hpp"
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/common_area.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 
 namespace scabo::geometry {
 namespace {

@@ -1,5 +1,5 @@
 // Which edges of different bodies lie on each other.
-#include "scabo/geometry/touching.hpp"
+#include "scabo/geometry/plane/touching.hpp"
 
 #include <gtest/gtest.h>
 

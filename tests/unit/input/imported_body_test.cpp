@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "scabo/files/read_mesh_file.hpp"
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/input/read_model.hpp"
 #include "support/mesh_text.hpp"
 

@@ -1,11 +1,11 @@
 // The estimate of how many nodes a division has, against divisions.
-#include "scabo/mesh/approximate_nodes.hpp"
+#include "scabo/mesh/plane/approximate_nodes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "models.hpp"
-#include "scabo/mesh/many_cells.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
 
 namespace scabo::mesh {
 namespace {

@@ -1,14 +1,14 @@
 // Faces of cracks between cells, and rings around their tips.
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/mesh/many_cells.hpp"
 #include "scabo/mesh/mesh.hpp"
-#include "scabo/mesh/tip_rings.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
+#include "scabo/mesh/plane/tip_rings.hpp"
 #include "unit/mesh/models.hpp"
 
 namespace scabo::mesh {

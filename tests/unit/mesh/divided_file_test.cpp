@@ -1,4 +1,4 @@
-#include "scabo/mesh/divided_file.hpp"
+#include "scabo/mesh/plane/divided_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scabo/mesh/domain.hpp"
+#include "scabo/mesh/plane/domain.hpp"
 
 namespace scabo::test {
 

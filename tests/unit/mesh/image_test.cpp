@@ -1,5 +1,5 @@
 // Meshes of images, and PNG files.
-#include "scabo/mesh/image.hpp"
+#include "scabo/mesh/plane/image.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 #include "models.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/files/png.hpp"
-#include "scabo/mesh/many_cells.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
 #include "support/random.hpp"
 
 namespace scabo::mesh {

@@ -1,5 +1,5 @@
 // Cells of mesh files as cells of a body.
-#include "scabo/mesh/imported_cells.hpp"
+#include "scabo/mesh/plane/imported_cells.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Two straight or curved sides with matching nodes.
-#include "scabo/mesh/interface.hpp"
+#include "scabo/mesh/plane/interface.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "models.hpp"
-#include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/plane/divide.hpp"
 
 namespace scabo::mesh {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "matched_meshes.hpp"
-#include "scabo/mesh/match.hpp"
+#include "scabo/mesh/plane/match.hpp"
 
 namespace scabo::mesh {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "matched_meshes.hpp"
-#include "scabo/mesh/many_cells.hpp"
-#include "scabo/mesh/match.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
+#include "scabo/mesh/plane/match.hpp"
 
 namespace scabo::mesh {
 namespace {

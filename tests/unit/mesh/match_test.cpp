@@ -1,5 +1,5 @@
 // Straight sides of contacts that do not match are divided until they do.
-#include "scabo/mesh/match.hpp"
+#include "scabo/mesh/plane/match.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

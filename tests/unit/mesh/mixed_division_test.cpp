@@ -3,7 +3,7 @@
 
 #include "models.hpp"
 #include "scabo/geometry/line_basis.hpp"
-#include "scabo/mesh/division.hpp"
+#include "scabo/mesh/plane/division.hpp"
 
 namespace scabo::mesh {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "scabo/mesh/divide.hpp"
-#include "scabo/mesh/interface.hpp"
 #include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/plane/divide.hpp"
+#include "scabo/mesh/plane/interface.hpp"
 #include "scabo/model/model.hpp"
 
 namespace scabo::test {

@@ -1,5 +1,5 @@
 // Cells in narrow places, at crack tips that are close to each other, and beside small holes.
-#include "scabo/mesh/narrow_places.hpp"
+#include "scabo/mesh/plane/narrow_places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "models.hpp"
-#include "scabo/mesh/crack_net.hpp"
-#include "scabo/mesh/line_net.hpp"
-#include "scabo/mesh/many_cells.hpp"
+#include "scabo/mesh/plane/crack_net.hpp"
+#include "scabo/mesh/plane/line_net.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
 
 namespace scabo::mesh {
 namespace {

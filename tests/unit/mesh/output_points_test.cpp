@@ -1,5 +1,5 @@
 // Which bodies hold a point: outside bodies with and without side faces, cracks, arcs.
-#include "scabo/mesh/output_points.hpp"
+#include "scabo/mesh/plane/output_points.hpp"
 
 #include <gtest/gtest.h>
 

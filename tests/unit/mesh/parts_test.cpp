@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "scabo/mesh/domain_triangles.hpp"
-#include "scabo/mesh/star_cells.hpp"
+#include "scabo/mesh/plane/domain_triangles.hpp"
+#include "scabo/mesh/plane/star_cells.hpp"
 #include "unit/mesh/domains.hpp"
 
 namespace scabo::mesh {

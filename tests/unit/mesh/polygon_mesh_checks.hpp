@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scabo/mesh/domain.hpp"
+#include "scabo/mesh/plane/domain.hpp"
 
 namespace scabo::test {
 

@@ -1,5 +1,5 @@
 // Meshes of polygons: every mesh tiles its domain with cells that are seen from their centres and keeps all lines.
-#include "scabo/mesh/polygons.hpp"
+#include "scabo/mesh/plane/polygons.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Quadtree meshes of bodies with lines of all kinds.
-#include "scabo/mesh/quadtree.hpp"
+#include "scabo/mesh/plane/quadtree.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

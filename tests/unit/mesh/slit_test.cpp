@@ -1,4 +1,4 @@
-#include "scabo/mesh/slit.hpp"
+#include "scabo/mesh/plane/slit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 
 #include "matched_meshes.hpp"
-#include "scabo/mesh/crack_faces.hpp"
-#include "scabo/mesh/imported_cells.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
+#include "scabo/mesh/plane/imported_cells.hpp"
 #include "scabo/model/imported_body.hpp"
 
 namespace scabo::mesh {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "models.hpp"
-#include "scabo/geometry/foot_points.hpp"
-#include "scabo/mesh/many_cells.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
 
 namespace scabo::mesh {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "scabo/element/cell_library.hpp"
 #include "scabo/input/read_model.hpp"
-#include "scabo/mesh/divide.hpp"
+#include "scabo/mesh/plane/divide.hpp"
 #include "scabo/system/contact_system.hpp"
 
 namespace scabo::system {

@@ -9,7 +9,7 @@
 #include "scabo/analysis/adaptive/error_estimate.hpp"
 #include "scabo/analysis/adaptive/frozen_elements.hpp"
 #include "scabo/analysis/quasistatic/run.hpp"
-#include "scabo/mesh/matched_side.hpp"
+#include "scabo/mesh/plane/matched_side.hpp"
 
 namespace scabo::analysis {
 

@@ -15,7 +15,7 @@
 //    part at the corner, elsewhere in the middle (Melenk and Wohlmuth 2001: every element carries a predicted error).
 //    Elements of two such bodies that face each other in a contact are changed alike.
 //  - Cells of polygon and quadtree meshes get smaller; their order stays. The sides of their contacts, and of those
-//    between a body with and one without a tolerance, are matched in every mesh (mesh/match.hpp).
+//    between a body with and one without a tolerance, are matched in every mesh (mesh/plane/match.hpp).
 //
 // Stress under a point force is infinite, and so is its energy. Of a body of one super-element, elements beside point
 // forces, beside point supports with a reaction and beside `near` places keep their length and order in all meshes,

@@ -5,7 +5,7 @@
 
 #include "scabo/analysis/adaptive/error_estimate.hpp"
 #include "scabo/analysis/adaptive/refinement.hpp"
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 
 namespace scabo::analysis {
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "scabo/geometry/box.hpp"
-#include "scabo/geometry/foot_points.hpp"
-#include "scabo/mesh/many_cells.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
+#include "scabo/mesh/plane/many_cells.hpp"
 
 namespace scabo::analysis {
 
@@ -94,7 +94,7 @@ Partners partners_of(const model::Model& model, const mesh::Mesh& mesh, const me
 }
 
 /// The element of the division of an edge with the middle of an element of the mesh, in which a contact may have
-/// inserted nodes (mesh/match.hpp).
+/// inserted nodes (mesh/plane/match.hpp).
 int divided_element(const geometry::Edge& edge, const mesh::EdgeDivision& division, const mesh::BodyMesh& mesh,
                     const mesh::LineElement& element) {
   double middle = 0.0;

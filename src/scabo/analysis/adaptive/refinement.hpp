@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "scabo/analysis/march/options.hpp"
-#include "scabo/mesh/division.hpp"
+#include "scabo/mesh/plane/division.hpp"
 
 namespace scabo::analysis {
 
@@ -74,7 +74,7 @@ class BoundaryRefinement : public Refinement {
 /// Cells of all other meshes: sizes that become smaller from pass to pass. A marked square is halved; a
 /// polygon of order p with the squared error e gets the size h (e' / e)^(1 / (2 p + 2)), between 0.35 h and 0.7 h, with
 /// e' the squared error that each of the present cells may have. So does a triangle. A cell of a file is halved as a
-/// square is (mesh/divided_file.hpp).
+/// square is (mesh/plane/divided_file.hpp).
 class CellRefinement : public Refinement {
  public:
   explicit CellRefinement(const model::Model& model);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scabo/base/components.hpp"
-#include "scabo/geometry/outline.hpp"
+#include "scabo/geometry/plane/outline.hpp"
 
 namespace scabo::analysis {
 

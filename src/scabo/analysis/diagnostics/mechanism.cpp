@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scabo/geometry/polygon.hpp"
+#include "scabo/geometry/plane/polygon.hpp"
 
 namespace scabo::analysis {
 

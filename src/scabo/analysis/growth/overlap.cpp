@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "scabo/base/components.hpp"
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 #include "scabo/model/wording.hpp"
 
 namespace scabo::analysis {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "scabo/geometry/foot_points.hpp"
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
+#include "scabo/geometry/plane/outline_checks.hpp"
 
 namespace scabo::analysis {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "scabo/geometry/foot_points.hpp"
-#include "scabo/geometry/outline_checks.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
+#include "scabo/geometry/plane/outline_checks.hpp"
 #include "scabo/model/wording.hpp"
 
 namespace scabo::analysis {

@@ -5,10 +5,11 @@
 //
 //     placement of side s = t sum_i p_n,i (u_s,i . t) / sum_i p_n,i
 //
-// t: along the straight edge of the contact. Both sides are divided again as they face each other there (mesh/match),
-// which gives new nodes, super-elements and pairs; divisions always begin with those that the model asks for.
-// Stiffness, loads and supports are those of the bodies where they are at the start. The displacements of a part are
-// then counted from its translation c (Replacing::moved), without which rounding of K u would exceed the forces.
+// t: along the straight edge of the contact. Both sides are divided again as they face each other there
+// (mesh/plane/match), which gives new nodes, super-elements and pairs; divisions always begin with those that the model
+// asks for. Stiffness, loads and supports are those of the bodies where they are at the start. The displacements of a
+// part are then counted from its translation c (Replacing::moved), without which rounding of K u would exceed the
+// forces.
 //
 // What is carried over, by arc length on either side and as the mean of both: tractions of the pairs, the direction of
 // their slip, and slip so far. Contact is then solved again under the same loads, and the totals of its forces change

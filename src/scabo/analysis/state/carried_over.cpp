@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scabo/geometry/foot_points.hpp"
+#include "scabo/geometry/plane/foot_points.hpp"
 
 namespace scabo::analysis {
 

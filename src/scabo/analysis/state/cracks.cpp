@@ -9,7 +9,7 @@
 #include <map>
 #include <numbers>
 
-#include "scabo/mesh/crack_faces.hpp"
+#include "scabo/mesh/plane/crack_faces.hpp"
 #include "scabo/model/side_faces.hpp"
 
 namespace scabo::analysis {

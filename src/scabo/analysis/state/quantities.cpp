@@ -12,7 +12,7 @@
 #include "scabo/element/cell_locator.hpp"
 #include "scabo/element/plane/elasticity.hpp"
 #include "scabo/linalg/general_solver.hpp"
-#include "scabo/mesh/output_points.hpp"
+#include "scabo/mesh/plane/output_points.hpp"
 
 namespace scabo::analysis {
 

@@ -1,0 +1,44 @@
+// Line elements on the sides of cells that are polygons; sides on arcs are curved.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "scabo/mesh/mesh.hpp"
+#include "scabo/mesh/plane/domain.hpp"
+
+namespace scabo::mesh {
+
+/// Nodes within a side are made once, for the cells on both sides of it.
+class CellSides {
+ public:
+  /// Keeps references; adds to `nodes`, which begin with those of the polygons.
+  CellSides(const PolygonMesh& polygons, const Domain& domain, int order, std::vector<Vec2>& nodes);
+
+  /// The elements from node `a` to node `b`, two corners of a polygon that follow each other.
+  std::vector<LineElement> elements(int a, int b);
+
+  /// The arc on which a side lies; empty: it is straight.
+  std::optional<geometry::Arc> arc_of(int a, int b) const;
+
+ private:
+  using Ends = std::pair<int, int>;  // lower number first
+
+  void find_arcs(const PolygonMesh& polygons);
+  void divide_at_tip(const Vec2& tip, const Ends& ends);
+  LineElement element(int a, int b);
+  const std::vector<int>& nodes_inside(const Ends& ends);
+  const Vec2& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  int add_node(const Vec2& x);
+
+  const Domain& domain_;
+  int order_;
+  std::vector<Vec2>& nodes_;
+  std::map<Ends, std::size_t> on_arc_;       // line of the domain
+  std::map<Ends, std::vector<int>> parts_;   // ends of elements that divide a side, from the lower number on
+  std::map<Ends, std::vector<int>> inside_;  // nodes between the ends of an element, from the lower number on
+};
+
+}  // namespace scabo::mesh
