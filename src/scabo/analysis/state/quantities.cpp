@@ -289,10 +289,13 @@ void add_stress_intensity(const Prepared& prepared, const model::Quantity& quant
   }
 }
 
-/// K u, the forces on all nodes, less those of temperatures.
+/// K u, the forces on all nodes, less those of temperatures. What a spring between sides takes of one it stores itself.
 void add_energy(const Prepared& prepared, const State& state, Functional& of) {
+  Vector of_pairs = state.p;
+  for (Eigen::Index i = 0; i < prepared.contact.softness.size(); ++i)
+    if (prepared.contact.softness[i] > 0.0) of_pairs[place_of(i)] = 0.0;
   for (std::size_t p = 0; p < of.c.size(); ++p) {
-    of.c[p] += state.forces[p] + prepared.contact.motion[p].transpose() * state.p;
+    of.c[p] += state.forces[p] + prepared.contact.motion[p].transpose() * of_pairs;
     if (const Vector thermal = thermal_forces(prepared, state.factors, p); thermal.size() > 0) of.c[p] -= thermal;
     if (!prepared.structure.dofs.is_rigid(p))
       system::add_reactions(prepared.structure.parts[p]->constraints(), state.reactions[p], of.c[p]);
