@@ -245,7 +245,7 @@ class Resume(unittest.TestCase):
         run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
         whole = content(self.directory / "whole")
-        for checkpoints in (4, 2)[:1 if SANITIZED else 2]:  # of two increments before growth
+        for checkpoints in (2, 1)[:1 if SANITIZED else 2]:  # of four, two of them of increments before growth
             shutil.rmtree(self.results, ignore_errors=True)
             self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
             run = scabo("resume", self.results, "--quiet")

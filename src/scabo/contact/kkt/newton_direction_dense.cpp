@@ -26,12 +26,16 @@ bool NewtonDirection::solve_dense() {
 }
 
 double NewtonDirection::residual_of(Eigen::Index n) const {
-  return (right_.head(n) - work_->A.topLeftCorner(n, n) * y_.head(n)).lpNorm<Eigen::Infinity>();
+  auto residual = (work_->residual.head(n) = right_.head(n));
+  residual.noalias() -= work_->A.topLeftCorner(n, n) * y_.head(n);
+  return residual.lpNorm<Eigen::Infinity>();
 }
 
 /// What rounding may leave of the equations.
 double NewtonDirection::rounding_of(Eigen::Index n) const {
-  return system_constants.rounding * (work_->A.topLeftCorner(n, n).cwiseAbs() * y_.head(n).cwiseAbs()).maxCoeff();
+  auto sum = work_->residual.head(n).setZero();
+  for (Eigen::Index j = 0; j < n; ++j) sum += std::abs(y_[j]) * work_->A.col(j).head(n).cwiseAbs();
+  return system_constants.rounding * sum.maxCoeff();
 }
 
 /// Beside soft springs a small step may cause large motions, and rounding is all that is left. Among redundant pairs it
@@ -45,18 +49,15 @@ NewtonDirection::DenseEnd NewtonDirection::judged(Eigen::Index n, double most) c
 
 /// By LU of the matrix itself.
 NewtonDirection::DenseEnd NewtonDirection::solve_regular(Eigen::Index n) {
-  const auto right = right_.head(n);
-  auto y = y_.head(n), residual = work_->residual.head(n);
-  const auto matrix = work_->A.topLeftCorner(n, n);
-  work_->factor.topLeftCorner(n, n) = matrix;
+  work_->factor.topLeftCorner(n, n) = work_->A.topLeftCorner(n, n);
   if (!work_->solver.factorise(work_->factor, n) ||
       !(work_->solver.reciprocal_condition() > system_constants.least_of_dense))
     return DenseEnd::failed;
-  y = right;
+  y_.head(n) = right_.head(n);
   work_->solver.solve_in_place(y_);
-  residual = right - matrix * y;
+  residual_of(n);
   work_->solver.solve_in_place(work_->residual);
-  y += residual;  // one step of refinement: the certificate is judged at 1e-10
+  y_.head(n) += work_->residual.head(n);  // one step of refinement: the certificate is judged at 1e-10
   return judged(n, system_constants.exact);
 }
 
