@@ -51,7 +51,8 @@ Vector nearest_within(const Matrix& B, const Vector& h, const Vector& aim) {
   if (B.rows() == 0) return aim;
   const Vector beyond = h - B * aim;
   if (beyond.maxCoeff() <= 0.0) return aim;
-  const double size = std::max(aim.norm(), h.lpNorm<Eigen::Infinity>()), allowed = 1e-13 * size;
+  // Of what is far within, h says nothing.
+  const double allowed = 1e-13 * std::max(aim.norm(), beyond.maxCoeff());
   Matrix E(B.cols() + 1, B.rows());
   E << B.transpose(), (beyond / beyond.maxCoeff()).transpose();
   const Vector multipliers = nonnegative_least_squares(E, Vector::Unit(E.rows(), E.rows() - 1));

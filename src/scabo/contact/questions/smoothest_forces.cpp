@@ -363,7 +363,12 @@ Vector least_within(const Choice& choice, const std::vector<std::vector<Limit>>&
   for (Index k = 0, row = 0; k < static_cast<Index>(limits.size()); ++k)
     for (const Limit& limit : limits[static_cast<std::size_t>(k)]) {
       B.row(row) = limit.of_force.transpose() * choice.Z.middleRows<2>(2 * k);
-      h[row++] = limit.least - limit.of_force.dot(choice.p.segment<2>(2 * k));
+      h[row] = limit.least - limit.of_force.dot(choice.p.segment<2>(2 * k));
+      if (!(B.row(row).norm() > dependent * limit.of_force.norm())) {
+        B.row(row).setZero();  // rounding: no y changes this
+        h[row] = std::min(h[row], 0.0);
+      }
+      ++row;
     }
   const auto R = choice.R.triangularView<Eigen::Upper>();
   Matrix scaled = R.solve<Eigen::OnTheRight>(B);
