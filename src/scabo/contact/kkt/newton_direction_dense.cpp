@@ -18,11 +18,11 @@ bool NewtonDirection::solve_dense() {
   const SystemConstants& c = system_constants;
   DenseEnd end = solve_regular(n);
   if (end == DenseEnd::failed && n > c.most_orthogonal) end = solve_raised(n);
-  if (end == DenseEnd::solved || n > c.most_shortest) return end != DenseEnd::failed;
+  if (end == DenseEnd::failed) return n <= c.most_orthogonal && solve_shortest(n, 0.0);
+  if (end == DenseEnd::solved || n > c.most_shortest) return true;
   const Vector lost_in_rounding = y_;
-  if (solve_shortest(n, end == DenseEnd::failed ? 0.0 : rounding_of(n))) return true;
-  y_ = lost_in_rounding;
-  return end != DenseEnd::failed;
+  if (!solve_shortest(n, rounding_of(n))) y_ = lost_in_rounding;
+  return true;
 }
 
 double NewtonDirection::residual_of(Eigen::Index n) const {
