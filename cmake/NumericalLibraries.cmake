@@ -2,24 +2,37 @@
 # ISA-L compresses fields. None of them has a CMake package on every Debian and Ubuntu (FindHDF5 of CMake fails in a project without C), so each becomes the target
 # scabo::<name> here. The file is installed beside scaboConfig.cmake, because a static Scabo needs the same targets.
 set(SCABO_NUMERICAL_LIBRARIES_MISSING "")
-# A target with the property SCABO_HDF5_INSIDE contains HDF5, if its archive is installed: the shared library loads forty others
-# with it, for files on other hosts, which takes 5 ms.
-find_library(SCABO_HDF5_ARCHIVE NAMES libhdf5.a libhdf5_serial.a)
-find_library(SCABO_SZ NAMES sz)
-mark_as_advanced(SCABO_HDF5_ARCHIVE SCABO_SZ)
-foreach(name openblas lapacke cholmod umfpack hdf5 png isal)
+# A target with the property SCABO_LIBRARIES_INSIDE contains those that take long to load, where the files named here are
+# installed: the shared HDF5 loads forty other libraries, for files on other hosts, and OpenBLAS, LAPACKE, CHOLMOD and UMFPACK
+# have 16,000 symbols to look up (docs/decisions/0068-time-to-build-and-to-start.md).
+set(SCABO_INSIDE_openblas libopenblas.a libgfortran.so.5)
+set(SCABO_INSIDE_lapacke liblapacke.a)
+set(SCABO_INSIDE_cholmod libcholmod.a libamd.a libcolamd.a libccolamd.a libcamd.a libsuitesparseconfig.a libmetis.so.5 libgomp.so.1)
+set(SCABO_INSIDE_umfpack libumfpack.a)
+set(SCABO_INSIDE_hdf5 libhdf5.a|libhdf5_serial.a libsz.so libz.so)
+foreach(name umfpack cholmod lapacke openblas hdf5 png isal)
   string(TOUPPER SCABO_${name} variable)
   find_library(${variable} NAMES ${name} ${name}_serial)  # Debian calls HDF5 without MPI hdf5_serial
   mark_as_advanced(${variable})
   if(NOT ${variable})
     list(APPEND SCABO_NUMERICAL_LIBRARIES_MISSING ${name})
-  elseif(name STREQUAL "hdf5" AND SCABO_HDF5_ARCHIVE AND SCABO_SZ AND NOT TARGET scabo::hdf5)
-    set(alone $<BOOL:$<TARGET_PROPERTY:SCABO_HDF5_INSIDE>>)
-    add_library(scabo::hdf5 INTERFACE IMPORTED)
-    set_target_properties(scabo::hdf5 PROPERTIES INTERFACE_LINK_LIBRARIES
-      "$<${alone}:${SCABO_HDF5_ARCHIVE}>;$<${alone}:${SCABO_SZ}>;$<${alone}:ZLIB::ZLIB>;$<$<NOT:${alone}>:${SCABO_HDF5}>")
-  elseif(NOT TARGET scabo::${name})
-    add_library(scabo::${name} UNKNOWN IMPORTED)
-    set_target_properties(scabo::${name} PROPERTIES IMPORTED_LOCATION ${${variable}})
+    continue()
+  elseif(TARGET scabo::${name})
+    continue()
   endif()
+  set(inside $<BOOL:$<TARGET_PROPERTY:SCABO_LIBRARIES_INSIDE>>)
+  set(shared "$<$<NOT:${inside}>:${${variable}}>")
+  set(contained "")
+  foreach(file IN LISTS SCABO_INSIDE_${name})
+    string(REPLACE "|" ";" names ${file})
+    find_library(SCABO_${file} NAMES ${names})
+    mark_as_advanced(SCABO_${file})
+    list(APPEND contained "$<${inside}:${SCABO_${file}}>")
+  endforeach()
+  if(contained STREQUAL "" OR contained MATCHES NOTFOUND)
+    set(shared ${${variable}})
+    set(contained "")
+  endif()
+  add_library(scabo::${name} INTERFACE IMPORTED)
+  set_target_properties(scabo::${name} PROPERTIES INTERFACE_LINK_LIBRARIES "${shared};${contained}")
 endforeach()
