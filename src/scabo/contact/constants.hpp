@@ -89,7 +89,7 @@ struct SystemConstants {
   double line_coarse = 1e-6;                   ///< ... where ranks are too large: of thousands of pairs
   double as_good_as_double = 1e-11;            ///< residual of a direction that replaces one by LU
   double as_good_as_lu = 1e-8;                 ///< the same where there can be no LU
-  GmresOptions singular_gmres{1e-12, 40, 80};  ///< with the raised factor it takes few products, or is in vain
+  GmresOptions singular_gmres{1e-4, 40, 80};   ///< with the raised factor: the next iteration mends what is left
   GmresOptions refining_gmres{1e-13, 40, 80};  ///< a factor in single precision is nearly the inverse
   GmresOptions line_gmres{1e-12, 40, 40};      ///< as is one of halves; without restart
   GmresOptions holding_gmres{1e-12, 60, 120};  ///< joined bodies lack the slopes of friction alone
@@ -125,12 +125,12 @@ inline constexpr InteriorConstants interior_constants;
 
 /// Rounds with slips held (interior/held_slips.hpp).
 struct HeldConstants {
-  int rounds = 60;            ///< most; what is not solved by then wanders
+  int rounds = 60;            ///< most since the slips' distance was halved: they wander
   double first_aim = 1e-5;    ///< natural map after which the point is first crossed over
   double next_aim = 0.1;      ///< how much it falls between two crossings
   double aim = 1e-3;          ///< of the square of the slips' change: m at which a round ends
   double least = 1e-22;       ///< of the mean square of the loads: m that rounding leaves
-  double met = 1e-2;          ///< of the slips' change: distance b at which a round ends
+  double met = 1e-2;          ///< of the slips' change: distance at which a round ends
   double start = 1e2;         ///< of the square of the slips' change: m at which a round starts
   double sticking = 3.0;      ///< times sqrt(m), to which slips are known: those below it are 0
   int most = 60;              ///< steps of a round, which is a convex problem

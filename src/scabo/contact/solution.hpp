@@ -30,7 +30,7 @@ struct Solution {
   Vector gap;             ///< normal gaps, N numbers, positive if open
   Vector slip_increment;  ///< slip of B relative to A in this increment, (d - 1) N numbers
   std::vector<ContactState> states;  ///< of the pairs, N: 0 open, 1 stick, 2 slip
-  int iterations = 0;                ///< Newton iterations, all attempts together
+  int iterations = 0;                ///< factorisations of Newton's method, interior points and starts
   int coarse_iterations = 0;         ///< on problems of fewer pairs for the start; not counted above
   double residual = 0.0;             ///< |H| / force scale
   Certificate certificate;

@@ -142,7 +142,7 @@ void mark_collapse(const Problem& problem, const SolverOptions& options, Solutio
 std::string search_in_stages(Search& search, const Problem& problem, const SolverOptions& options, Solution& solution) {
   if (is_mechanism(problem, solution)) return {};
   std::string story;
-  for (const auto stage : {newton_stage, interior_stage, sweeps_stage}) {
+  for (const auto stage : {newton_stage, interior_stage, sweeps_stage, held_slips_stage}) {
     const StageEnd end = stage(search);
     if (end.solved) return {};
     if (search.late()) return limit_of(options.deadline, search.iterations());

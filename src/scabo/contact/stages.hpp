@@ -1,4 +1,4 @@
-// The three stages of a solve, in their order. Each ends with what it found and says why it stopped
+// The three stages of a solve and its last resort, in their order. Each ends with what it found and says why it stopped
 // (docs/methods/12_contact_solver.md).
 #pragma once
 
@@ -10,11 +10,13 @@ namespace scabo::contact {
 /// holds bodies, from a coarser problem or from zero.
 StageEnd newton_stage(Search& search);
 
-/// 2. Interior points from three starts, each with Newton's method after it; then the same with slips held, as a fixed
-/// point.
+/// 2. Interior points from three starts, each with Newton's method after it.
 StageEnd interior_stage(Search& search);
 
 /// 3. Sweeps of nonsmooth Gauss-Seidel, accelerated, with Newton's method after them: for a W that is rank deficient.
 StageEnd sweeps_stage(Search& search);
+
+/// The last resort: interior points with slips held, as a fixed point. A round costs a thousand sweeps.
+StageEnd held_slips_stage(Search& search);
 
 }  // namespace scabo::contact

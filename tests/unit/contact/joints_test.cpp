@@ -10,8 +10,8 @@
 #include <random>
 
 #include "scabo/contact/judge.hpp"
-#include "scabo/contact/kkt/body_system.hpp"
 #include "scabo/contact/kkt/joint_system.hpp"
+#include "scabo/contact/kkt/motion_system.hpp"
 #include "scabo/contact/solve.hpp"
 #include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "unit/contact/towers.hpp"
@@ -41,20 +41,29 @@ Problem shuffled(const Problem& problem) {
   return other;
 }
 
+/// Every component of every pair as an unknown of its own, D = 1.
+SaddleRows all_components(const Problem& problem) {
+  const int d = problem.dimension;
+  SaddleRows rows;
+  rows.resize(static_cast<std::size_t>(problem.q.size()));
+  rows.pair.clear();
+  for (int i = 0; i < problem.pairs(); ++i)
+    for (int k = 0; k < d; ++k) {
+      rows.L.col(d * i + k) = rows.C.col(d * i + k) = Eigen::Vector3d::Unit(k);
+      rows.pair.push_back(i);
+    }
+  rows.D.setOnes(problem.q.size());
+  return rows;
+}
+
 template <int d>
 void expect_products_of_W(const Problem& problem, int joints_wanted) {
   auto joints = find_joints<d>(problem);
   ASSERT_TRUE(joints);
   EXPECT_EQ(joints->count(), joints_wanted);
   JointSystem<d> system(std::move(*joints));
-  system.L.resize(problem.q.size(), JointSystem<d>::R);
-  system.D.setOnes(problem.q.size());
-  for (int i = 0; i < problem.pairs(); ++i) {
-    system.L.template middleRows<d>(d * i) = system.A(i);
-    system.pair.insert(system.pair.end(), d, i);
-  }
-  system.C = system.L;
-  ASSERT_TRUE(system.factorise());
+  const SaddleRows rows = all_components(problem);
+  ASSERT_TRUE(system.factorise(rows, rows.D));
   const Vector p = random_numbers(problem.q.size(), 1);
   Vector found;
   system.solve(p + problem.W * p, found);
@@ -130,7 +139,7 @@ TEST(Bodies, SystemsAreThoseOfThePairs) {
         problem.f = random_numbers(Y.rows(), 2);
         problem.W = Delassus(Eigen::SparseMatrix<double>(n, n)).with_bodies(Eigen::SparseMatrix<double>(0, n));
       }
-      ASSERT_TRUE(BodySystem::is_of(problem));
+      ASSERT_TRUE(MotionSystem::is_of(problem));
       SaddleRows rows;
       rows.resize(static_cast<std::size_t>(n));
       rows.E = at_rest ? 1e-3 : 0.0;
@@ -145,7 +154,7 @@ TEST(Bodies, SystemsAreThoseOfThePairs) {
       assemble_dense(problem, rows, moved, A);
       const Vector x = random_numbers(A.rows(), 4), b = A * x;
       EXPECT_LE((rows.times(problem, x) - b).norm(), 1e-13 * b.norm());
-      BodySystem bodies(problem);
+      MotionSystem bodies(problem);
       ASSERT_TRUE(bodies.factorise(rows, rows.D));
       Vector found;
       bodies.solve(b, found);
@@ -177,24 +186,19 @@ TEST(Joints, SystemsAreSolvedWithTinyAndHugeDiagonals) {
   ASSERT_TRUE(joints);
   JointSystem<3> system(std::move(*joints));
   std::mt19937 random(11);
-  system.L.resize(n, 6);
-  system.C.resize(n, 6);
-  system.D.resize(n);
+  SaddleRows rows = all_components(problem);
   Matrix T = Matrix::Identity(n, n);
   for (Eigen::Index i = 0; i < n / 3; ++i) {
     Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
     slope(0, 1) = 0.6;
     slope(0, 2) = 0.8;
     T.block<3, 3>(3 * i, 3 * i) = slope;
-    for (int k = 0; k < 3; ++k) {
-      system.pair.push_back(static_cast<int>(i));
-      system.D[3 * i + k] = std::pow(10.0, random() % 3 == 0 ? 9.0 : random() % 2 == 0 ? -9.0 : 0.0);
-    }
-    system.L.middleRows<3>(3 * i) = slope * system.A(i);
-    system.C.middleRows<3>(3 * i) = system.A(i);
+    rows.L.middleCols<3>(3 * i) = slope.transpose();
+    for (int k = 0; k < 3; ++k)
+      rows.D[3 * i + k] = std::pow(10.0, random() % 3 == 0 ? 9.0 : random() % 2 == 0 ? -9.0 : 0.0);
   }
-  ASSERT_TRUE(system.factorise());
-  const Matrix full = Matrix(system.D.asDiagonal()) + T * Matrix(problem.W.sparse());
+  ASSERT_TRUE(system.factorise(rows, rows.D));
+  const Matrix full = Matrix(rows.D.asDiagonal()) + T * Matrix(problem.W.sparse());
   const Vector z = random_numbers(n, 5), b = full * z;
   Vector found;
   system.solve(b, found);
@@ -204,7 +208,7 @@ TEST(Joints, SystemsAreSolvedWithTinyAndHugeDiagonals) {
     found += correction;
   }
   // Forces of redundant pairs that stick are determined by their D alone: what counts is the equation, row by row.
-  const Vector left = (full * found - b).cwiseQuotient(system.D.cwiseMax(1.0));
+  const Vector left = (full * found - b).cwiseQuotient(rows.D.cwiseMax(1.0));
   EXPECT_LE(left.lpNorm<Eigen::Infinity>(), 1e-11 * std::max(1.0, found.lpNorm<Eigen::Infinity>()));
   // The same of the motions that matter, T W z.
   const Vector motion = T * (problem.W * found), wanted = T * (problem.W * z);

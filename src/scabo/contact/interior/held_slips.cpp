@@ -61,9 +61,10 @@ class FixedPoint {
            const std::function<bool(InteriorPointEnd)>& cross_over) {
     InteriorPointEnd end;
     double aim = held_constants.first_aim;
-    for (int round = 1;; ++round) {
+    while (true) {
       const double map = solve(accepts, deadline, end);
-      const bool last = end.accepted || !std::isfinite(map) || deadline.passed() || round == held_constants.rounds;
+      const bool last =
+          end.accepted || !std::isfinite(map) || deadline.passed() || since_halved_ == held_constants.rounds;
       if (!last) hold_next();
       if (!last && map > aim) continue;
       aim = held_constants.next_aim * end.residual;
@@ -121,6 +122,8 @@ class FixedPoint {
   }
 
   void choose_way(double off) {
+    ++since_halved_;
+    if (off < 0.5 * halved_) halved_ = off, since_halved_ = 0;
     if (off <= held_constants.fall * fallen_) fallen_ = off, since_fall_ = 0;
     if (++since_fall_ <= held_constants.rounds_of_way) return;
     way_ = way_ == Way::plain ? Way::extrapolated : way_ == Way::extrapolated ? Way::halved : Way::plain;
@@ -138,8 +141,8 @@ class FixedPoint {
   std::vector<Passed> passed_;  // of this round and those before it, m falling from round to round
   Remembered remembered_;
   Way way_ = Way::plain;
-  double fallen_ = HUGE_VAL;
-  int since_fall_ = 0;
+  double fallen_ = HUGE_VAL, halved_ = HUGE_VAL;
+  int since_fall_ = 0, since_halved_ = 0;
 };
 
 }  // namespace

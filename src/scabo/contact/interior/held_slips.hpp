@@ -13,8 +13,8 @@
 //     extrapolated     from the last four rounds (Anderson, J. ACM 12 (1965) 547; type II)
 //     halved           half way between s and |u_t|
 //
-// plain at first, and the next of them, in turn, where |s - |u_t|| has not fallen by a third in thirty rounds. On
-// piles with much friction the extrapolated ones wander, and plain ones swing between two values on others.
+// plain at first, and the next of them, in turn, where |s - |u_t|| has not fallen by a third in thirty rounds; an end
+// where it was not halved in sixty.
 //
 // Two details decide. A pair that sticks must be given s = 0 exactly: with the least s > 0 it carries nothing at all;
 // of the points of a round |u_t| is known to about sqrt(m) only, so that what is below 3 sqrt(m) counts as 0. And a

@@ -36,10 +36,14 @@ StageEnd interior_stage(Search& search) {
     steps += end.iterations;
     if (crossed_over(search, std::move(end)) || search.late()) break;
   }
-  if (!search.solved() && !search.late())
-    hold_slips(search.problem(), search.judge(), search.options().deadline,
-               [&](InteriorPointEnd end) { return crossed_over(search, std::move(end)) || search.late(); });
   return {search.solved(), "interior points ended after " + std::to_string(steps) + " steps"};
+}
+
+StageEnd held_slips_stage(Search& search) {
+  if (!may_take_interior_points(search.problem())) return {false, "slips held need interior points"};
+  hold_slips(search.problem(), search.judge(), search.options().deadline,
+             [&](InteriorPointEnd end) { return crossed_over(search, std::move(end)) || search.late(); });
+  return {search.solved(), "slips held did not settle"};
 }
 
 }  // namespace scabo::contact

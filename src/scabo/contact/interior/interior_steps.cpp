@@ -25,7 +25,7 @@ Vector scales_of_pairs(const Problem& problem) {
   return scales;
 }
 
-/// With forces S p, motions S^-1 u.
+/// With forces S p, motions S^-1 u. W forgets the motions of rigid bodies: by these D that falls to 0 loses digits.
 Problem in_scales(const Problem& problem, const Vector& S) {
   Problem scaled = problem;
   if (problem.W.is_sparse()) {

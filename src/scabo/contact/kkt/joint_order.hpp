@@ -1,5 +1,4 @@
-// In which order the forces of many bodies' joints are eliminated from the saddle systems [W + D, G; G' 0] of a
-// problem.
+// In which order forces of many bodies' joints are eliminated from the saddle systems [W + D, G; G' 0] of a problem.
 //
 // All pairs of a joint have the same neighbours, the pairs of its two bodies: they are one vertex of a graph, which is
 // dissected once (linalg/elimination_order). Systems of Newton's method have some of the forces as unknowns, other ones

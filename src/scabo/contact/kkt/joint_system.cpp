@@ -40,24 +40,27 @@ Vector JointSystem<d>::spread(const Vector& s) const {
 }
 
 template <int d>
-bool JointSystem<d>::factorise() {
+bool JointSystem<d>::factorise(const SaddleRows& rows, const Vector& D) {
   using Block = typename Joints<d>::Block;
   const int J = joints_.count();
   std::vector<Block> F(static_cast<std::size_t>(J), Block::Identity()), M(static_cast<std::size_t>(J), Block::Zero());
-  eliminated_.resize(pair.size());
-  for (std::size_t j = 0; j < pair.size(); ++j) {
+  eliminated_.resize(rows.pair.size());
+  for (std::size_t j = 0; j < rows.pair.size(); ++j) {
     const auto row = static_cast<Index>(j);
-    Block &F_e = F[joint_of(j)], &M_e = M[joint_of(j)];
+    const auto pair = static_cast<std::size_t>(rows.pair[j]);
+    const auto& A = joints_.A[pair];
     Eliminated& one = eliminated_[j];
+    one.joint = joints_.joint[pair];
+    Block &F_e = F[static_cast<std::size_t>(one.joint)], &M_e = M[static_cast<std::size_t>(one.joint)];
     one.scale = 1.0 / std::max(1.0, D[row]);
-    one.c = C.row(row);
+    one.c.noalias() = A.transpose() * rows.C.col(row).template head<d>();
     one.u.noalias() = -F_e * one.c;
     const double own = one.scale * D[row], size = std::sqrt(one.u.squaredNorm() + own * own);
     if (!(size > 0.0)) return false;
     one.alpha = -size;
     one.u_own = own + size;
     one.tau = 1.0 / (size * one.u_own);
-    const Eigen::Matrix<double, 1, R> l = one.scale * L.row(row);
+    const Eigen::Matrix<double, 1, R> l = one.scale * (rows.L.col(row).template head<d>().transpose() * A);
     const Eigen::Matrix<double, 1, R> of_F = one.tau * (one.u.transpose() * F_e),
                                       of_M = one.tau * (one.u.transpose() * M_e + one.u_own * l);
     one.f = -one.u_own * of_F;
@@ -79,10 +82,10 @@ bool JointSystem<d>::factorise() {
   }
   for (int f = 0; f < J; ++f) {
     const auto first = joints_.first[static_cast<std::size_t>(f)];
-    const Index rows = R * (joints_.first[static_cast<std::size_t>(f) + 1] - first);
+    const Index height = R * (joints_.first[static_cast<std::size_t>(f) + 1] - first);
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, R>> column(matrix_.valuePtr() + matrix_.outerIndexPtr()[R * f],
-                                                                rows, R);
-    for (Index k = 0; R * k < rows; ++k) {
+                                                                height, R);
+    for (Index k = 0; R * k < height; ++k) {
       const auto at = static_cast<std::size_t>(first + k);
       const int e = joints_.neighbour[at];
       column.template middleRows<R>(R * k).noalias() = M[static_cast<std::size_t>(e)] * joints_.K[at];
@@ -95,10 +98,10 @@ bool JointSystem<d>::factorise() {
 template <int d>
 void JointSystem<d>::solve(const Vector& b, Vector& z) const {
   Vector h = Vector::Zero(R * joints_.count()), own(b.size()), y;
-  for (std::size_t j = 0; j < pair.size(); ++j) {
+  for (std::size_t j = 0; j < eliminated_.size(); ++j) {
     const auto row = static_cast<Index>(j);
     const Eliminated& one = eliminated_[j];
-    auto h_e = h.segment<R>(R * static_cast<Index>(joint_of(j)));
+    auto h_e = h.segment<R>(R * one.joint);
     const double right = one.scale * b[row], part = one.tau * (one.u.dot(h_e) + one.u_own * right);
     h_e -= part * one.u;
     own[row] = right - part * one.u_own;
@@ -106,10 +109,10 @@ void JointSystem<d>::solve(const Vector& b, Vector& z) const {
   lu_.solve(h, y);
   const Vector w = spread(y);
   z.resize(b.size());
-  for (std::size_t j = pair.size(); j-- > 0;) {
+  for (std::size_t j = eliminated_.size(); j-- > 0;) {
     const auto row = static_cast<Index>(j);
     const Eliminated& one = eliminated_[j];
-    const Index first = R * static_cast<Index>(joint_of(j));
+    const Index first = R * one.joint;
     z[row] = (own[row] - one.f.dot(y.segment<R>(first)) - one.m.dot(w.segment<R>(first))) / one.alpha;
     y.segment<R>(first) -= one.c * z[row];
   }

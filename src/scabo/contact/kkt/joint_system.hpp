@@ -11,48 +11,36 @@
 //     (F + M K) y = h           R equations and unknowns a joint, sparse
 //
 // is solved, and the last equations, backwards, give z. Reflections do no harm where D is tiny (pairs that stick), huge
-// (open), and both in one joint: y + C' D^-1 L K y = C' D^-1 b, which is shorter, lost ten digits in walls whose masses
-// differ by a thousand, and refinement did not bring them back.
+// (open), and both in one joint: y + C' D^-1 L K y = C' D^-1 b, which is shorter, lost ten digits.
 #pragma once
 
 #include <Eigen/SparseCore>
 #include <vector>
 
 #include "scabo/contact/kkt/joints.hpp"
+#include "scabo/contact/kkt/rigid_system.hpp"
 #include "scabo/linalg/sparse_general_solver.hpp"
 
 namespace scabo::contact {
 
 template <int d>
-class JointSystem {
+class JointSystem : public RigidSystem {
  public:
   static constexpr int R = Joints<d>::R;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, R, Eigen::RowMajor>;
 
   /// Of joints whose A and K are scaled alike: the pivots' own motions K_kk become 1.
   explicit JointSystem(Joints<d> joints);
 
-  /// A of pair i, scaled.
-  const typename Joints<d>::Combination& A(Eigen::Index i) const { return joints_.A[static_cast<std::size_t>(i)]; }
-  /// Unknown j belongs to pair `pair[j]`; rows of L and C are those of A', multiplied as needed.
-  std::vector<int> pair;
-  Rows L, C;
-  Vector D;
-
-  /// With D; false where there is no factor.
-  [[nodiscard]] bool factorise();
-  /// Of what was factorised last, without refinement.
-  void solve(const Vector& b, Vector& z) const;
+  bool factorise(const SaddleRows& rows, const Vector& D) override;
+  void solve(const Vector& b, Vector& z) const override;
 
  private:
   Vector spread(const Vector& s) const;  // K s
-  std::size_t joint_of(std::size_t j) const {
-    return static_cast<std::size_t>(joints_.joint[static_cast<std::size_t>(pair[j])]);
-  }
 
   Joints<d> joints_;
   /// One unknown after its reflection 1 - tau [u; u_own] [u; u_own]': alpha z + f'y + m'w = h.
   struct Eliminated {
+    int joint = 0;
     Eigen::Matrix<double, R, 1> u, f, m, c;
     double u_own = 0.0, tau = 0.0, scale = 1.0, alpha = 1.0;
   };

@@ -59,10 +59,9 @@ NewtonDirection::NewtonDirection(const BDifferentiableEquations& equations)
 NewtonDirection::~NewtonDirection() = default;
 
 bool NewtonDirection::find(Residual& at, double regularisation, Vector& d) {
-  // Of many bodies the branch that holds least is followed (open, slip): of redundant pairs that just slip, stick would
-  // make the matrix nearly singular and the direction huge. In time rigid bodies have no rigid motions, but W knows
-  // them.
-  if (work_->bodies || equations_.problem().G.cols() > system_constants.motions_of_one_body) {
+  // Of many or rigid bodies the branch that holds least is followed (open, slip): of redundant pairs that just slip,
+  // stick would make the matrix nearly singular and the direction huge.
+  if (work_->rigid || equations_.problem().G.cols() > system_constants.motions_of_one_body) {
     release_ties(at);
     return solve(at, regularisation, d);
   }
@@ -151,9 +150,8 @@ bool NewtonDirection::solve_in_turn() {
   const SystemConstants& c = system_constants;
   const Problem& problem = equations_.problem();
   const Eigen::Index n = rows_.size() + problem.G.cols();
-  if (work_->bodies && n >= c.least_sparse) return solve_by_bodies();
-  if (problem.W.is_sparse() && n >= c.least_sparse)
-    return (problem.dimension == 2 ? solve_by_joints<2>() : solve_by_joints<3>()) || solve_sparse();
+  if (n >= c.least_sparse && work_->rigid) return solve_rigid();
+  if (n >= c.least_sparse && problem.W.is_sparse()) return solve_sparse();
   if (holding_pays(problem, n) && solve_by_holding()) return true;
   const bool is_dense = problem.W.is_dense();
   if (is_dense && !work_->line_fails && n > c.least_of_line && solve_along_joints()) return true;

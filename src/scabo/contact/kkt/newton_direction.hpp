@@ -62,9 +62,7 @@ class NewtonDirection {
   bool solve_preconditioned(const std::function<void(const Vector&, Vector&)>& precondition,
                             const GmresOptions& options, double most);
   bool solve_sparse();
-  bool solve_by_bodies();
-  template <int d>
-  bool solve_by_joints();
+  bool solve_rigid();
   bool solve_by_holding();
   bool solve_iteratively();
 

@@ -28,42 +28,13 @@ bool NewtonDirection::solve_sparse() {
   return solve_preconditioned([&](const Vector& x, Vector& y) { factor.solve(x, y); }, c.singular_gmres, c.descending);
 }
 
-/// Rigid bodies. Pairs are redundant there: the raised matrix preconditions GMRES.
-bool NewtonDirection::solve_by_bodies() {
+/// Pairs of rigid bodies are redundant: the raised matrix preconditions GMRES.
+bool NewtonDirection::solve_rigid() {
   const auto own = own_.head(rows_.size()).array();
-  BodySystem& bodies = *work_->bodies;
-  if (!bodies.factorise(rows_, std::max(rows_.E, system_constants.raise) * (1.0 - own) + own)) return false;
-  const auto precondition = [&](const Vector& x, Vector& result) { bodies.solve(x, result); };
+  RigidSystem& rigid = *work_->rigid;
+  if (!rigid.factorise(rows_, std::max(rows_.E, system_constants.raise) * (1.0 - own) + own)) return false;
+  const auto precondition = [&](const Vector& x, Vector& result) { rigid.solve(x, result); };
   return solve_preconditioned(precondition, system_constants.singular_gmres, system_constants.descending);
 }
-
-/// The same by their joints, where W alone is known and these have many pairs.
-template <int d>
-bool NewtonDirection::solve_by_joints() {
-  Workspace& work = *work_;
-  std::optional<JointSystem<d>>& joints = std::get<d - 2>(work.joints);
-  if (!work.joints_sought) {
-    work.joints_sought = true;
-    if (auto found = find_joints<d>(equations_.problem())) joints.emplace(std::move(*found));
-  }
-  if (!joints) return false;
-  const Eigen::Index size = rows_.size();
-  joints->pair = rows_.pair;
-  joints->L.resize(size, JointSystem<d>::R);
-  joints->C.resize(size, JointSystem<d>::R);
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const auto& A = joints->A(rows_.pair[static_cast<std::size_t>(j)]);
-    joints->L.row(j) = rows_.L.col(j).head<d>().transpose() * A;
-    joints->C.row(j) = rows_.C.col(j).head<d>().transpose() * A;
-  }
-  const auto own = own_.head(size).array();
-  joints->D = std::max(rows_.E, system_constants.raise) * (1.0 - own) + own;
-  if (!joints->factorise()) return false;
-  const auto precondition = [&](const Vector& x, Vector& result) { joints->solve(x, result); };
-  return solve_preconditioned(precondition, system_constants.singular_gmres, system_constants.descending);
-}
-
-template bool NewtonDirection::solve_by_joints<2>();
-template bool NewtonDirection::solve_by_joints<3>();
 
 }  // namespace scabo::contact

@@ -1,25 +1,21 @@
 // What newton_direction*.cpp share: memory that is kept from one direction to the next.
 #pragma once
 
+#include <memory>
 #include <optional>
-#include <tuple>
 
 #include "scabo/contact/constants.hpp"
-#include "scabo/contact/kkt/body_system.hpp"
-#include "scabo/contact/kkt/joint_system.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
 #include "scabo/contact/kkt/preconditioners.hpp"
+#include "scabo/contact/kkt/rigid_system.hpp"
 #include "scabo/linalg/general_solver.hpp"
 #include "scabo/linalg/single_precision_solver.hpp"
 
 namespace scabo::contact {
 
 struct NewtonDirection::Workspace {
-  explicit Workspace(const Problem& problem) {
-    if (BodySystem::is_of(problem))
-      bodies.emplace(problem);
-    else if (problem.W.is_sparse())
-      saddle.emplace(problem);
+  explicit Workspace(const Problem& problem) : rigid(RigidSystem::of(problem)) {
+    if (!rigid && problem.W.is_sparse()) saddle.emplace(problem);
   }
 
   Matrix A, factor;
@@ -32,12 +28,10 @@ struct NewtonDirection::Workspace {
   bool single_fails = false;   // W is too ill-conditioned: of slender bodies
   bool holding_fails = false;  // it takes too many iterations, or none hold the bodies
   Vector full, image, residual;
-  std::optional<BodySystem> bodies;
+  std::unique_ptr<RigidSystem> rigid;
   std::optional<SparseSaddle> saddle;
   Eigen::SparseMatrix<double> sparse;
-  bool joints_sought = false;
-  std::tuple<std::optional<JointSystem<2>>, std::optional<JointSystem<3>>> joints;  // in the plane, in space
-  bool redundant = false;  // a sparse system was singular before: pairs of three bodies that meet in a point
+  bool redundant = false;  // a sparse system is singular, or expected to be: pairs of three bodies that meet in a point
 };
 
 }  // namespace scabo::contact

@@ -1,6 +1,8 @@
 #include "scabo/contact/kkt/saddle_system.hpp"
 
-#include "scabo/contact/kkt/body_system.hpp"
+#include <utility>
+
+#include "scabo/contact/kkt/rigid_system.hpp"
 #include "scabo/linalg/general_solver.hpp"
 
 namespace scabo::contact {
@@ -41,18 +43,18 @@ struct SaddleSystem::Sparse : Backend {
   Eigen::SparseMatrix<double> A;
 };
 
-struct SaddleSystem::Bodies : Backend {
-  explicit Bodies(const Problem& problem) : bodies(problem) {}
+struct SaddleSystem::Rigid : Backend {
+  explicit Rigid(std::unique_ptr<RigidSystem> of) : bodies(std::move(of)) {}
 
-  bool factorise(const SaddleRows& rows) override { return bodies.factorise(rows, rows.D); }
-  void solve(const Vector& b, Vector& x) const override { bodies.solve(b, x); }
+  bool factorise(const SaddleRows& rows) override { return bodies->factorise(rows, rows.D); }
+  void solve(const Vector& b, Vector& x) const override { bodies->solve(b, x); }
 
-  BodySystem bodies;
+  std::unique_ptr<RigidSystem> bodies;
 };
 
 SaddleSystem::SaddleSystem(const Problem& problem) : problem_(problem) {
-  if (BodySystem::is_of(problem))
-    backend_ = std::make_unique<Bodies>(problem);
+  if (std::unique_ptr<RigidSystem> rigid = RigidSystem::of(problem))
+    backend_ = std::make_unique<Rigid>(std::move(rigid));
   else if (problem.W.is_sparse())
     backend_ = std::make_unique<Sparse>(problem);
   else

@@ -8,8 +8,8 @@
 // force in C. Large D stand alone in their rows: rows are divided by 1 + D, and solutions are refined once, on which
 // the last digits of the forces depend where W is rank deficient.
 //
-// Three backends: rigid bodies that are known, by their motions (body_system.hpp; of D well above 0); W sparse, LU of
-// the sparse matrix in whole blocks of the pairs, of many bodies ordered by their joints (contact/kkt/joint_order); W
+// Three backends: rigid bodies, by their motions or those of their joints (rigid_system.hpp); W sparse,
+// LU of the sparse matrix in whole blocks of the pairs, of many bodies ordered by their joints (joint_order.hpp); W
 // dense, LU by LAPACK.
 #pragma once
 
@@ -33,8 +33,8 @@ class SaddleSystem {
 
  private:
   struct Backend;
-  struct Bodies;
   struct Dense;
+  struct Rigid;
   struct Sparse;
   std::unique_ptr<Backend> backend_;
   const Problem& problem_;

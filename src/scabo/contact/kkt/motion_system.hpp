@@ -4,28 +4,26 @@
 //     [ D + L'Y'Y C   L'G ] [ z ]   [ b ]        V = [Y; G'], w = Y C z
 //     [ G'C           -E  ] [ a ] = [ g ]        ([1; E] + V C D^-1 L'V') [w; a] = V C D^-1 b - [0; g]
 //
-// and z = D^-1 (b - L'V' [w; a]), D positive. The motions of two bodies are coupled where a pair lies between them:
-// the pattern is that of all pairs, whatever unknowns they have. z loses the digits by which 1 / D exceeds W: it
-// preconditions GMRES, and interior points, whose D falls to 0, do without.
+// and z = D^-1 (b - L'V' [w; a]), D positive. The pattern is that of all pairs, whatever unknowns they have. z loses
+// the digits by which 1 / D exceeds W: it preconditions GMRES, and interior points, whose D falls to 0, go by the
+// joints.
 #pragma once
 
 #include <vector>
 
-#include "scabo/contact/kkt/saddle_matrix.hpp"
+#include "scabo/contact/kkt/rigid_system.hpp"
 
 namespace scabo::contact {
 
-class BodySystem {
+class MotionSystem : public RigidSystem {
  public:
   /// Whether the bodies of a problem are known to be rigid, and have fewer motions than pairs have forces.
   static bool is_of(const Problem& problem);
 
-  explicit BodySystem(const Problem& problem);
+  explicit MotionSystem(const Problem& problem);
 
-  /// `D`: in place of that of `rows`, positive. Keeps a reference to `rows`. False where a pivot is zero.
-  [[nodiscard]] bool factorise(const SaddleRows& rows, const Vector& D);
-  /// x = [z; a] of b = [b; g].
-  void solve(const Vector& b, Vector& x) const;
+  bool factorise(const SaddleRows& rows, const Vector& D) override;
+  void solve(const Vector& b, Vector& x) const override;
 
  private:
   Eigen::Index motions_;  // m

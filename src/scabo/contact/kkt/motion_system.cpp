@@ -1,4 +1,4 @@
-#include "scabo/contact/kkt/body_system.hpp"
+#include "scabo/contact/kkt/motion_system.hpp"
 
 #include <algorithm>
 
@@ -21,12 +21,12 @@ Sparse motions_of(const Problem& problem) {
 
 }  // namespace
 
-bool BodySystem::is_of(const Problem& problem) {
+bool MotionSystem::is_of(const Problem& problem) {
   const Sparse* const Y = problem.W.bodies();
   return Y != nullptr && 2 * (Y->rows() + problem.G.cols()) <= problem.W.size();
 }
 
-BodySystem::BodySystem(const Problem& problem)
+MotionSystem::MotionSystem(const Problem& problem)
     : motions_(problem.G.cols()),
       dimension_(problem.dimension),
       V_(motions_of(problem)),
@@ -50,7 +50,7 @@ BodySystem::BodySystem(const Problem& problem)
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }
 
-bool BodySystem::factorise(const SaddleRows& rows, const Vector& D) {
+bool MotionSystem::factorise(const SaddleRows& rows, const Vector& D) {
   rows_ = &rows;
   D_ = D.head(rows.size());
   matrix_.coeffs().setZero();
@@ -73,7 +73,7 @@ bool BodySystem::factorise(const SaddleRows& rows, const Vector& D) {
   return lu_.factorise(matrix_);
 }
 
-void BodySystem::solve(const Vector& b, Vector& x) const {
+void MotionSystem::solve(const Vector& b, Vector& x) const {
   const Index n = rows_->size();
   Vector p = Vector::Zero(V_.cols()), v;
   rows_->add_forces(b.head(n).cwiseQuotient(D_), dimension_, p);
