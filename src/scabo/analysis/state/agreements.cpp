@@ -67,7 +67,7 @@ std::string fingerprint_of_body(const Prepared& now, std::size_t b, bool in_moti
   of.add(now.model.analysis.revolved()                      ? "axisymmetric"
          : now.model.analysis.plane == model::Plane::strain ? "strain"
                                                             : "stress");
-  of.add(now.model.analysis.thickness);
+  of.add(model::thickness_of(now.model, static_cast<int>(b)));
   if (now.model.analysis.per_radian) of.add("per radian");
   const std::size_t part = now.structure.dofs.part_of(static_cast<int>(b));
   for (const int other : now.structure.dofs.bodies_of(part))
