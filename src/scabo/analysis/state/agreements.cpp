@@ -147,6 +147,10 @@ std::vector<EndState::Agreement> agreements_of(const Prepared& now, const State&
     add("spring", spring.name, of.text());
   }
   for (std::size_t b = 0; b < model.bars.size(); ++b) {
+    const bool has_ends = std::ranges::all_of(
+        model.bars[b].between, [&](const model::Bar::End& end) { return !end.on || body_is_there(now, end.on->body); });
+    const bool tightened = model.bars[b].preload == 0.0 || state.factors.preloads[b] != 0.0;
+    if (!has_ends || !tightened) continue;
     Fingerprint of;
     of.add(now.structure.bars[b].softness), of.add(now.structure.bars[b].direction), of.add(model.bars[b].preload);
     add("bar", model.bars[b].name, of.text());
