@@ -29,6 +29,7 @@ struct BlockOptions {
   const char* more = "enters: true";
   const char* steps = "[{name: push}]";
   double mirror = 1.0;
+  const char* modulus = "1e8";
 };
 
 analysis::StaticSolution block(const BlockOptions& with) {
@@ -43,12 +44,12 @@ loads:
   weight: {{on: block.top, force: [0, -{}]}}
   thrust: {{on: block.top, force: [{}, 0]}}
   water: {{in: base, pressure: {}, {}}}
-contacts: {{base: {{between: [{}], friction: 0.9, modulus: 1e8}}}}
+contacts: {{base: {{between: [{}], friction: 0.9, modulus: {}}}}}
 steps: {}
 output: {{history: {{under: {{edge: block.bottom}}}}}}
 )",
                          width, height, weight, with.mirror * thrust, with.pressure, with.more, with.between,
-                         with.steps));
+                         with.modulus, with.steps));
 }
 
 /// Resultant of the effective pressure, from the heel.
@@ -105,6 +106,19 @@ TEST(EnteringWater, FollowsTheJoint) {
   const auto back = block({.steps = "[{name: push}, {name: back, increments: 3, loads: {thrust: 0}}]"});
   EXPECT_EQ(*contact_of(last(back)).pore_force, 0.0);
   EXPECT_NEAR(contact_of(last(back)).normal_force, weight, 1e-9 * weight);
+}
+
+// The largest thrust, with water under all of the base: H h = W b / 2 - p b^2 / 2. The bed is so stiff that the weight
+// keeps its arm.
+TEST(EnteringWater, TheLimitOfTheThrustHasWaterUnderAllOfTheBase) {
+  constexpr double p = 60e3, expected = 0.5 * (weight - p * width) * width / height / thrust;
+  const auto solution = block({.pressure = p,
+                               .steps = "[{loads: {weight: 1, water: 1}}, {limit: {of: thrust, relative: 1e-3}}]",
+                               .modulus = "1e10"});
+  ASSERT_TRUE(solution.limit);
+  EXPECT_LE(solution.limit->solved, expected);
+  EXPECT_GE(solution.limit->beyond, expected);
+  EXPECT_LT(solution.limit->beyond, (1.0 + 2e-3) * solution.limit->solved);
 }
 
 }  // namespace
