@@ -23,7 +23,8 @@ struct OwnStiffness {
 OwnStiffness own_stiffness(const model::Model& model, const Share& share) {
   OwnStiffness own;
   const auto of_body = [&](std::size_t b) {
-    system::Stiffness stiffness = system::body_stiffness(model, share.mesh.bodies[b], share.cells[b], share.threads);
+    system::Stiffness stiffness = system::body_stiffness(model, model::extent_of(model, static_cast<int>(b)),
+                                                         share.mesh.bodies[b], share.cells[b], share.threads);
     return stiffness.dense ? linalg::SparseMatrix(stiffness.dense->sparseView(0.0, 0.0)) : std::move(stiffness.sparse);
   };
   if (share.bodies.size() == 1) {

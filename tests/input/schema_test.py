@@ -26,9 +26,9 @@ BEYOND_SCHEMA = re.compile(
     r"|polygon_(?!two_vertices|vertex_of_three)|outline_(not_|full_circle|arc_radii|arc_crosses|arc_swallows"
     r"|name_twice|without_area)"
     r"|shape_too_|centre_|mesh_(1e9|too_many|(quadtree|polygons)_of_a_sliver|min_size_(of|above)|refine_(of|on_un)|tolerance_of_a_body|quadtree_centre)"
-    r"|bars_(in_the|on_a_|of_one|tightened_in|in_time|history)|bed_|repeat_around_by|springs_(both_zero|leave_|named_|of_|on_|at_rest_(named|never|without_stiffness))|field_(below_|on_|with_szz)|moment_on_|pores_(in_no|over_)|rotation_(of_an|beside_a_direction)"
+    r"|bars_(in_the|on_a_|of_one|tightened_in|in_time|history)|bed_|repeat_around_by|springs_(both_zero|leave_|named_|of_|on_|at_rest_(named|never|without_stiffness))|field_(below_|on_|with_szz)|moment_on_|pores_(in_no|over_|enter_)|load_enters_an_edge|rotation_(of_an|beside_a_direction)"
     r"|revolution_|load_spin_|stage_|fit_|restart_|symmetry_(?!of_nothing)"
-    r"|image_|tie_(all_|with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named|too_)|regions?_(of_unknown|of_the_same|outside|overlap|in_a_hole|too_)|outside_of_polygons"
+    r"|body_thickness_(in_plane|of_rev)|image_|tie_(all_|with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named|too_)|regions?_(of_unknown|of_the_same|outside|overlap|in_a_hole|too_)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
     r"|dynamic_(?!damping)|added_mass_|growth_(?!toughness|nothing|law|criterion)|limit_(?!of_nothing|too_wide)|initial_without_time|space_"
     r"|cad_runs_|solver_tolerance_below_"
@@ -39,7 +39,7 @@ BEYOND_SCHEMA = re.compile(
     r"|crack_(and_centre|contact_|path_(face_|in_one|mouth|outside|point_twice)|two|face_|in_finite|mouth_(inside|on_a|unknown)|named_like|tip_)|face_(points_(twice|xi)|power_|powers_on)|notch_"
     r"|quantity_|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite|face_)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
     r"|edge_load_(not_asc|off_|on_a_body|third|values_missing)|water_(on_a_corner|up_zero)"
-    r"|support_(normal_of|normal_and_|along_zero)|temperature_(on_an|without|table_(bends|goes_back|in_finite|not_ascending|of_a_point|off_its))|body_force_on_a|law_(dynamic_(backward_)?above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names|increments_(smallest_above|first_above))|later_|imported_crack|parameter_(?!of_)"
+    r"|support_(normal_of|normal_and_|along_zero)|temperature_(on_an|without|radial_(negative|in_one|with_a_bar)|table_(bends|goes_back|in_finite|not_ascending|of_a_point|off_its))|body_force_on_a|law_(dynamic_(backward_)?above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names|increments_(smallest_above|first_above))|later_|imported_crack|parameter_(?!of_)"
     r"|history_(contact_unknown|broken_|factor_of_|moment_of_|pore_|section_of|section_outside|axes_(of_an_|word|not_finite)|displacement_unknown|edge_(is_|of_|unknown))|slip_large_(curved|with_tol|in_stages)|size_auto_|property_(unknown$)|curve_(unknown|jumps|not_asc|ramp_back|over_(?!no_length))|step_(cycles|factor_is|friction_(unknown|of_a))")
 
 

@@ -144,6 +144,24 @@ class Numbers(Converting):
         slipping, _ = self.displacement(self.blocks(self.CONTACT, pull), 2.0, 2.0, 0)
         self.assertNotAlmostEqual(slipping / whole, 1.0, delta=5e-4)
 
+    def test_sections_of_different_thickness(self):
+        """A bar of thickness 2 below one of thickness 1: u = p h (1 / E + t / (2 E)); the joint has the force of the thinner one."""
+        parts = "".join(grid(2, 2, 2.0, 2.0, first=first, corner=(0.0, y), elset=name) for name, first, y in (("LOWER", 1, 0.0), ("UPPER", 101, 2.0)))
+        section = "*SOLID SECTION, ELSET={}, MATERIAL=steel\n{}\n"
+        deck = lambda lower, upper, more="": (parts + MATERIAL.replace("0.3", "0.0") + section.format("LOWER", lower) + section.format("UPPER", upper) + self.CONTACT
+                                              + more + "*BOUNDARY\nN_LOWER_BOTTOM, 1, 2\nN_UPPER_LEFT, 1\n" + STATIC + "*DSLOAD\nUPPER_TOP, P, 21e6\n" + END)
+        v, summary = self.displacement(deck(2.0, 1.0), 2.0, 4.0)
+        self.assertAlmostEqual(v / (-21e6 * 2.0 * 1.5 / 210e9), 1.0, delta=1e-9)
+        self.assertAlmostEqual(summary["increments"][-1]["contacts"]["rough"]["normal_force"], 42e6, delta=1.0)
+        self.assertEqual([body.get("thickness") for body in summary["model"]["bodies"]], [None, 1.0])
+        run = self.convert(deck(2.0, 1.0).replace("CPS8", "CPE8"))
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("in plane strain a model has one thickness", run.stderr)
+        halves = deck(2.0, 1.0).replace("*SOLID SECTION, ELSET=LOWER", "*ELSET, ELSET=HALF\n1, 2\n*ELSET, ELSET=REST\n3, 4\n*SOLID SECTION, ELSET=REST, MATERIAL=steel\n1.5\n*SOLID SECTION, ELSET=HALF")
+        run = self.convert(halves)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("body 'LOWER' has elements of the thickness 2 and of 1.5; a body has one, part it", run.stderr)
+
     def test_two_materials_in_one_body(self):
         """Half of a bar is half as stiff: elongations add up."""
         deck = (grid(4, 1, 4.0, 1.0) + MATERIAL.replace("0.3", "0.0") + "*MATERIAL, NAME=soft\n*ELASTIC\n105e9, 0.0\n"
@@ -229,7 +247,7 @@ LOST = {
     "*WONDER\n": "*WONDER is not known to the converter",
     "*AMPLITUDE, NAME=a, DEFINITION=PERIODIC\n1, 2\n": "only an *AMPLITUDE with a name and a table",
     "*SOLID SECTION, ELSET=BODY, MATERIAL=brass\n": "there is no material 'brass'",
-    "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n1.\n*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n2.\n": "a model has one thickness",
+    "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n1.\n*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n2.\n": "the thickness 2 is given to elements of the thickness 1; give each element one",
     "*SOLID SECTION, ELSET=BODY, MATERIAL=steel, ORIENTATION=O\n": "there is no usable *ORIENTATION 'O'",
     "*MATERIAL, NAME=Steel\n*ELASTIC\n1e9, 0.3\n": "there is another *MATERIAL 'Steel' before this one",
     "*ELASTIC\n1e9, 0.3\n": "*ELASTIC of material 'steel' stands before this one too",

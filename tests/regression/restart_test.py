@@ -117,6 +117,68 @@ class Restart(support.InTemporaryDirectory):
         self.assertEqual(summary_of(self.directory / "three.results")["increments"][0]["factors"],
                          {"push": 0.0, "weight": 1.0})
 
+    BOLTED = """
+scabo: 1
+analysis: {thickness: 0.1}
+materials: {steel: {young: 210e9, poisson: 0.3}}
+bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [3, 1]}}}
+  plate: {material: steel, thickness: 0.08, shape: {rectangle: {corner: [0, 0], size: [1, 0.3]}}, mesh: {size: 0.1}}
+  cover: {material: steel, shape: {rectangle: {corner: [0, 0.3], size: [1, 0.3]}}, mesh: {size: 0.1}}
+supports: [{on: floor, fix: [x, y]}]
+bars:
+  hanger: {between: [cover.top_right, [1, 2]], k: 20e6}
+  bolt: {between: [cover.top, [0.5, -0.2]], area: 1e-3, young: 210e9, preload: 200e3, tightened: tighten}
+  late: {between: [cover.top_left, [0, -0.2]], k: 50e6, preload: 30e3, tightened: late}
+loads: {down: {on: cover.top, pressure: 2e5}, push: {on: cover.left, pressure: 4e5}, pull: {on: cover.top, traction: [0, 1e6]}}
+contacts:
+  seat: {between: [floor.top, plate.bottom], friction: 0.3, modulus: 1e11}
+  joint: {between: [plate.top, cover.bottom], friction: 0.2}
+output: {history: {bolt: bolt.tension, late: late.tension, hanger: hanger.tension, seat: seat.normal_force, x: cover.top_right.ux}}
+"""
+
+    def test_bars_and_beds_go_on(self):
+        """A bolt that the other run tightened, in its last step or before, is tightened; one that this run tightens is not yet."""
+        steps = ["{name: rest, loads: {down: 1}}", "{name: tighten, increments: 2, loads: {}}", "{name: load, increments: 2, loads: {push: 1}}",
+                 "{name: late, loads: {}}", "{name: pull, increments: 2, loads: {pull: 1}}"]
+
+        def run(name, first, last, more=""):
+            text = self.BOLTED
+            for bar, step in (("tighten", 1), ("late", 3)):
+                if not first <= step < last:
+                    text = text.replace(f", tightened: {bar}", "")
+            if last <= 3:  # the bar of a later step is that of a later model
+                text = "".join(line for line in text.splitlines(True) if not line.startswith("  late")).replace("late: late.tension, ", "")
+            for load, act in (("push: {on: cover.left, pressure: 4e5}, ", 2), (", pull: {on: cover.top, traction: [0, 1e6]}", 4)):
+                if last <= act:  # a load that never acts is refused
+                    text = text.replace(load, "")
+            path = self.directory / f"{name}.yaml"
+            path.write_text(more + text + "steps: [" + ", ".join(steps[first:last]) + "]\n", encoding="utf-8")
+            done = scabo("run", path, "--quiet")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            with open(self.directory / f"{name}.results" / "history.csv", encoding="utf-8") as file:
+                return list(csv.DictReader(file))
+
+        whole = run("whole", 0, 5)
+        for at in (2, 3):
+            run("one", 0, at)
+            second = run("two", at, 5, "restart: one.results\n")
+            for row, other in zip(whole[-len(second):], second, strict=True):
+                for key in set(row) - {"step", "time"}:
+                    self.assertAlmostEqual(float(other[key]), float(row[key]), delta=1e-9 * abs(float(row[key])), msg=(at, key))
+        run("one", 0, 3)
+        run("two", 3, 4, "restart: one.results\n")
+        third = run("three", 4, 5, "restart: two.results\n")
+        for row, other in zip(whole[-2:], third, strict=True):
+            for key in set(row) - {"step", "time"}:
+                self.assertAlmostEqual(float(other[key]), float(row[key]), delta=1e-9 * abs(float(row[key])), msg=key)
+        again = self.directory / "again.yaml"
+        again.write_text("restart: two.results\n" + self.BOLTED.replace(", tightened: late", "").replace("tightened: tighten", "tightened: more")
+                         + "steps: [{name: more}]\n", encoding="utf-8")
+        done = scabo("run", again, "--quiet")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("bars.bolt.tightened: bar 'bolt' has been tightened in 'two.results' already: leave 'tightened' out", done.stderr)
+
     def test_two_halves_of_a_large_body_are_one_run(self):
         """Of 22,000 degrees of freedom: motions without contact come from partial solves, refinement from its need."""
         head = """

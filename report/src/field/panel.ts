@@ -90,12 +90,12 @@ export class FieldPanel {
     state.on(["range", "bands", "units"], () => { this.colour(); this.draw(); this.readout.show(this.shape, this.current); });
     state.on(["magnification"], () => { this.deform(); this.draw(); });
     state.on(["mesh", "elements", "undeformed", "states"], () => { this.scene.show(state.shown); this.draw(); });
-    state.on(["picked"], () => { this.readout.show(this.shape, this.current); this.draw(); });
-    state.on(["pair"], () => this.draw());
+    state.on(["picked"], () => { this.readout.show(this.shape, this.current); this.mark(); });
+    state.on(["pair"], () => this.mark());
     state.on(["hidden", "order"], () => { this.order(); this.findExtremes(); this.draw(); });
-    state.on(["extremes"], () => { this.findExtremes(); this.draw(); });
+    state.on(["extremes"], () => { this.findExtremes(); this.mark(); });
     state.on(["mechanism"], () => this.playMechanism());
-    state.on(["line", "hidden", "order", "units"], () => void this.line.show(this.shape, this.current).then(() => this.draw()));
+    state.on(["line", "hidden", "order", "units"], () => void this.line.show(this.shape, this.current).then(() => this.mark()));
     state.on(["dark"], () => { this.theme(); this.draw(); });
     new ResizeObserver(() => this.resize()).observe(this.stage);
     this.resize();
@@ -165,7 +165,7 @@ export class FieldPanel {
     if (on === this.keyboard) return;
     this.keyboard = on;
     this.stage.classList.toggle("keyboard", on);
-    this.draw();
+    this.mark();
   }
 
   private theme(): void {
@@ -388,6 +388,11 @@ export class FieldPanel {
       if (this.changed || !this.mayWait()) this.drawNow();
       else this.moveDrawn();
     });
+  }
+
+  /** Only what stands above the picture has changed. Drawing the picture again takes seconds where it has 1e5 cells. */
+  private mark(): void {
+    if (this.scene && this.current && !this.waiting) this.showOverlay(); // a picture that is to be drawn shows it too
   }
 
   /** Whether drawing takes so long that a moved picture is better than a late one. */

@@ -42,6 +42,7 @@ export interface Theme {
 }
 
 const NODES_APART = 26; // pixels from node to node, at least, where nodes are marked
+const SIDES_APART = 5; // pixels from side to side of cells, at least, where they are drawn: closer ones hide the colours
 const MOST_UNMEASURED = 1e5; // corners of triangles
 
 /** Whether a processor without graphics draws: then without smoothing of edges, which costs it most. */
@@ -90,7 +91,7 @@ export class FieldScene {
   private readonly still: BufferGeometry; // the same points without displacements
   private readonly ratio: number;
   private readonly measures: boolean;
-  private nodesWanted = true;
+  private sidesWanted = true;
   cost = 0; // milliseconds of the last drawing, where a processor without graphics draws many triangles; 0 elsewhere
 
   constructor({ renderer, slow }: Drawer, private readonly geometry: Geometry, bodyCount: number) {
@@ -303,8 +304,7 @@ export class FieldScene {
 
   show(what: { mesh: boolean; elements: boolean; undeformed: boolean; states: boolean }): void {
     this.parts.mesh.visible = what.mesh;
-    this.parts.elements.visible = what.elements;
-    this.nodesWanted = what.elements;
+    this.sidesWanted = what.elements;
     this.parts.undeformed.visible = what.undeformed;
     if (this.marks) this.marks.points.visible = what.states;
   }
@@ -324,7 +324,8 @@ export class FieldScene {
   draw(camera: Camera): void {
     this.place.centre.value.set(camera.x, camera.y);
     this.place.zoom.value.set((2 * camera.scale) / camera.width, (2 * camera.scale) / camera.height);
-    this.parts.nodes.visible = this.nodesWanted && camera.size * camera.scale > NODES_APART * Math.sqrt(this.geometry.nodes.length);
+    this.parts.elements.visible = this.sidesWanted && camera.size * camera.scale > SIDES_APART * Math.sqrt(0.25 * this.geometry.elements.length);
+    this.parts.nodes.visible = this.sidesWanted && camera.size * camera.scale > NODES_APART * Math.sqrt(this.geometry.nodes.length);
     const start = performance.now();
     this.renderer.render(this.scene, NO_CAMERA);
     if (!this.measures) return;

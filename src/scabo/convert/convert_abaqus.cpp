@@ -42,12 +42,13 @@ class Converter {
     for (const std::string& remark : mesh_.remarks) mesh_remark(remark);
     content_ = read_content(deck_, remarks_);
     adjust_nodes(deck_, content_, remarks_);
-    parts_.plane = plane_of(deck_, content_, remarks_).value_or(Plane::stress);
+    parts_.plane = plane_of(deck_, remarks_).value_or(Plane::stress);
     for (const Vec2& x : mesh_.nodes) largest_radius_ = std::max(largest_radius_, std::abs(x.x()));
     GivenMaterials materials = materials_of(deck_, content_, parts_.plane, remarks_);
     parts_.materials = std::move(materials.lines);
     young_ = std::move(materials.young);
     bodies_ = bodies_of(deck_, content_, materials.of_cell, remarks_);
+    give_thicknesses(content_, materials.thickness, parts_.plane, bodies_, remarks_);
     if (content_.steps.empty())
       remarks_.essential({deck_name_, 1}, "the deck has no *STEP, so that nothing is analysed; add one with *STATIC");
     collect_supports();

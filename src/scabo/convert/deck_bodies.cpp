@@ -104,6 +104,37 @@ DeckBodies bodies_of(const files::AbaqusDeck& deck, const DeckContent& content,
   return made;
 }
 
+void give_thicknesses(const DeckContent& content, const std::vector<double>& thickness_of_cell, model::Plane plane,
+                      DeckBodies& bodies, Remarks& remarks) {
+  if (plane == model::Plane::revolution || content.sections.empty()) return;
+  const auto place_of = [&](double thickness) {
+    const auto section = std::find_if(content.sections.begin(), content.sections.end(),
+                                      [&](const DeckSection& of) { return of.thickness == thickness; });
+    return section == content.sections.end() ? content.sections.front().at : section->at;
+  };
+  std::vector<bool> told(bodies.bodies.size(), false);
+  for (std::size_t c = 0; c < thickness_of_cell.size(); ++c) {
+    const double thickness = thickness_of_cell[c];
+    const auto b = static_cast<std::size_t>(bodies.body_of_cell[c]);
+    DeckBody& body = bodies.bodies[b];
+    if (thickness == 0.0 || told[b]) continue;
+    if (body.thickness == 0.0) body.thickness = thickness;
+    const double first = content.sections.front().thickness;
+    if (thickness != body.thickness) {
+      remarks.essential(place_of(thickness),
+                        fmt::format("body '{}' has elements of the thickness {:g} and of {:g}; a body has one, part it",
+                                    body.name, body.thickness, thickness));
+      told[b] = true;
+    } else if (plane == model::Plane::strain && thickness != first) {
+      remarks.essential(place_of(thickness),
+                        fmt::format("the thickness {:g} is not that of the first section, {:g}; in plane strain a "
+                                    "model has one thickness",
+                                    thickness, first));
+      told[b] = true;
+    }
+  }
+}
+
 std::vector<DeckPiece> pieces_of(const ImportedMesh& mesh, const DeckBodies& bodies,
                                  const std::map<std::pair<int, int>, std::set<int>>& uses_of,
                                  const std::vector<SideUse>& uses) {

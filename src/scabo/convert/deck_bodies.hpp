@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scabo/convert/deck_content.hpp"
+#include "scabo/model/material.hpp"
 
 namespace scabo::convert {
 
@@ -21,6 +22,7 @@ struct DeckRegion {
 struct DeckBody {
   std::string name;
   std::vector<DeckRegion> regions;  ///< at least one
+  double thickness = 0.0;           ///< 0: of bodies of revolution, or not known
 };
 
 struct DeckPiece {
@@ -40,6 +42,11 @@ struct DeckBodies {
 /// `material_of_cell`: names of the model; sections name the bodies. Bodies that meet at a node only become a remark.
 DeckBodies bodies_of(const files::AbaqusDeck& deck, const DeckContent& content,
                      const std::vector<std::string>& material_of_cell, Remarks& remarks);
+
+/// Of the sections. Bodies whose elements have several thicknesses, and in plane strain bodies of different thickness,
+/// become remarks.
+void give_thicknesses(const DeckContent& content, const std::vector<double>& thickness_of_cell, model::Plane plane,
+                      DeckBodies& bodies, Remarks& remarks);
 
 /// What a use of sides is called, and which names are preferred: the lowest rank.
 struct SideUse {

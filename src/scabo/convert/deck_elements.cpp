@@ -98,7 +98,7 @@ void tell_of_two_materials(const files::AbaqusDeck& deck, const std::vector<std:
 
 }  // namespace
 
-std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks) {
+std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, Remarks& remarks) {
   std::optional<Plane> plane;
   for (const auto& elements : deck.elements) {
     const std::string& type = elements.type;
@@ -136,20 +136,44 @@ std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, const DeckCo
                                "material can change its volume",
                                files::printable(type)));
   }
-  for (const DeckSection& section : content.sections)
-    if (plane != Plane::revolution && section.thickness != content.sections.front().thickness)
-      remarks.essential(
-          section.at,
-          fmt::format("the thickness {:g} is not that of the first section, {:g}; a model has one thickness",
-                      section.thickness, content.sections.front().thickness));
   return plane;
 }
+
+namespace {
+
+/// Elements of no section.
+void tell_without_material(const files::AbaqusDeck& deck, const std::vector<std::string>& of_cell, Remarks& remarks) {
+  const auto without = std::find_if(of_cell.begin(), of_cell.end(), [](const auto& of) { return of.empty(); });
+  if (without == of_cell.end()) return;
+  const auto count = std::count_if(without, of_cell.end(), [](const auto& of) { return of.empty(); });
+  const std::int64_t number = deck.mesh.cells[static_cast<std::size_t>(without - of_cell.begin())].number;
+  remarks.essential(deck.elements[static_cast<std::size_t>(deck.type_of_cell.at(number))].at,
+                    fmt::format("element {}{} no material; add a *SOLID SECTION", number,
+                                count > 1 ? fmt::format(" and {} more have", count - 1) : " has"));
+}
+
+/// Two sections of the same elements.
+void tell_of_two_thicknesses(const std::vector<double>& of_cell, const std::vector<int>& cells,
+                             const DeckSection& section, Plane plane, Remarks& remarks) {
+  if (plane == Plane::revolution) return;
+  const auto other = std::find_if(cells.begin(), cells.end(), [&](int c) {
+    const double before = of_cell[static_cast<std::size_t>(c)];
+    return before != 0.0 && before != section.thickness;
+  });
+  if (other == cells.end()) return;
+  remarks.essential(section.at, fmt::format("the thickness {:g} is given to elements of the thickness {:g}; give each "
+                                            "element one",
+                                            section.thickness, of_cell[static_cast<std::size_t>(*other)]));
+}
+
+}  // namespace
 
 GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& content, model::Plane plane,
                             Remarks& remarks) {
   GivenMaterials given;
   given.of_cell.assign(deck.mesh.cells.size(), "");
   given.young.assign(deck.mesh.cells.size(), 0.0);
+  given.thickness.assign(deck.mesh.cells.size(), 0.0);
   UniqueNames names;
   std::map<std::string, std::string> made;
   std::set<std::string> used;
@@ -184,7 +208,9 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
     }
     tell_incompressible(deck, *material, *cells, section.at, remarks);
     tell_of_two_materials(deck, given.of_cell, *cells, entry->second, section.at, remarks);
+    tell_of_two_thicknesses(given.thickness, *cells, section, plane, remarks);
     for (const int c : *cells) {
+      given.thickness[static_cast<std::size_t>(c)] = section.thickness;
       given.of_cell[static_cast<std::size_t>(c)] = entry->second;
       given.young[static_cast<std::size_t>(c)] = least_young(*material);
     }
@@ -193,15 +219,7 @@ GivenMaterials materials_of(const files::AbaqusDeck& deck, const DeckContent& co
     if (!used.contains(upper(material.name)))
       remarks.note(material.at,
                    fmt::format("material '{}' is used by no section and is left out", files::printable(material.name)));
-  const auto without =
-      std::find_if(given.of_cell.begin(), given.of_cell.end(), [](const auto& of) { return of.empty(); });
-  if (without != given.of_cell.end()) {
-    const auto count = std::count_if(without, given.of_cell.end(), [](const auto& of) { return of.empty(); });
-    const std::int64_t number = deck.mesh.cells[static_cast<std::size_t>(without - given.of_cell.begin())].number;
-    remarks.essential(deck.elements[static_cast<std::size_t>(deck.type_of_cell.at(number))].at,
-                      fmt::format("element {}{} no material; add a *SOLID SECTION", number,
-                                  count > 1 ? fmt::format(" and {} more have", count - 1) : " has"));
-  }
+  tell_without_material(deck, given.of_cell, remarks);
   return given;
 }
 

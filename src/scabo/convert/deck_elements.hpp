@@ -10,13 +10,14 @@
 
 namespace scabo::convert {
 
-/// The analysis that the elements which are taken are of; nothing without any. The others, and thicknesses that differ,
-/// become remarks.
-std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, const DeckContent& content, Remarks& remarks);
+/// The analysis that the elements which are taken are of; nothing without any. The others become
+/// remarks.
+std::optional<model::Plane> plane_of(const files::AbaqusDeck& deck, Remarks& remarks);
 
 struct GivenMaterials {
   std::vector<std::string> of_cell;  ///< names of the model; empty for a cell without one
   std::vector<double> young;         ///< per cell, the smallest of its directions; 0 for a cell without a material
+  std::vector<double> thickness;     ///< per cell; 0 for a cell without a material
   std::string lines;                 ///< of the section `materials` of the model
 };
 

@@ -53,6 +53,8 @@ std::string model_text(const ModelParts& parts, const DeckBodies& bodies, const 
         materials.push_back(fmt::format("{}: {}", yaml_word(region.name), yaml_word(region.material)));
       text += fmt::format("    materials: {{{}}}\n", fmt::join(materials, ", "));
     }
+    if (parts.plane == Plane::stress && body.thickness > 0.0 && body.thickness != parts.thickness)
+      text += fmt::format("    thickness: {}\n", number_text(body.thickness));
     text += fmt::format("    mesh: {{file: {}, region: {}, elements: fem}}\n", yaml_quoted(mesh_name),
                         yaml_word(body.name));
   }

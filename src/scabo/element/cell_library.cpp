@@ -271,7 +271,7 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
       wanted->ring = ring_of(cell, mesh.bodies[b].nodes);
       wanted->sectors = sectors_of(model, cell);
       wanted->domain = domain_of(model.bodies[b], wanted->ring);
-      wanted->thickness = model.analysis.thickness;
+      wanted->thickness = model::thickness_of(model, static_cast<int>(b));
       wanted->threads = threads;
       wanted->held = cell.held;
       wanted->scale = cell.scale;

@@ -392,12 +392,13 @@ void read_body(Reading& reading, const Entry& entry) {
   Report& report = reading.report;
   const MapReader map(report, entry.value,
                       {"material", "materials", "shape", "holes", "regions", "mesh", "rigid", "cracks", "sectors",
-                       "outside", "reference", "repeat", "added", "removed", "file", "density"},
+                       "outside", "reference", "repeat", "added", "removed", "file", "density", "thickness"},
                       body_example);
   ReadBody read;
   read.body.name = entry.key;
   read.body.source = entry.key_source;
   read.state.held = !map.is_map();  // reported already; supports are then not checked
+  if (const auto thickness = map.get("thickness")) read.body.thickness = number_or_unread(reading, thickness);
   const auto rigid_value = map.get("rigid");
   const auto rigid = rigid_value ? read_flag(report, *rigid_value) : std::optional(false);
   read.body.rigid = rigid.value_or(false);

@@ -251,7 +251,7 @@ void read_points_on_a_line(Reading& reading, const std::vector<Value>& items, Te
   }
 }
 
-/// `{at, values}` with points, or `{over, at, values}` with coordinates.
+/// `{at, values}` with points, or `{over, at, values}` with coordinates or distances from `centre`.
 std::optional<TemperatureTable> read_temperature_table(Reading& reading, const MapReader& map) {
   Report& report = reading.report;
   const std::size_t before = report.count();
@@ -259,8 +259,12 @@ std::optional<TemperatureTable> read_temperature_table(Reading& reading, const M
     map.refuse(key, "does not go together with a table: leave it out, or give it as a load of its own");
   const auto over = map.get("over");
   TemperatureTable table;
-  if (over)
-    if (read_choice(report, *over, {"x", "y"}).value_or("x") == "y") table.along = Vec2(0.0, 1.0);
+  if (const auto choice = over ? read_choice(report, *over, {"x", "y", "radius"}) : std::nullopt) {
+    if (*choice == "y") table.along = Vec2(0.0, 1.0);
+    if (*choice == "radius")
+      if (const auto centre = map.need("centre")) table.centre = read_vector(report, *centre);
+  }
+  if (!table.centre) map.refuse("centre", "belongs to a table over: radius: leave it out");
   const auto at = map.need("at"), values = map.need("values");
   const auto places = at ? read_list(report, *at, over ? "[0, 10, 40]" : "[[0, 0], [0, 40]]") : std::nullopt;
   const auto given = values ? read_list(report, *values, "[4, 12, 18.5]") : std::nullopt;
@@ -291,11 +295,11 @@ std::optional<Temperature> read_temperature(Reading& reading, const Value& value
     return temperature;
   }
   const std::size_t before = reading.report.count();
-  const MapReader map(reading.report, value, {"constant", "x", "y", "over", "at", "values"},
+  const MapReader map(reading.report, value, {"constant", "x", "y", "over", "centre", "at", "values"},
                       "{constant: 20, x: 0, y: -2.5} or {over: y, at: [0, 10], values: [4, 12]}",
                       {{"along", "write over: x or over: y, or give points [x, y] in at"},
                        {"length", "write over: x or over: y, or give points [x, y] in at"}});
-  if (map.has("at") || map.has("values") || map.has("over")) {
+  if (map.has("at") || map.has("values") || map.has("over") || map.has("centre")) {
     temperature.table = read_temperature_table(reading, map);
     if (!temperature.table || reading.report.count() > before) return {};
     return temperature;

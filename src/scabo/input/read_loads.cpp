@@ -15,7 +15,7 @@ constexpr const char* load_example = "{on: upper.top_right, force: [0, -100e3]}"
 
 const std::vector<std::string> load_keys = {"on",          "in",    "force",   "moment", "traction",
                                             "pressure",    "water", "gravity", "spin",   "body_force",
-                                            "temperature", "field", "moving"};
+                                            "temperature", "field", "moving",  "enters"};
 
 constexpr const char* table_example[2] = {"{at: [[0, 0], [0, 3]], values: [[1e3, 0], [0, 0]]}",
                                           "{at: [[0, 0], [0, 3]], values: [30e3, 0]}"};
@@ -162,6 +162,7 @@ std::optional<Load> read_load_in_contact(Reading& reading, const Entry& entry, c
     return {};
   }
   PorePressure pores;
+  if (const auto enters = map.get("enters")) pores.enters = read_flag(report, *enters).value_or(false);
   if (map.has("water")) {
     if (const auto water = read_water(reading, *map.get("water"))) pores.value = *water;
   } else if (const Value value = *map.get("pressure"); value.node->kind != Node::Kind::map) {
@@ -186,6 +187,7 @@ std::optional<Load> read_load(Reading& reading, const Entry& entry) {
   const MapReader map(report, entry.value, load_keys, load_example);
   if (!map.is_map()) return {};
   if (map.has("in")) return read_load_in_contact(reading, entry, map);
+  map.refuse("enters", "is of a pressure in a contact: give the contact with 'in', or leave it out");
   Load load;
   load.name = entry.key;
   load.source = entry.key_source;

@@ -27,6 +27,29 @@ void take_factors(const Node& root, const char* section, const IndexOf& index_of
   }
 }
 
+/// The place of a name in an index; -1 if it is not there.
+auto in(const Index& index) {
+  return [&index](const std::string& key) {
+    const auto found = index.find(key);
+    return found == index.end() ? -1 : found->second;
+  };
+}
+
+/// Bars that the other run, in the directory `name`, has tightened.
+void take_tightened(Reading& reading, const Node& root, const std::string& name) {
+  Index bars;
+  for (std::size_t i = 0; i < reading.model.bars.size(); ++i)
+    bars.emplace(reading.model.bars[i].name, static_cast<int>(i));
+  std::vector<double> tightened(bars.size(), 0.0);
+  take_factors(root, "bars", in(bars), tightened);
+  for (std::size_t i = 0; i < tightened.size(); ++i)
+    if (tightened[i] < 0.0) reading.model.bars[i].tightened = static_cast<int>(tightened[i]);
+  for (const auto& [bar, step] : reading.steps_of_bars)
+    if (tightened[bar] < 0.0)
+      reading.report.error(step, fmt::format("bar '{}' has been tightened in {} already: leave 'tightened' out",
+                                             reading.model.bars[bar].name, quoted_name(name)));
+}
+
 }  // namespace
 
 void read_restart(Reading& reading, const Value& value) {
@@ -62,14 +85,9 @@ void read_restart(Reading& reading, const Value& value) {
   Index supports;
   for (std::size_t i = 0; i < reading.model.supports.size(); ++i)
     supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
-  const auto in = [](const Index& index) {
-    return [&index](const std::string& key) {
-      const auto found = index.find(key);
-      return found == index.end() ? -1 : found->second;
-    };
-  };
   take_factors(*root, "loads", in(reading.index_of_load), restart.load_factors);
   take_factors(*root, "supports", in(supports), restart.support_factors);
+  take_tightened(reading, *root, *name);
   if (root->find("motion") != nullptr) {
     const Index names{{"time", 0}, {"ground_x", 1}, {"ground_y", 2}};
     std::vector<double> motion(names.size(), 0.0);

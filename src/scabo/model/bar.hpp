@@ -25,7 +25,7 @@ struct Bar {
   /// Its tension at the end of the step in which it is tightened; 0: it acts from the start. Until then it has this
   /// force, growing over the step, and no stiffness; from then on its elongation counts.
   double preload = 0.0;
-  int tightened = 0;  ///< index into Model::steps, of a bar with preload
+  int tightened = 0;  ///< index into Model::steps, of a bar with preload; below 0: in the run of `restart`
   Source source;
 
   /// Whether its stiffness acts in a step.

@@ -80,6 +80,7 @@ struct Body {
   bool rigid = false;                 ///< an obstacle or a punch, without material and mesh
   int material = -1;                  ///< index into Model::materials; -1 for a rigid body
   std::optional<double> density;      ///< of a rigid body, mass / length^3, >= 0: needed in time and for its weight
+  std::optional<double> thickness;    ///< plane stress: length, > 0; empty: that of the analysis
   Outline outline;                    ///< with the material on its left
   MeshOptions mesh;                   ///< unused for a rigid body
   std::vector<Crack> cracks;          ///< at most one of one super-element, and all with a path in others

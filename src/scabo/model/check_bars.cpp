@@ -63,14 +63,14 @@ void refuse_beside(Checking& checking, const std::string& path, const char* key,
 /// Bars that are tightened join bodies that are there from then on.
 void check_tightened(Checking& checking, const std::string& path, const Bar& bar) {
   const Model& model = checking.model;
-  if (bar.tightened < 0 || bar.tightened >= static_cast<int>(model.steps.size())) {
+  if ((bar.tightened < 0 && !model.restart) || bar.tightened >= static_cast<int>(model.steps.size())) {
     checking.error(path, "tightened", "is not a step of the model");
     return;
   }
   for (const Bar::End& end : bar.between) {
     if (!end.on || !checking.is_body(end.on->body)) continue;
     const Body& body = checking.body(end.on->body);
-    if (body.added <= bar.tightened && body.removed < 0) continue;
+    if (body.added <= std::max(bar.tightened, 0) && body.removed < 0) continue;
     checking.error(path, "preload",
                    fmt::format("is applied in step '{}', from which on body '{}' is not always there: tighten the bar "
                                "later, or leave its preload out",
@@ -114,8 +114,6 @@ void check_bars_in_steps(Checking& checking) {
     const std::string path = path_of("bars", bar.name, i);
     checking.enter(bar.source);
     refuse_beside(checking, path, "", "bars are");
-    if (model.restart)
-      checking.error(path, "", "bars are not available after a restart: make one model of both, with more steps");
     if (bar.preload != 0.0) check_tightened(checking, path, bar);
   }
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {

@@ -113,9 +113,23 @@ void check_rigid(Checking& checking, const std::string& path, const Body& body) 
   refuse("regions", !body.regions.empty());
 }
 
+/// Of plane stress alone: in plane strain all bodies fill the same length.
+void check_thickness(Checking& checking, const std::string& path, const Body& body) {
+  if (!body.thickness || !checking.positive(path, "thickness", *body.thickness)) return;
+  if (checking.model.analysis.revolved())
+    checking.error_of_key(path, "thickness",
+                          "bodies of revolution go around the axis as a whole: leave 'thickness' out");
+  else if (checking.model.analysis.plane == Plane::strain)
+    checking.error_of_key(
+        path, "thickness",
+        "in plane strain all bodies have the length 'analysis.thickness': leave it out, and of a "
+        "body that fills a part of this length, as piles do, give that part of 'young' and 'density'");
+}
+
 void check_body(Checking& checking, std::size_t index) {
   const Body& body = checking.model.bodies[index];
   const std::string path = path_of("bodies", body.name, index);
+  check_thickness(checking, path, body);
   Outline turned;
   if (body.outside && body.outline.holes.empty() && body.outline.corners.size() == body.outline.edges.size()) {
     turned = body.outline;

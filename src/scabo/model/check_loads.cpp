@@ -152,6 +152,11 @@ bool check_temperatures(Checking& checking, const std::string& path, const Tempe
                                            most_points, count));
     return false;
   }
+  if (table.centre && !checking.vector(path, "temperature.centre", *table.centre)) return false;
+  if (table.centre && table.points.front().at < 0.0) {
+    checking.error(path, "temperature.at.0", "must be 0 or more: it is a distance from 'centre'");
+    return false;
+  }
   for (std::size_t i = 0; i < count; ++i) {
     if (!checking.number(path, fmt::format("temperature.at.{}", i), table.points[i].at) ||
         !checking.number(path, fmt::format("temperature.values.{}", i), table.points[i].change))
@@ -179,6 +184,13 @@ void check_linear_in_bodies(Checking& checking, const std::string& path, const L
     if (!checking.sound_shape(static_cast<int>(b))) continue;
     const bool one = body.mesh.kind == MeshKind::superelement,
                large = one || (body.mesh.kind == MeshKind::parts && !body.cracks.empty());
+    if (table.centre && (one || body.mesh.kind == MeshKind::parts) && !table.is_constant()) {
+      checking.error(path, "temperature",
+                     fmt::format("changes with the radius inside body '{}', which consists of too few super-elements "
+                                 "for that: give the body a mesh of kind polygons, quadtree or fem",
+                                 body.name));
+      return;
+    }
     const bool several = std::any_of(body.sector_materials.begin(), body.sector_materials.end(),
                                      [&](int material) { return material != body.sector_materials.front(); });
     if (!large || !(body.open() || several || !body.cracks.empty() || (one && !body.regions.empty())) ||

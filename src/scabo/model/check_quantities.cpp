@@ -266,8 +266,8 @@ void check_tolerance(Checking& checking, const QuantityTolerance& tolerance) {
                           "the bar alone with output: {error_of: [...]}");
 }
 
-/// Finite elements take the nearest linear temperature each, on the mesh and on that of one order more: what this
-/// leaves out is in no estimate.
+/// Finite elements, and all cells in a temperature about a centre, take the nearest linear temperature each, on the
+/// mesh and on that of one order more: what this leaves out is in no estimate.
 void check_tables_with_bars(Checking& checking) {
   const Model& model = checking.model;
   const bool all = model.tolerance || model.output.error || !model.output.error_of.empty();
@@ -279,14 +279,22 @@ void check_tables_with_bars(Checking& checking) {
       const Body& body = model.bodies[b];
       if (body.rigid || body.outside || !checking.sound_shape(static_cast<int>(b))) continue;
       if (load.on && load.on->body != static_cast<int>(b)) continue;
-      if (body.mesh.kind != MeshKind::fem) continue;
+      const bool radial = temperature->table->centre.has_value();
+      if (body.mesh.kind != MeshKind::fem && !radial) continue;
       if (!(all || body.mesh.tolerance) || is_linear_over(*temperature->table, body.outline)) continue;
       checking.enter(load.source);
-      checking.error(path_of_load(load, i), "temperature",
-                     fmt::format("changes its slope inside body '{}', in each of whose finite elements it is taken as "
-                                 "linear, an error that no estimate contains: give the body a mesh of kind polygons or "
-                                 "quadtree, or ask for no error",
-                                 body.name));
+      if (radial)
+        checking.error(path_of_load(load, i), "temperature",
+                       fmt::format("changes with the radius inside body '{}', in each of whose cells it is taken as "
+                                   "linear, an error that no estimate contains: ask for no error",
+                                   body.name));
+      else
+        checking.error(
+            path_of_load(load, i), "temperature",
+            fmt::format("changes its slope inside body '{}', in each of whose finite elements it is taken as "
+                        "linear, an error that no estimate contains: give the body a mesh of kind polygons or "
+                        "quadtree, or ask for no error",
+                        body.name));
       return;
     }
   }

@@ -100,6 +100,8 @@ void check_never_applied(Checking& checking);
 void check_conflicting_supports(Checking& checking);
 /// Bars that are tightened in steps, and what they and beds of springs in contacts do not go with.
 void check_bars_in_steps(Checking& checking);
+/// Fluids that enter contacts where they open.
+void check_entering(Checking& checking);
 /// Steps over which interferences grow.
 void check_fits(Checking& checking);
 /// Steps in which cracks grow.

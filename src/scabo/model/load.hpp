@@ -54,19 +54,21 @@ struct BodyForce {
   Linear x, y;
 };
 
-/// Change of temperature by a table along a direction: linear between its points, constant before the first and beyond
-/// the last, the same across the direction.
+/// Change of temperature by a table along a direction or about a centre: linear between its points, constant before the
+/// first and beyond the last, the same across the direction or around the centre.
 struct TemperatureTable {
   struct Point {
-    double at = 0.0;      ///< along . x
+    double at = 0.0;      ///< along . x, or the distance from the centre
     double change = 0.0;  ///< of temperature
   };
-  Vec2 along = Vec2(1.0, 0.0);  ///< unit vector
-  std::vector<Point> points;    ///< two or more, their places ascending, no two the same
+  Vec2 along = Vec2(1.0, 0.0);      ///< unit vector
+  std::vector<Point> points;        ///< two or more, their places ascending, no two the same
+  std::optional<Vec2> centre = {};  ///< instead of a direction
 
   double at(double place) const;
+  bool is_constant() const;
 };
-/// Whether a table is linear over the outline of a body: it bends nowhere inside.
+/// Whether a table is linear over the outline of a body: it bends nowhere inside. One about a centre bends everywhere.
 bool is_linear_over(const TemperatureTable& table, const geometry::Outline& outline);
 
 /// Change of temperature of a body, absolute coordinates.
@@ -114,12 +116,13 @@ struct Moment {
   double value = 0.0;
 };
 
-/// Pressure of a fluid in contacts, on both sides of open and closed pairs. Forces of the pairs are then effective
-/// ones.
+/// Pressure of a fluid in contacts, on both sides of open and closed pairs, or of open ones alone. Forces of the pairs
+/// are then effective ones.
 struct PorePressure {
   std::vector<int> contacts;  ///< indices into Model::contacts
   /// The same everywhere; a table over x or y; or that of still water.
   std::variant<double, EdgeTable, Water> value = 0.0;
+  bool enters = false;  ///< the fluid enters the joint where it opens: not on closed pairs
 };
 
 /// The ground end of springs moves by their Spring::at_rest: the force of their stiffness times it acts on the body. A

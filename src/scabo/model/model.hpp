@@ -36,13 +36,14 @@ struct Analysis {
   AnalysisType type = AnalysisType::static_;
   int modes = 10;  ///< modal: number of modes, the lowest first, rigid-body modes included
   Plane plane = Plane::stress;
-  double thickness = 1.0;   ///< length, > 0
+  double thickness = 1.0;   ///< length, > 0; of the bodies that have none of their own: see thickness_of()
   bool per_radian = false;  ///< bodies of revolution: forces are those of one radian, not of the whole circumference
 
   bool revolved() const { return plane == Plane::revolution; }
   /// Of bodies of revolution, in words.
   const char* forces_of() const { return per_radian ? "one radian" : "the whole circumference"; }
-  Extent extent() const { return {thickness, revolved(), per_radian ? 1.0 : 2.0 * std::numbers::pi}; }
+  /// Of bodies of revolution: on which they are turned, in radians.
+  double angle() const { return per_radian ? 1.0 : 2.0 * std::numbers::pi; }
 };
 
 /// Library that factorises sparse stiffness matrices.
@@ -105,6 +106,23 @@ struct Model {
   std::optional<QuantityTolerance> tolerance;  ///< meshes are refined until the bar of a number is that small
   std::vector<AddedMass> added_masses;         ///< water that moves with edges, in time and in modes
 };
+
+/// Length of a body across the plane; not used by bodies of revolution.
+inline double thickness_of(const Model& model, int body) {
+  return model.bodies[static_cast<std::size_t>(body)].thickness.value_or(model.analysis.thickness);
+}
+/// Of a contact: the smaller one of its two bodies, as they touch nowhere else.
+inline double thickness_between(const Model& model, const Contact& contact) {
+  return std::min(thickness_of(model, contact.a.body), thickness_of(model, contact.b.body));
+}
+
+/// What stands behind a point of a body, and of a contact.
+inline Extent extent_of(const Model& model, int body) {
+  return {thickness_of(model, body), model.analysis.revolved(), model.analysis.angle()};
+}
+inline Extent extent_between(const Model& model, const Contact& contact) {
+  return {thickness_between(model, contact), model.analysis.revolved(), model.analysis.angle()};
+}
 
 /// Whether some step is one in time.
 inline bool is_dynamic(const Model& model) {

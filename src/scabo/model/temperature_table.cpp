@@ -15,7 +15,13 @@ double TemperatureTable::at(double place) const {
   return before.change + (place - before.at) / (after->at - before.at) * (after->change - before.change);
 }
 
+bool TemperatureTable::is_constant() const {
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Point& point) { return point.change == points.front().change; });
+}
+
 bool is_linear_over(const TemperatureTable& table, const Outline& outline) {
+  if (table.centre) return table.is_constant();
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const Edge& edge : outline.edges) {
     constexpr int parts = 16;  // of arcs and chains

@@ -255,6 +255,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
     if (!modal) check_never_applied(checking);
     if (!modal) check_fits(checking);
     if (!modal) check_bars_in_steps(checking);
+    if (!modal) check_entering(checking);
     if (!modal) check_stages(checking);
     check_growth_steps(checking);
     check_limit_steps(checking);

@@ -33,7 +33,7 @@ void add_cell(ContactLines& lines, std::uint8_t type, std::initializer_list<std:
 
 ContactLines contact_lines(const analysis::IncrementResult& increment, const model::Analysis& analysis) {
   ContactLines lines;
-  if (analysis.revolved()) lines.forces_of_radians = analysis.extent().angle;
+  if (analysis.revolved()) lines.forces_of_radians = analysis.angle();
   for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
     const auto number = static_cast<std::int32_t>(c + 1);
     const std::vector<analysis::PairResult>& pairs = increment.contacts[c].pairs;

@@ -18,7 +18,7 @@ std::string contact_table_header_of(const model::Analysis& analysis) {
 }
 
 std::string radians_field(const model::Analysis& analysis) {
-  return analysis.revolved() ? fmt::format(",{}", analysis.extent().angle) : std::string();
+  return analysis.revolved() ? fmt::format(",{}", analysis.angle()) : std::string();
 }
 
 std::string csv_quoted(const std::string& text) {

@@ -29,13 +29,12 @@ ModelJson content_of(const model::Model& model, const model::Body& body, const m
   for (const mesh::Cell& cell : divided.cells) used.insert(cell.materials.begin(), cell.materials.end());
   ModelJson materials = ModelJson::array();
   for (const int material : used) materials.push_back(model.materials[material].name);
-  return {{"name", body.name},
-          {"rigid", body.rigid},
-          {"unbounded", body.outside},
-          {"materials", materials},
-          {"nodes", divided.nodes.size()},
-          {"super_elements", divided.count(mesh::CellKind::superelement)},
-          {"finite_elements", divided.count(mesh::CellKind::finite_element)}};
+  ModelJson json = {{"name", body.name}, {"rigid", body.rigid}, {"unbounded", body.outside}, {"materials", materials}};
+  if (body.thickness) json["thickness"] = *body.thickness;
+  json["nodes"] = divided.nodes.size();
+  json["super_elements"] = divided.count(mesh::CellKind::superelement);
+  json["finite_elements"] = divided.count(mesh::CellKind::finite_element);
+  return json;
 }
 
 }  // namespace
@@ -46,8 +45,7 @@ nlohmann::ordered_json model_content(const model::Model& model, const mesh::Mesh
                   : model.analysis.plane == model::Plane::stress ? "stress"
                                                                  : "strain";
   json["thickness"] = model.analysis.thickness;
-  if (model.analysis.revolved())
-    json["forces_of"] = model.analysis.forces_of();
+  if (model.analysis.revolved()) json["forces_of"] = model.analysis.forces_of();
   json["materials"] = ModelJson::array();
   for (const model::Material& material : model.materials) json["materials"].push_back(content_of(material));
   json["bodies"] = ModelJson::array();

@@ -75,7 +75,9 @@ std::vector<std::pair<double, double>> parts_in(const analysis::Discretisation& 
   for (const mesh::Cell& cell : mesh.cells) add_cell(mesh, cell, cuts);
   for (const model::Load& load : discretisation.model.loads) {  // the stress bends where a table of temperatures does
     const auto* temperature = std::get_if<model::Temperature>(&load.kind);
-    if (!temperature || !temperature->table || (load.on && load.on->body != static_cast<int>(body))) continue;
+    if (!temperature || !temperature->table || temperature->table->centre ||
+        (load.on && load.on->body != static_cast<int>(body)))
+      continue;
     for (const auto& point : temperature->table->points) cuts.add(temperature->table->along, point.at);
   }
   const std::vector<double> at = cuts.sorted();
@@ -117,8 +119,8 @@ std::vector<SectionPoint> points_of_section(const analysis::Discretisation& disc
         point.at.at = section.from + t * along;
         point.normal = n;
         point.arm = (t - 0.5) * along;
-        point.weight =
-            0.5 * rule.weights[g] * (part.second - part.first) * length * model.analysis.extent().at(point.at.at.x());
+        point.weight = 0.5 * rule.weights[g] * (part.second - part.first) * length *
+                       model::extent_of(model, point.at.body).at(point.at.at.x());
         points.push_back(std::move(point));
       }
     }

@@ -26,6 +26,7 @@ class Applied {
       : model_(model),
         mesh_(mesh),
         part_(part),
+        number_(static_cast<int>(body)),
         body_(model.bodies[body]),
         body_mesh_(mesh.bodies[body]),
         cells_(cells[body]),
@@ -399,8 +400,8 @@ class Applied {
   }
   const model::Edge& edge() const { return body_.outline.edges[static_cast<std::size_t>(place_->index)]; }
   Eigen::Index size() const { return places_of(body_mesh_.nodes.size()); }
-  double thickness() const { return model_.analysis.thickness; }
-  Extent extent() const { return model_.analysis.extent(); }
+  double thickness() const { return model::thickness_of(model_, number_); }
+  Extent extent() const { return model::extent_of(model_, number_); }
   void apply_traction(const mesh::PlaceNodes& at, const TractionField& traction) {
     nodal = traction_forces(at.elements, body_mesh_.nodes, extent(), traction);
   }
@@ -425,6 +426,7 @@ class Applied {
   const model::Model& model_;
   const mesh::Mesh& mesh_;
   const BodySystem& part_;
+  int number_;  // of the body
   const model::Body& body_;
   const mesh::BodyMesh& body_mesh_;
   const element::SolvedCells& cells_;
@@ -445,6 +447,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
     std::vector<element::CellLoads>& interior = structure.interior.emplace_back(model.bodies.size());
     std::vector<element::InitialStress>& initial = structure.initial.emplace_back(model.bodies.size());
     std::vector<std::optional<double>>& pores = structure.pores.emplace_back();
+    structure.entering.emplace_back();
     if (const auto* pressure = std::get_if<model::PorePressure>(&load.kind)) {
       pores.resize(model.contacts.size());
       add_pore_pressure(structure, *pressure, model, mesh, cells);

@@ -190,24 +190,25 @@ class Assembler {
 struct BodyOfPart {
   const mesh::BodyMesh& mesh;
   const element::SolvedCells& cells;
+  Extent extent;
   std::vector<int> numbers;
 };
 
 std::vector<BodyOfPart> bodies_of(const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells,
-                                  const Dofs& dofs, std::size_t part) {
+                                  const Dofs& dofs, std::size_t part, const model::Model& model) {
   std::vector<BodyOfPart> bodies;
   for (const int body : dofs.bodies_of(part)) {
     const auto b = static_cast<std::size_t>(body);
     std::vector<int> numbers(mesh.bodies[b].nodes.size());
     for (std::size_t node = 0; node < numbers.size(); ++node)
       numbers[node] = dofs.node_in_part(body, static_cast<int>(node));
-    bodies.push_back({mesh.bodies[b], cells[b], std::move(numbers)});
+    bodies.push_back({mesh.bodies[b], cells[b], model::extent_of(model, body), std::move(numbers)});
   }
   return bodies;
 }
 
 /// Sum of the matrices of all cells. `of_solved(cell)`: matrix of a super-element, which stays where it is;
-/// `of_finite(material, element)`: of a finite element.
+/// `of_finite(cell, element, extent)`: of a finite element.
 template <typename OfSolved, typename OfFinite>
 linalg::SparseMatrix assembled(std::size_t nodes, const std::vector<BodyOfPart>& bodies, int threads,
                                const OfSolved& of_solved, const OfFinite& of_finite) {
@@ -240,7 +241,7 @@ linalg::SparseMatrix assembled(std::size_t nodes, const std::vector<BodyOfPart>&
     const BodyOfPart& body = place.first;
     if (const auto& solved = body.cells[place.second]) return of_solved(*solved).data();
     const mesh::Cell& one = body.mesh.cells[place.second];
-    space = of_finite(one, element::finite_element_of(one, body.mesh.nodes));
+    space = of_finite(one, element::finite_element_of(one, body.mesh.nodes), body.extent);
     return static_cast<const double*>(space.data());
   });
   return std::move(assembler).finish();
@@ -250,9 +251,9 @@ linalg::SparseMatrix stiffness_of(const model::Model& model, std::size_t nodes, 
                                   int threads) {
   return assembled(
       nodes, bodies, threads, [](const element::SolvedSuperElement& cell) -> const Matrix& { return cell.K(); },
-      [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
+      [&](const mesh::Cell& cell, const element::FiniteElement& finite, const Extent& extent) {
         const element::SectionLaw law = element::section_law(material_of(model, cell), model.analysis.plane);
-        return element::finite_element_stiffness(finite, law, model.analysis.extent());
+        return element::finite_element_stiffness(finite, law, extent);
       });
 }
 
@@ -260,8 +261,8 @@ linalg::SparseMatrix mass_of(const model::Model& model, std::size_t nodes, const
                              MassLibrary& masses) {
   return assembled(
       nodes, bodies, 1, [&](const element::SolvedSuperElement& cell) -> const Matrix& { return *masses.of(cell); },
-      [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
-        return element::finite_element_mass(finite, *material_of(model, cell).density, model.analysis.extent());
+      [&](const mesh::Cell& cell, const element::FiniteElement& finite, const Extent& extent) {
+        return element::finite_element_mass(finite, *material_of(model, cell).density, extent);
       });
 }
 
@@ -286,7 +287,7 @@ std::vector<Eigen::Triplet<double>> entries_of(const model::AddedMass& water, co
   const auto layer = [&](const Vec2& x) {
     return 0.875 * water.density * std::sqrt((water.level - bottom) * std::max(depth(x), 0.0));  // Westergaard 1933
   };
-  return mass_along_normals(edge.elements, nodes, model.analysis.extent(), layer, {depth, {0.0}});
+  return mass_along_normals(edge.elements, nodes, model::extent_of(model, water.on->body), layer, {depth, {0.0}});
 }
 
 /// The water that moves with the edges of a part.
@@ -313,14 +314,14 @@ void add_water(const model::Model& model, const mesh::Mesh& mesh, const Dofs& do
 
 }  // namespace
 
-Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
-                         int threads) {
+Stiffness body_stiffness(const model::Model& model, const Extent& extent, const mesh::BodyMesh& mesh,
+                         const element::SolvedCells& cells, int threads) {
   Stiffness stiffness;
   stiffness.rounding = rounding_of(cells);
   if (is_whole(mesh))
     stiffness.dense = std::shared_ptr<const Matrix>(cells.front(), &cells.front()->K());
   else
-    stiffness.sparse = stiffness_of(model, mesh.nodes.size(), {{mesh, cells, {}}}, threads);
+    stiffness.sparse = stiffness_of(model, mesh.nodes.size(), {{mesh, cells, extent, {}}}, threads);
   return stiffness;
 }
 
@@ -331,11 +332,11 @@ Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
   Stiffness stiffness;
   if (bodies.size() == 1) {
     const auto b = static_cast<std::size_t>(bodies.front());
-    stiffness = body_stiffness(model, mesh.bodies[b], cells[b], threads);
+    stiffness = body_stiffness(model, model::extent_of(model, bodies.front()), mesh.bodies[b], cells[b], threads);
   } else {
     for (const int body : bodies)
       stiffness.rounding = std::max(stiffness.rounding, rounding_of(cells[static_cast<std::size_t>(body)]));
-    stiffness.sparse = stiffness_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), threads);
+    stiffness.sparse = stiffness_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part, model), threads);
   }
   stiffness.resists_rigid_motions = dofs.is_unbounded(part);
   stiffness.revolved = dofs.revolved();
@@ -357,14 +358,14 @@ MassLibrary masses_of(const model::Model& model, int threads) {
       density.push_back(*model.materials[static_cast<std::size_t>(material)].density);
     if (std::all_of(density.begin(), density.end(), [](double of) { return of == 0.0; }))
       return Matrix(Matrix::Zero(cell.K().rows(), cell.K().cols()));
-    return element::mass_matrix(cell.ring, cell.solution(), cell.modes(), density, model.analysis.thickness, threads);
+    return element::mass_matrix(cell.ring, cell.solution(), cell.modes(), density, cell.thickness, threads);
   });
 }
 
 std::optional<Stiffness> part_damping(const model::Model& model, const mesh::Mesh& mesh,
                                       const std::vector<element::SolvedCells>& cells, const Dofs& dofs,
                                       std::size_t part, MassLibrary& masses) {
-  const std::vector<BodyOfPart> bodies = bodies_of(mesh, cells, dofs, part);
+  const std::vector<BodyOfPart> bodies = bodies_of(mesh, cells, dofs, part, model);
   const auto damps = [&](int material) {
     return model.materials[static_cast<std::size_t>(material)].damping.has_value();
   };
@@ -387,11 +388,10 @@ std::optional<Stiffness> part_damping(const model::Model& model, const mesh::Mes
   C.sparse = assembled(
       dofs.nodes(part).size(), bodies, 1,
       [&](const element::SolvedSuperElement& cell) -> const Matrix& { return *of_cells.of(cell); },
-      [&](const mesh::Cell& cell, const element::FiniteElement& finite) {
+      [&](const mesh::Cell& cell, const element::FiniteElement& finite, const Extent& extent) {
         const model::Material& material = material_of(model, cell);
         const model::Damping damping = damping_of(cell.materials.front());
         const element::SectionLaw law = element::section_law(material, model.analysis.plane);
-        const Extent extent = model.analysis.extent();
         return element::ElementMatrix(damping.of_mass() *
                                           element::finite_element_mass(finite, *material.density, extent) +
                                       damping.of_stiffness() * element::finite_element_stiffness(finite, law, extent));
@@ -399,13 +399,13 @@ std::optional<Stiffness> part_damping(const model::Model& model, const mesh::Mes
   return C;
 }
 
-Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
-                    MassLibrary& masses) {
+Stiffness body_mass(const model::Model& model, const Extent& extent, const mesh::BodyMesh& mesh,
+                    const element::SolvedCells& cells, MassLibrary& masses) {
   Stiffness mass;
   if (is_whole(mesh))
     mass.dense = masses.of(*cells.front());
   else
-    mass.sparse = mass_of(model, mesh.nodes.size(), {{mesh, cells, {}}}, masses);
+    mass.sparse = mass_of(model, mesh.nodes.size(), {{mesh, cells, extent, {}}}, masses);
   return mass;
 }
 
@@ -415,9 +415,9 @@ Stiffness part_mass(const model::Model& model, const mesh::Mesh& mesh, const std
   Stiffness mass;
   if (bodies.size() == 1) {
     const auto b = static_cast<std::size_t>(bodies.front());
-    mass = body_mass(model, mesh.bodies[b], cells[b], masses);
+    mass = body_mass(model, model::extent_of(model, bodies.front()), mesh.bodies[b], cells[b], masses);
   } else {
-    mass.sparse = mass_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part), masses);
+    mass.sparse = mass_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part, model), masses);
   }
   add_water(model, mesh, dofs, part, mass);
   return mass;

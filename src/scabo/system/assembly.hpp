@@ -14,9 +14,9 @@
 namespace scabo::system {
 
 /// Stiffness of a body: that of its super-element, shared with it, if it is one; otherwise sparse. The same bits on any
-/// number of threads.
-Stiffness body_stiffness(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
-                         int threads = 1);
+/// number of threads. `extent`: of the body, across the plane.
+Stiffness body_stiffness(const model::Model& model, const Extent& extent, const mesh::BodyMesh& mesh,
+                         const element::SolvedCells& cells, int threads = 1);
 
 /// Stiffness of an elastic part; that of several tied bodies is sparse.
 Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
@@ -39,8 +39,8 @@ class MassLibrary {
 MassLibrary masses_of(const model::Model& model, int threads);
 
 /// Mass, stored like the stiffness. Every material needs a density.
-Stiffness body_mass(const model::Model& model, const mesh::BodyMesh& mesh, const element::SolvedCells& cells,
-                    MassLibrary& masses);
+Stiffness body_mass(const model::Model& model, const Extent& extent, const mesh::BodyMesh& mesh,
+                    const element::SolvedCells& cells, MassLibrary& masses);
 
 /// Mass of an elastic part, stored like its stiffness.
 Stiffness part_mass(const model::Model& model, const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells,

@@ -76,8 +76,9 @@ std::vector<PartInertia> inertia_of(const Structure& structure, const model::Mod
     ensure(!structure.parts[p]->is_divided(), "a part that is divided among processes has no mass");
     if (structure.dofs.is_rigid(p)) {
       part.K = dense(Matrix::Zero(3, 3));
-      part.M = dense(rigid_mass(model.bodies[static_cast<std::size_t>(structure.dofs.bodies_of(p).front())],
-                                model.analysis.thickness, structure.parts[p]->lever()));
+      const int body = structure.dofs.bodies_of(p).front();
+      part.M = dense(rigid_mass(model.bodies[static_cast<std::size_t>(body)], model::thickness_of(model, body),
+                                structure.parts[p]->lever()));
     } else {
       part.K = part_stiffness(model, mesh, cells, structure.dofs, p, threads);
       if (structure.dofs.is_unbounded(p))

@@ -57,7 +57,7 @@ Vector pore_forces(const model::PorePressure& pores, int contact, const model::M
     if (model.bodies[static_cast<std::size_t>(place.body)].rigid) continue;
     std::vector<int> paired;
     for (const mesh::ContactPair& pair : pairs) paired.push_back(on_b ? pair.node_b : pair.node_a);
-    const std::map<int, Vec2> forces = forces_of_side(place, paired, load, model.analysis.extent(), mesh);
+    const std::map<int, Vec2> forces = forces_of_side(place, paired, load, model::extent_between(model, named), mesh);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto found = forces.find(paired[i]);
       if (found == forces.end()) continue;
@@ -79,6 +79,10 @@ void add_pore_pressure(Structure& structure, const model::PorePressure& pores, c
     const model::Contact& contact = model.contacts[static_cast<std::size_t>(c)];
     const std::vector<mesh::ContactPair>& pairs = mesh.interfaces[static_cast<std::size_t>(c)].pairs;
     const Vector of_pairs = pore_forces(pores, c, model, mesh);
+    if (pores.enters) {
+      structure.entering.back().push_back({c, of_pairs});
+      continue;
+    }
     const auto add = [&](int body, int node, const Vec2& point, const Vec2& force) {
       const std::size_t p = structure.dofs.part_of(body);
       if (forces[p].size() == 0) forces[p] = Vector::Zero(structure.dofs.size(p));
@@ -106,7 +110,7 @@ void add_pore_pressure(Structure& structure, const model::PorePressure& pores, c
       const auto face = tip.last ? element::Face::last : element::Face::first;
       const Vec2 traction = -pressure_at(pores, cell.centre) * element::face_normal(solved.ring, face);
       const std::vector<element::RadialLoad> loads = {
-          element::face_load(solved.ring, face, 0.0, traction, model.analysis.thickness)};
+          element::face_load(solved.ring, face, 0.0, traction, solved.thickness)};
       element::CellLoads& interior = structure.interior.back()[b];
       interior.resize(mesh.bodies[b].cells.size());
       element::add_radial_loads(interior[tip.cell].loads, loads, 1.0);

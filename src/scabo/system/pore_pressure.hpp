@@ -21,7 +21,7 @@ double pressure_at(const model::PorePressure& pores, const Vec2& x);
 Vector pore_forces(const model::PorePressure& pores, int contact, const model::Model& model, const mesh::Mesh& mesh);
 
 /// Adds P of all pairs to the last load of a structure, and what acts on the side faces at the tips of cracks, which
-/// have no pairs.
+/// have no pairs. P of a fluid that enters the contact stands apart, in Structure::entering.
 void add_pore_pressure(Structure& structure, const model::PorePressure& pores, const model::Model& model,
                        const mesh::Mesh& mesh, const std::vector<element::SolvedCells>& cells);
 

@@ -112,7 +112,7 @@ class Assembly {
     const double length = length_of(at.elements, mesh.nodes, edge_of(spring));
     for (const mesh::LineElement& element : at.elements)
       integrate(element, mesh.nodes, edge_of(spring), [&](const Vector& N, const Vec2& x, const Vec2& n, double ds) {
-        const Mat2 k = tensor_of(spring, n) * (ds * model_.analysis.extent().at(x.x()));
+        const Mat2 k = tensor_of(spring, n) * (ds * model::extent_of(model_, spring.on.body).at(x.x()));
         const Vec2 force = k * at_rest_of(spring, n);
         hold(spring, x, n, ds / length, held);
         for (std::size_t i = 0; i < element.nodes.size(); ++i)
@@ -147,7 +147,8 @@ class Assembly {
       const double length = length_of(edge.elements, edge.nodes, edge_of(spring));
       for (const mesh::LineElement& element : edge.elements)
         integrate(element, edge.nodes, edge_of(spring), [&](const Vector&, const Vec2& x, const Vec2& n, double ds) {
-          add(x, tensor_of(spring, n) * (ds * model_.analysis.extent().at(x.x())), at_rest_of(spring, n));
+          add(x, tensor_of(spring, n) * (ds * model::extent_of(model_, spring.on.body).at(x.x())),
+              at_rest_of(spring, n));
           hold(spring, x, n, ds / length, held);
         });
     }

@@ -17,6 +17,12 @@
 
 namespace scabo::system {
 
+/// Pressure of a fluid that enters a contact where it opens: of every pair of its interface, at factor 1.
+struct EnteringPressure {
+  int contact = -1;
+  Vector forces;
+};
+
 struct Structure {
   Dofs dofs;
   std::vector<std::unique_ptr<BodySystem>> parts;  ///< one for each part of `dofs`
@@ -35,6 +41,8 @@ struct Structure {
   std::vector<ThermalEnergy> thermal;  ///< one for each part; empty if no temperature changes
   /// [load][contact]: sum of the forces of pore pressure in the contact, at factor 1; empty where the load is none.
   std::vector<std::vector<std::optional<double>>> pores;
+  /// [load]: fluids that enter contacts, which are not in `loads`: on which pairs they act is a part of the state.
+  std::vector<std::vector<EnteringPressure>> entering;
   /// [load][body]: as `loads`, but apart for bodies that are tied, at the degrees of freedom of each; of pore pressure
   /// only what acts on the cells at the tips of cracks. Only if the history has edges (model::EdgeResultant).
   std::vector<std::vector<Vector>> of_bodies;

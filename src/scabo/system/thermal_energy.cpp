@@ -198,8 +198,8 @@ std::vector<ThermalEnergy> thermal_energies(const model::Model& model, const mes
         const double heat =
             law.unit_strain.dot(law.D * law.unit_strain) + element::heat_across(material, model.analysis.plane);
         add([&](const InteriorLoads& one, const InteriorLoads& other) {
-          return heat *
-                 element::finite_element_product(finite, one.temperature, other.temperature, model.analysis.extent());
+          return heat * element::finite_element_product(finite, one.temperature, other.temperature,
+                                                        model::extent_of(model, b));
         });
       }
     }

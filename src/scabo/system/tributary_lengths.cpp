@@ -206,7 +206,8 @@ std::vector<double> tributary_areas(int contact, const model::Model& model, cons
   std::vector<double> areas;
   if (!model.analysis.revolved()) {
     areas = tributary_lengths(contact, model, mesh);
-    for (double& area : areas) area *= model.analysis.thickness;
+    const double thickness = model::thickness_between(model, model.contacts[static_cast<std::size_t>(contact)]);
+    for (double& area : areas) area *= thickness;
     return areas;
   }
   areas = means_of_sides(model.contacts[static_cast<std::size_t>(contact)], model, mesh, interface, true);

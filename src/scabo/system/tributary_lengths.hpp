@@ -1,7 +1,8 @@
 // Tributary lengths: the part of the length of an edge that is assigned to a node.
 //
 // Contact acts from node to node. The traction that belongs to a force is the force over the node's tributary length
-// (times the thickness), both for displayed pressures and for comparison with strengths. For a node i of an edge
+// (times the smaller thickness of the two bodies), both for displayed pressures and for comparison with strengths. For
+// a node i of an edge
 //
 //     w_i = | sum over its elements of the Gauss-Lobatto weight of the node times x,eta |                      (1)
 //
@@ -40,7 +41,7 @@ namespace scabo::system {
 /// One for each pair of the interface of `contact` (index into Model::contacts); all are > 0.
 std::vector<double> tributary_lengths(int contact, const model::Model& model, const mesh::Mesh& mesh);
 
-/// Areas, likewise: lengths times the thickness, or of bodies of revolution (3).
+/// Areas, likewise: lengths times the smaller thickness of the two bodies, or of bodies of revolution (3).
 std::vector<double> tributary_areas(int contact, const model::Model& model, const mesh::Mesh& mesh);
 
 /// Whether a pair lies on the axis of revolution.

@@ -11,7 +11,7 @@ namespace {
 /// Three pairs, a held one, two contacts, two parts with three rigid motions in all; every field has values of its own.
 State full_state() {
   State state;
-  state.factors = {{0.5, -1.0}, {2.0}, {0.3, 0.4}, {1.0, 0.0}, 0.25, {0.75}, {1.0, 0.5}};
+  state.factors = {{0.5, -1.0}, {2.0}, {0.3, 0.4}, {1.0, 0.0}, 0.25, {0.75}, {1.0, 0.5}, 0.5, {1.0, 0.0, 1.0}};
   state.p = Vector::LinSpaced(6, 1.0, 6.0);
   state.rigid_motion = Vector::LinSpaced(3, -1.0, 1.5);
   state.gap = Vector::LinSpaced(3, 0.1, 0.3);
@@ -52,6 +52,7 @@ TEST(FieldsOfAState, AreReadBackAsTheyWere) {
   EXPECT_EQ(other.replaced.placement, state.replaced.placement);
   EXPECT_EQ(other.replaced.moved, state.replaced.moved);
   EXPECT_EQ(other.factors.release, 0.25);
+  EXPECT_EQ(other.factors.entered, state.factors.entered);
   EXPECT_EQ(other.energy.friction_error, 4.0);
   EXPECT_EQ(other.energy.massless, 9.0);
   EXPECT_EQ(other.velocity, state.velocity);

@@ -45,11 +45,11 @@ Assembled assembled(const mesh::BodyMesh& mesh) {
   whole.bodies = {mesh};
   Assembled made;
   made.cells = element::solve_cells(model, whole, 1).front();
-  made.K = Matrix(body_stiffness(model, mesh, made.cells).sparse);
+  made.K = Matrix(body_stiffness(model, thickness, mesh, made.cells).sparse);
   MassLibrary masses([](const element::SolvedSuperElement& cell) {
     return element::mass_matrix(cell.ring, cell.solution(), cell.modes(), {density}, thickness);
   });
-  made.M = Matrix(body_mass(model, mesh, made.cells, masses).sparse);
+  made.M = Matrix(body_mass(model, thickness, mesh, made.cells, masses).sparse);
   return made;
 }
 
@@ -213,7 +213,7 @@ double cantilever_error(const Kind& kind, int refinement) {
                          [&](const Vec2& x, const Vec2& n) { return traction_of(stress(x), n); });
   const model::Model model = model_of_one();
   const element::SolvedCells none(mesh.cells.size());
-  Matrix K = Matrix(body_stiffness(model, mesh, none).sparse);
+  Matrix K = Matrix(body_stiffness(model, thickness, mesh, none).sparse);
   // Three degrees of freedom hold it: both of the first node, y of the last node of the lower edge.
   for (const int dof : {0, 1, 2 * nx + 1}) {
     K.row(dof).setZero();

@@ -56,8 +56,8 @@ Pair sparse(const mesh::BodyMesh& mesh) {
   model.materials[0].density = 1.0;
   const element::SolvedCells none(mesh.cells.size());
   MassLibrary masses([](const element::SolvedSuperElement&) { return Matrix(); });
-  pair.K = body_stiffness(model, mesh, none);
-  pair.M = body_mass(model, mesh, none, masses);
+  pair.K = body_stiffness(model, 1.0, mesh, none);
+  pair.M = body_mass(model, 1.0, mesh, none, masses);
   return pair;
 }
 

@@ -103,7 +103,7 @@ TEST(BodyElsewhere, MovesAsOneThatIsHere) {
   const model::Model model = two_bodies();
   const mesh::Mesh mesh = mesh::make_mesh(model);
   const auto cells = element::solve_cells(model, mesh, 1);
-  const linalg::SparseMatrix K = body_stiffness(model, mesh.bodies[0], cells[0]).sparse;
+  const linalg::SparseMatrix K = body_stiffness(model, model.analysis.thickness, mesh.bodies[0], cells[0]).sparse;
   for (const bool with_spring : {false, true}) {
     Stiffness here, elsewhere;
     here.sparse = K;

@@ -28,10 +28,10 @@ CellStiffness stiffness_of(const Discretisation& discretisation, std::size_t b, 
   for (mesh::LineElement& element : made.elements)
     for (int& node : element.nodes) node = own.at(node);
   const element::FiniteElement finite = element::finite_element_of(cell, mesh.nodes);
-  const model::Material& material = discretisation.model.materials[static_cast<std::size_t>(cell.materials.front())];
-  const auto& analysis = discretisation.model.analysis;
-  const element::ElementMatrix k =
-      element::finite_element_stiffness(finite, element::section_law(material, analysis.plane), analysis.extent());
+  const model::Model& model = discretisation.model;
+  const model::Material& material = model.materials[static_cast<std::size_t>(cell.materials.front())];
+  const element::ElementMatrix k = element::finite_element_stiffness(
+      finite, element::section_law(material, model.analysis.plane), model::extent_of(model, static_cast<int>(b)));
   std::vector<int> dofs;
   for (const int node : finite.nodes())
     for (const int component : {0, 1}) dofs.push_back(static_cast<int>(place_of(own.at(node), component)));

@@ -113,7 +113,7 @@ void add_pairs(const Prepared& prepared, const State& state, std::vector<std::op
     const std::array<std::size_t, 2> part = {prepared.structure.dofs.part_of(contact.a.body),
                                              prepared.structure.dofs.part_of(contact.b.body)};
     if (p.isZero(0.0) || part[0] == part[1]) continue;
-    const double length = areas[static_cast<Eigen::Index>(i)] / prepared.model.analysis.thickness;
+    const double length = areas[static_cast<Eigen::Index>(i)] / model::thickness_between(prepared.model, contact);
     for (const int side : {0, 1}) {
       std::optional<Turning>& turning = of_part[part[static_cast<std::size_t>(side)]];
       if (!turning) continue;

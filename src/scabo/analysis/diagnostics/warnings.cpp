@@ -382,6 +382,8 @@ std::vector<Warning> load_warnings(const model::Model& model, const system::Stru
   if (std::string text = stiff_springs(model, structure, very_stiff); !text.empty())
     warnings.push_back({WarningKind::rounding, "springs", std::move(text)});
   for (std::size_t load = 0; load < model.loads.size(); ++load) {
+    const auto& entering = structure.entering[load];
+    if (std::any_of(entering.begin(), entering.end(), [](const auto& of) { return !of.forces.isZero(0.0); })) continue;
     double largest = 0.0, moving = 0.0;
     const auto& initial = structure.initial[load];
     bool inside = std::any_of(initial.begin(), initial.end(), [](const auto& body) { return !body.is_zero(); });

@@ -87,7 +87,7 @@ struct Growth {
   Factors factors;  // of the state before
   double load_factor = 0.0;
   RestEnergy before;      // of that state
-  double integral = 0.0;  // of G, the part of its beginning and middle
+  double integral = 0.0;  // of G times the thickness, the part of its beginning and middle
   // Under cycles:
   double cycles = 0.0;                // before
   double rate = 0.0, rate_mid = 0.0;  // of all tips together
@@ -269,9 +269,9 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
   if (std::holds_alternative<std::string>(found)) return {};
   double integral = last_->integral;
   for (std::size_t t = 0; t < tips_.size(); ++t)
-    integral +=
-        last_->lengths[t] / 6.0 * std::get<std::vector<Vec2>>(found)[t].squaredNorm() / now.materials[t].modulus;
-  return energy_of_growth(prepared, last_->before, longer, state, integral * model().analysis.thickness);
+    integral += model::thickness_of(model(), tips_[t].body) * last_->lengths[t] / 6.0 *
+                std::get<std::vector<Vec2>>(found)[t].squaredNorm() / now.materials[t].modulus;
+  return energy_of_growth(prepared, last_->before, longer, state, integral);
 }
 
 /// What tips are like where the cracks have gone half of a step in these directions, under the load before it.
@@ -334,8 +334,8 @@ std::string Growing::turn_at_middle(const Prepared& prepared, const Sought& now,
   }
   for (std::size_t t = 0; t < tips_.size(); ++t) {
     const Vec2 first = factors_at_kink({now.at.tips[t].K_I, now.at.tips[t].K_II}, now.at.tips[t].kink);
-    by.integral +=
-        by.lengths[t] / 6.0 * (first.squaredNorm() + 4.0 * at.K_alone[t].squaredNorm()) / now.materials[t].modulus;
+    by.integral += model::thickness_of(model(), tips_[t].body) * by.lengths[t] / 6.0 *
+                   (first.squaredNorm() + 4.0 * at.K_alone[t].squaredNorm()) / now.materials[t].modulus;
   }
   return {};
 }

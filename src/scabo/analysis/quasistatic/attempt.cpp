@@ -147,9 +147,18 @@ void certify(Making& making) {
   made.accepted = made.accepted && made.rolls.empty();
 }
 
-}  // namespace
+/// Whether a fluid that enters the contact acts at a pair.
+std::vector<bool> pairs_with_fluid(const Prepared& prepared) {
+  std::vector<bool> with(prepared.contact.pairs.size(), false);
+  for (const auto& of_load : prepared.structure.entering)
+    for (const system::EnteringPressure& fluid : of_load)
+      for (std::size_t i = 0; i < with.size(); ++i)
+        if (prepared.contact.pairs[i].contact == fluid.contact) with[i] = true;
+  return with;
+}
 
-Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
+/// With the fluids of `factors` where they are.
+Attempt attempt_with(const Prepared& prepared, const State& from, const Factors& factors) {
   Attempt made;
   Posed posed = pose(prepared, from, factors, made.state);
   check_held_pairs(prepared, std::move(posed.motion_of_held), from);
@@ -172,6 +181,40 @@ Attempt attempt(const Prepared& prepared, const State& from, const Factors& fact
   }
   certify(making);
   return std::move(making.attempt);
+}
+
+/// With fluids where they have entered (`entered`), which enter pairs that open and leave pairs that close, each once
+/// at most in either direction: a pair that is closed with its fluid, and opens without it, keeps it.
+Attempt attempt_with_fluids(const Prepared& prepared, const State& from, Factors factors, std::vector<double> entered) {
+  const std::vector<bool> with_fluid = pairs_with_fluid(prepared);
+  std::vector<bool> entered_now(with_fluid.size(), false);
+  factors.entered = std::move(entered);
+  for (;;) {
+    Attempt made = attempt_with(prepared, from, factors);
+    if (made.solution.status != contact::Status::solved) return made;
+    bool changed = false;
+    for (std::size_t i = 0; i < with_fluid.size(); ++i) {
+      const bool open = made.state.states[i] == contact::ContactState::open, there = factors.entered[i] != 0.0;
+      const bool enters = with_fluid[i] && open && !there, leaves = there && !open && !entered_now[i];
+      if (!enters && !leaves) continue;
+      factors.entered[i] = enters ? 1.0 : 0.0;
+      entered_now[i] = enters;
+      changed = true;
+    }
+    if (!changed) return made;
+  }
+}
+
+}  // namespace
+
+Attempt attempt(const Prepared& prepared, const State& from, const Factors& factors) {
+  if (!may_enter(prepared)) return attempt_with(prepared, from, factors);
+  const std::vector<double> dry(prepared.contact.pairs.size(), 0.0);
+  if (from.factors.entered.empty() || from.factors.entered == dry)
+    return attempt_with_fluids(prepared, from, factors, dry);
+  Attempt made = attempt_with_fluids(prepared, from, factors, from.factors.entered);
+  // Where the fluid is too much for what holds the joint now, it may have left before.
+  return made.accepted ? std::move(made) : attempt_with_fluids(prepared, from, factors, dry);
 }
 
 bool is_same_scaled(const Prepared& prepared, const State& from, const Attempt& tried, const Factors& less) {

@@ -67,7 +67,7 @@ std::string fingerprint_of_body(const Prepared& now, std::size_t b, bool in_moti
   of.add(now.model.analysis.revolved()                      ? "axisymmetric"
          : now.model.analysis.plane == model::Plane::strain ? "strain"
                                                             : "stress");
-  of.add(now.model.analysis.thickness);
+  of.add(model::thickness_of(now.model, static_cast<int>(b)));
   if (now.model.analysis.per_radian) of.add("per radian");
   const std::size_t part = now.structure.dofs.part_of(static_cast<int>(b));
   for (const int other : now.structure.dofs.bodies_of(part))
@@ -147,6 +147,10 @@ std::vector<EndState::Agreement> agreements_of(const Prepared& now, const State&
     add("spring", spring.name, of.text());
   }
   for (std::size_t b = 0; b < model.bars.size(); ++b) {
+    const bool has_ends = std::ranges::all_of(
+        model.bars[b].between, [&](const model::Bar::End& end) { return !end.on || body_is_there(now, end.on->body); });
+    const bool tightened = model.bars[b].preload == 0.0 || state.factors.preloads[b] != 0.0;
+    if (!has_ends || !tightened) continue;
     Fingerprint of;
     of.add(now.structure.bars[b].softness), of.add(now.structure.bars[b].direction), of.add(model.bars[b].preload);
     add("bar", model.bars[b].name, of.text());

@@ -106,6 +106,7 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     if (contact.cohesion > 0.0 || contact.tension > 0.0)
       result.broken = result.broken.value_or(0) + state.history[i].broken;
   }
+  const Vector entered = entered_forces(prepared, state.factors);
   for (std::size_t c = 0; c < results.size(); ++c) {
     results[c].name = prepared.model.contacts[c].name;
     for (std::size_t i = 0; i < results[c].pairs.size(); ++i)
@@ -113,6 +114,11 @@ std::vector<ContactResult> contact_results(const Prepared& prepared, const State
     for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
       if (const auto& pores = prepared.structure.pores[load]; !pores.empty() && pores[c])
         results[c].pore_force = results[c].pore_force.value_or(0.0) + state.factors.loads[load] * *pores[c];
+    for (const auto& of_load : prepared.structure.entering)
+      for (const system::EnteringPressure& fluid : of_load)
+        if (fluid.contact == static_cast<int>(c)) results[c].pore_force = results[c].pore_force.value_or(0.0);
+    for (std::size_t i = 0; results[c].pore_force && i < static_cast<std::size_t>(entered.size()) / 2; ++i)
+      if (prepared.contact.pairs[i].contact == static_cast<int>(c)) *results[c].pore_force += entered[place_of(i)];
     add_totals(prepared.model.contacts[c].about, prepared.model.analysis.revolved(), results[c]);
   }
   return results;

@@ -44,7 +44,7 @@ class SumOverEdge {
       const model::Material& material = prepared_.model.materials[static_cast<std::size_t>(cell.materials.front())];
       const element::SectionLaw law = element::section_law(material, prepared_.model.analysis.plane);
       add_cell(element::dofs_of(finite),
-               element::finite_element_stiffness(finite, law, prepared_.model.analysis.extent()), u);
+               element::finite_element_stiffness(finite, law, model::extent_of(prepared_.model, edge_.on.body)), u);
     }
   }
 
@@ -214,8 +214,19 @@ class SumOverEdge {
     side(of.a, pair.node_a, -on_b);
   }
 
+  /// Of the forces of a fluid on the pairs of an interface those where it has entered.
+  Vector entered_of(int contact, const Vector& forces) const {
+    Vector there = Vector::Zero(forces.size());
+    const std::vector<double>& entered = state_.factors.entered;
+    for (std::size_t i = 0; i < entered.size(); ++i)
+      if (const auto& pair = prepared_.contact.pairs[i]; pair.contact == contact)
+        there[pair.index] = entered[i] * forces[pair.index];
+    return there;
+  }
+
   void apply_pores(const model::PorePressure& pores, int contact, double factor) {
-    const Vector forces = system::pore_forces(pores, contact, prepared_.model, prepared_.mesh);
+    Vector forces = system::pore_forces(pores, contact, prepared_.model, prepared_.mesh);
+    if (pores.enters) forces = entered_of(contact, forces);
     const auto& pairs = prepared_.mesh.interfaces[static_cast<std::size_t>(contact)].pairs;
     for (std::size_t i = 0; i < pairs.size(); ++i)
       apply_pair(contact, pairs[i], factor * forces[static_cast<Eigen::Index>(i)] * pairs[i].normal);

@@ -145,6 +145,8 @@ struct Table {
       field(
           "preloads", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.preloads; }),
       field(
+          "entered", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.entered; }),
+      field(
           "released", whole, 0, in_this_run, [](auto& state) -> auto& { return state.released; }),
       field(
           "p", pair, 2, lasts, [](auto& state) -> auto& { return state.p; }),

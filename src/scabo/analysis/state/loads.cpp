@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/base/components.hpp"
 #include "scabo/linalg/twofold.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/sliding_sides.hpp"
@@ -23,6 +24,8 @@ double sum_of_loads(const Prepared& prepared, std::size_t p, const Factors& fact
     if (prepared.structure.loads[load][p].size() > 0)
       sum += std::abs(factors.loads[load]) * prepared.structure.loads[load][p].lpNorm<1>();
   if (!released.empty()) sum += released[p].lpNorm<1>();
+  if (const Vector entered = entered_forces(prepared, factors); entered.size() > 0)
+    sum += (prepared.contact.motion[p].transpose() * entered).lpNorm<1>();
   for (std::size_t b = 0; b < factors.preloads.size(); ++b)
     if (const Vector& pull = prepared.structure.bars[b].pull[p]; pull.size() > 0)
       sum += std::abs(preload_of(prepared, factors, b)) * pull.lpNorm<1>();
@@ -40,6 +43,24 @@ std::vector<std::vector<Vector>> moving_forces(const Prepared& prepared, const F
 }
 
 }  // namespace
+
+bool may_enter(const Prepared& prepared) {
+  const auto& entering = prepared.structure.entering;
+  return std::any_of(entering.begin(), entering.end(), [](const auto& of_load) { return !of_load.empty(); });
+}
+
+Vector entered_forces(const Prepared& prepared, const Factors& factors) {
+  if (factors.entered.empty()) return {};
+  Vector forces = Vector::Zero(2 * static_cast<Eigen::Index>(prepared.contact.pairs.size()));
+  for (std::size_t load = 0; load < factors.loads.size(); ++load)
+    for (const system::EnteringPressure& fluid : prepared.structure.entering[load])
+      for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+        const system::ContactSystem::Pair& pair = prepared.contact.pairs[i];
+        if (pair.contact == fluid.contact)
+          forces[place_of(i)] += factors.entered[i] * factors.loads[load] * fluid.forces[pair.index];
+      }
+  return forces;
+}
 
 double preload_of(const Prepared& prepared, const Factors& factors, std::size_t bar) {
   return factors.preloads.empty() ? 0.0 : factors.preloads[bar] * prepared.model.bars[bar].preload;
@@ -125,6 +146,7 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& fact
   std::vector<Vector> forces;
   for (const auto& part : prepared.structure.parts) forces.push_back(Vector::Zero(part->size()));
   const std::vector<std::vector<Vector>> moving = moving_forces(prepared, factors);
+  const Vector entered = entered_forces(prepared, factors);
   for (std::size_t p = 0; p < forces.size(); ++p) {
     const double presence = presence_of(prepared, factors, p);
     if (presence == 0.0) continue;
@@ -135,6 +157,7 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& fact
     for (std::size_t b = 0; b < factors.preloads.size(); ++b)
       if (const Vector& pull = prepared.structure.bars[b].pull[p]; pull.size() > 0)
         forces[p] += preload_of(prepared, factors, b) * pull;
+    if (entered.size() > 0) forces[p] += prepared.contact.motion[p].transpose() * entered;
     if (!released.empty() && released[p].size() > 0 && factors.release != 0.0)
       forces[p] += factors.release * released[p];
     if (const Matrix& rigid = prepared.structure.parts[p]->rigid_motions(); rigid.cols() > 0)

@@ -11,6 +11,10 @@ namespace scabo::analysis {
 std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& factors,
                                    const std::vector<Vector>& released);
 
+/// Forces of fluids that have entered contacts: [n, t] of every pair, on B; empty where none has.
+Vector entered_forces(const Prepared& prepared, const Factors& factors);
+/// Whether some fluid may enter a contact.
+bool may_enter(const Prepared& prepared);
 /// What acts of the preload of a bar, a force.
 double preload_of(const Prepared& prepared, const Factors& factors, std::size_t bar);
 

@@ -52,7 +52,8 @@ std::string without_reference(const Prepared& prepared, const State& state) {
             std::abs(state.factors.loads[load]) *
             prepared.structure.initial[load][body_of_part].at(prepared.mesh.bodies[body_of_part].nodes.front()).norm();
       }
-    of_fields *= 2.0 * prepared.structure.parts[part]->lever() * prepared.model.analysis.thickness;
+    of_fields *=
+        2.0 * prepared.structure.parts[part]->lever() * model::thickness_of(prepared.model, static_cast<int>(b));
     // Supports that keep a lining from turning take what its mesh lacks in symmetry, 1e-9 to 1e-6 of the forces.
     constexpr double unsymmetric = 1e-5;
     if (sum.norm() > unsymmetric * forces.lpNorm<1>() && sum.norm() > 1e-12 * of_fields)

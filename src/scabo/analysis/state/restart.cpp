@@ -10,6 +10,7 @@
 
 #include "scabo/analysis/state/agreements.hpp"
 #include "scabo/analysis/state/fields.hpp"
+#include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/analysis/state/sealed_file.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 #include "scabo/model/restart_files.hpp"
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "6";
+constexpr const char* end_version = "7";
 
 template <typename Io, typename T, typename Exchange>
 void exchange_list(Io& io, const std::string& path, std::vector<T>& list, const Exchange& exchange) {
@@ -34,6 +35,7 @@ bool is_of_contact(const Field& field) {
   return field.lasts &&
          (field.owner == Owner::pair || field.owner == Owner::held_pair || field.owner == Owner::contact);
 }
+bool is_of_pair(const Field& field) { return field.lasts && field.owner == Owner::pair; }
 bool is_of_part(const Field& field) {
   return field.lasts &&
          (field.owner == Owner::part || field.owner == Owner::rigid_motion || field.owner == Owner::vector_of_part);
@@ -61,6 +63,7 @@ void exchange_end(Io& io, EndState& end) {
     });
   };
   exchange_named("contacts", end.contacts, is_of_contact);
+  exchange_named("bars", end.bars, is_of_pair);
   exchange_named("parts", end.parts, is_of_part);
   exchange_fields(io, "state/", is_of_whole, end.whole);
 }
@@ -74,8 +77,15 @@ std::vector<Eigen::Index> places_of_contact(const std::vector<system::ContactSys
   return places;
 }
 
-/// Where the entries of a field are that belong to a contact, or to a part.
+/// Where the entries of a field are that belong to a contact, a bar or a part.
 using Places = std::vector<Eigen::Index>;
+/// Of a bar that is there one place.
+Places place_of_bar(const Prepared& now, std::size_t bar) {
+  for (std::size_t i = 0; i < now.contact.pairs.size(); ++i)
+    if (now.contact.pairs[i].is_bar() && now.contact.pairs[i].index == static_cast<int>(bar))
+      return {static_cast<Eigen::Index>(i)};
+  return {};
+}
 Places places_in_contact(const Prepared& now, const Field& field, std::size_t contact) {
   if (field.owner == Owner::contact) return {static_cast<Eigen::Index>(contact)};
   return places_of_contact(field.owner == Owner::pair ? now.contact.pairs : now.contact.held, contact);
@@ -276,10 +286,26 @@ void continue_field(const Prepared& now, const EndState& end, const Field& field
   for (std::size_t c = 0; c < now.model.contacts.size() && is_of_contact(field); ++c)
     if (const EndState::Of* of = find(end.contacts, now.model.contacts[c].name))
       put(kept(of->fields, field.name), places_in_contact(now, field, c), field.count, numbers, size);
+  for (std::size_t b = 0; b < now.model.bars.size() && is_of_pair(field); ++b)
+    if (const EndState::Of* of = find(end.bars, now.model.bars[b].name))
+      put(kept(of->fields, field.name), place_of_bar(now, b), field.count, numbers, size);
   for (const std::size_t p : present_parts(now))
     if (const EndState::Of* of = is_of_part(field) ? find(end.parts, name_of_part(now, p)) : nullptr)
       put(kept(of->fields, field.name), places_in_part(now, field, p), field.count, numbers, size);
   field.set(state, numbers);
+}
+
+/// A bar that the last step of the other run tightened elongates from now on.
+void place_new_bars(const Prepared& now, const EndState& end, State& state) {
+  const auto size = 2 * static_cast<Eigen::Index>(now.contact.pairs.size());
+  const Vector motion = motion_under(now.contact.motion, state.u, size);
+  for (std::size_t b = 0; b < now.model.bars.size(); ++b) {
+    if (find(end.bars, now.model.bars[b].name)) continue;
+    for (const Eigen::Index place : place_of_bar(now, b)) {
+      if (state.offset.size() == 0) state.offset = Vector::Zero(size);
+      state.offset.segment<2>(2 * place) = -motion.segment<2>(2 * place);
+    }
+  }
 }
 
 }  // namespace
@@ -290,12 +316,17 @@ EndState end_state(const Prepared& now, const State& state) {
   const bool in_motion = !state.velocity.empty();
   end.agreements = agreements_of(now, state, in_motion);
   for (const model::Contact& contact : now.model.contacts) end.contacts.push_back({contact.name, {}});
+  std::vector<std::size_t> bars;
+  for (std::size_t b = 0; b < now.model.bars.size(); ++b)
+    if (!place_of_bar(now, b).empty()) bars.push_back(b), end.bars.push_back({now.model.bars[b].name, {}});
   for (const std::size_t p : present_parts(now)) end.parts.push_back({name_of_part(now, p), {}});
   for (const Field& field : fields_of_state()) {
     const std::vector<double> numbers = field.get(state);
     if (is_of_whole(field)) end.whole[field.name] = numbers;
     for (std::size_t c = 0; c < end.contacts.size() && is_of_contact(field); ++c)
       end.contacts[c].fields[field.name] = selected(numbers, places_in_contact(now, field, c), field.count);
+    for (std::size_t k = 0; k < bars.size() && is_of_pair(field); ++k)
+      end.bars[k].fields[field.name] = selected(numbers, place_of_bar(now, bars[k]), field.count);
     std::size_t number = 0;
     for (const std::size_t p : present_parts(now))
       if (is_of_part(field))
@@ -307,6 +338,9 @@ EndState end_state(const Prepared& now, const State& state) {
     end.loads.push_back({now.model.loads[i].name, state.factors.loads[i]});
   for (std::size_t i = 0; i < now.model.supports.size(); ++i)
     end.supports.push_back({now.model.supports[i].name, state.factors.supports[i]});
+  for (const model::Bar& bar : now.model.bars)
+    if (bar.preload != 0.0)
+      end.tightened.push_back({bar.name, bar.tightened - static_cast<double>(now.model.steps.size())});
   const std::size_t last = now.model.steps.size() - 1;
   if (in_motion)
     end.motion = {{"time", state.time},
@@ -319,9 +353,9 @@ void write_end_state(const fs::path& directory, EndState end) {
   const fs::path factors = directory / model::factors_at_end_file;
   std::ofstream stream(factors, std::ios::binary);
   stream << "# Scabo: factors at the end of this run\n";
-  for (const auto& [section, list] :
-       {std::pair("loads", &end.loads), std::pair("supports", &end.supports), std::pair("motion", &end.motion)}) {
-    if (list == &end.motion && list->empty()) continue;
+  for (const auto& [section, list] : {std::pair("loads", &end.loads), std::pair("supports", &end.supports),
+                                      std::pair("bars", &end.tightened), std::pair("motion", &end.motion)}) {
+    if (list->empty() && (list == &end.motion || list == &end.tightened)) continue;
     stream << section << ":\n";
     for (const EndState::Factor& factor : *list) {
       std::string quoted;
@@ -355,6 +389,7 @@ State state_of_restart(const Prepared& now) {
   for (const Field& field : fields_of_state())
     if (field.lasts) continue_field(now, end, field, state);
   complete(now, state);
+  place_new_bars(now, end, state);
   return state;
 }
 

@@ -39,9 +39,10 @@ struct EndState {
   };
   std::string version;  ///< of the program
   std::vector<Agreement> agreements;
-  std::vector<Of> contacts, parts;
+  std::vector<Of> contacts, bars, parts;
   std::vector<Factor> loads, supports;
-  std::vector<Factor> motion;                        ///< time and ground_x, ground_y; empty: at rest
+  std::vector<Factor> tightened;  ///< bars with preload: Bar::tightened in a run that goes on from here
+  std::vector<Factor> motion;     ///< time and ground_x, ground_y; empty: at rest
   std::map<std::string, std::vector<double>> whole;  ///< lasting fields of the state itself
 };
 

@@ -65,6 +65,7 @@ struct Factors {
   std::vector<double> fits = {};      ///< per contact, part of its interferences that is there; empty: all of all
   std::vector<double> preloads = {};  ///< per bar, part of its preload that acts; empty: no bar has any
   double time = 0.0;                  ///< since the begin of the first step in time, of loads that move
+  std::vector<double> entered = {};   ///< per pair, 1 where fluids have entered, else 0; empty: no fluid does
 };
 /// Part of its loads that acts on part `p`, 0 to 1.
 double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p);

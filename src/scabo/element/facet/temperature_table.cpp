@@ -3,8 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scabo/base/error.hpp"
+#include "scabo/geometry/simplex_basis.hpp"
 
 namespace scabo::element {
 
@@ -95,6 +97,45 @@ Moments moments_over(const std::vector<Vec2>& polygon, const Vec2& d, double ori
   return sum;
 }
 
+/// Calls add(x, weight) at the points of a rule over the triangle, in parts half as long.
+template <typename Add>
+void over_triangle(const std::array<Vec2, 3>& corner, const Add& add) {
+  const geometry::SimplexRule& rule = geometry::SimplexBasis::of(2, 3).rule();
+  std::array<Vec2, 3> middle;
+  for (std::size_t i = 0; i < 3; ++i) middle[i] = 0.5 * (corner[i] + corner[(i + 1) % 3]);
+  const std::array<std::array<Vec2, 3>, 4> parts = {{{corner[0], middle[0], middle[2]},
+                                                     {corner[1], middle[1], middle[0]},
+                                                     {corner[2], middle[2], middle[1]},
+                                                     {middle[0], middle[1], middle[2]}}};
+  for (const auto& part : parts) {
+    const double area = 0.5 * cross(part[1] - part[0], part[2] - part[0]);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+      add(Vec2(rule.points(0, q) * part[0] + rule.points(1, q) * part[1] + rule.points(2, q) * part[2]),
+          rule.weights[q] * area);
+  }
+}
+
+/// The linear field that comes nearest, in the mean over a polygon, to a table about a centre.
+LinearField nearest_linear(const model::TemperatureTable& table, const std::vector<Vec2>& polygon) {
+  Vec2 origin = Vec2::Zero();
+  for (const Vec2& x : polygon) origin += x / static_cast<double>(polygon.size());
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    over_triangle({origin, polygon[i], polygon[(i + 1) % polygon.size()]}, [&](const Vec2& x, double weight) {
+      const Eigen::Vector3d basis(1.0, x.x() - origin.x(), x.y() - origin.y());
+      A += weight * basis * basis.transpose();
+      b += weight * table.at((x - *table.centre).norm()) * basis;
+    });
+  // Coordinates of the size of the cell: the rows become comparable.
+  const double size = std::sqrt(A(0, 0));
+  const Eigen::Vector3d scale(1.0, 1.0 / size, 1.0 / size);
+  const Eigen::Vector3d field =
+      scale.asDiagonal() *
+      Eigen::Vector3d((scale.asDiagonal() * A * scale.asDiagonal()).eval().inverse() * (scale.asDiagonal() * b));
+  return {field[0] - field[1] * origin.x() - field[2] * origin.y(), field[1], field[2]};
+}
+
 }  // namespace
 
 TemperatureRemainder::TemperatureRemainder(const Vec2& direction, const Vec2& motion, std::vector<double> s,
@@ -131,6 +172,7 @@ TemperatureRemainder TemperatureRemainder::times(double factor) const {
 }
 
 TableInCell in_cell(const model::TemperatureTable& table, const std::vector<Vec2>& boundary) {
+  if (table.centre) return {nearest_linear(table, boundary), {}, {}};
   const Vec2& d = table.along;
   double low = d.dot(boundary.front()), high = low;
   for (const Vec2& x : boundary) {

@@ -54,7 +54,8 @@ class TemperatureRemainder {
   std::vector<double> s_, r_, sum_;  // sum_: integral of r from s_.front()
 };
 
-/// A table in a cell: T = linear + remainder.
+/// A table in a cell: T = linear + remainder. Of one about a centre the remainder, which has no such solution, is left
+/// out: an error of second order in the size of the cells.
 struct TableInCell {
   LinearField linear;        ///< of absolute (x, y)
   std::vector<double> s, r;  ///< remainder, linear between the places; empty where there is none

@@ -48,10 +48,11 @@ int SpaceReader::material_of(const Value& value) {
 }
 
 void SpaceReader::body(const Entry& entry) {
-  const MapReader map(report_, entry.value, {"material", "shape", "mesh", "rigid", "density"},
-                      "{material: steel, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.1}}",
-                      only_in_the_plane({"holes", "regions", "sectors", "materials", "outside", "reference", "cracks",
-                                         "crack", "copies", "repeat", "image", "added", "removed", "join", "corners"}));
+  const MapReader map(
+      report_, entry.value, {"material", "shape", "mesh", "rigid", "density"},
+      "{material: steel, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.1}}",
+      only_in_the_plane({"thickness", "holes", "regions", "sectors", "materials", "outside", "reference", "cracks",
+                         "crack", "copies", "repeat", "image", "added", "removed", "join", "corners"}));
   SpaceBody body;
   body.name = entry.key;
   body.source = entry.value.source();

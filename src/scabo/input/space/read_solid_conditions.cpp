@@ -223,7 +223,7 @@ void SpaceReader::load(const Entry& entry) {
   known.emplace_back("on");
   const MapReader map(
       report_, entry.value, known, "{on: block.top, pressure: 1e6}",
-      only_in_the_plane({"water", "in", "field", "body_force", "rotation", "spin", "level", "weight", "at"}));
+      only_in_the_plane({"water", "in", "enters", "field", "body_force", "rotation", "spin", "level", "weight", "at"}));
   if (!map.is_map()) return;
   SpaceLoad load;
   load.name = entry.key;
