@@ -313,7 +313,7 @@ class Plot(InTemporaryDirectory):
         self.assertEqual(self.calls.pop()[::3], ("spectrum", {"columns": "ground"}))
         with self.assertRaises(IndexError):
             result.plot(increment=3)
-        with self.assertRaisesRegex(ValueError, "what must be stress, .* or history, not 'strees'"):
+        with self.assertRaisesRegex(ValueError, "what must be stress, .* or cracks, not 'strees'"):
             result.plot("strees")
 
     def test_temporary_directory(self):
