@@ -73,6 +73,36 @@ steps: [{growth: {law: paris, C: 1e-29, m: 3, between: [{up: 0, down: 0}, {up: 1
   EXPECT_NEAR(growth_at(solution, solution.increments.size() - 1).cycles.value() / 105199.70, 1.0, 1e-3);
 }
 
+/// The same with faces in contact.
+std::string in_contact(const std::string& more = "") {
+  return "}\ncontacts: {faces: {between: [strip.flaw.left, strip.flaw.right], friction: 0.3}" + more;
+}
+
+// A crack that the lowest load closes: the same life as from load 0, to what the faces in contact change of the
+// factors.
+TEST(FatigueGrowth, FacesThatTouchTakeTheCompressionOfTheCycle) {
+  const std::string law = "law: paris, C: 1e-29, m: 3, step: 0.05, until: {length: 0.3}, between: ";
+  const auto open = cycled(law + "[{pull: 0}, {pull: 1}]");
+  const auto closing = cycled(law + "[{pull: -1}, {pull: 1}]", in_contact());
+  last(open), last(closing);
+  ASSERT_EQ(closing.increments.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(growth_at(closing, k).tips.at(0).range.value() / growth_at(open, k).tips.at(0).range.value(), 1.0,
+                1e-4);
+  EXPECT_NEAR(growth_at(closing, 2).cycles.value() / growth_at(open, 2).cycles.value(), 1.0, 3e-4);
+}
+
+// A contact that stays open changes nothing: the range of a cycle from a tenth of the load.
+TEST(FatigueGrowth, FacesThatStayApartDoNotMatter) {
+  const std::string law =
+      "law: paris, C: 1e-29, m: 3, step: 0.05, until: {steps: 1}, between: [{pull: 0.1}, {pull: 1}]";
+  const auto with = cycled(law, in_contact()), without = cycled(law);
+  last(with), last(without);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(growth_at(with, k).tips.at(0).range.value() / growth_at(without, k).tips.at(0).range.value(), 1.0,
+                1e-4);
+}
+
 TEST(FatigueGrowth, ABreakEndsIt) {
   const auto solution = cycled(
       "law: walker, C: 1e-29, m: 3, gamma: 0.5, between: [{pull: 0.5}, {pull: 1}], step: 0.05, toughness: {K_Ic: "

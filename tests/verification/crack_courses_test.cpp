@@ -1,0 +1,107 @@
+// Courses of cracks that grow beside holes, loads and inclusions.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "growth.hpp"
+
+namespace scabo::verification {
+namespace {
+
+using std::numbers::pi;
+
+// An inclusion: a stiff one deflects the crack, which passes it, and a soft one draws it in (half a plate between).
+TEST(Growth, AStiffInclusionRepelsAndASoftOneAttracts) {
+  const auto beside = [](double young) {
+    return run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 30e9, poisson: 0.2}}, core: {{young: {}, poisson: 0.2}}}}
+bodies:
+  plate:
+    material: stone
+    shape: {{rectangle: {{corner: [0, -1], size: [2, 2]}}}}
+    regions: {{core: {{material: core, shape: {{circle: {{centre: [1, 0.25], radius: 0.2}}}}}}}}
+    mesh: {{kind: quadtree, size: 0.25}}
+    cracks: [{{path: [[0, 0], [0.4, 0]], name: flaw}}]
+supports: [{{on: plate.bottom, fix: [y]}}, {{on: plate.bottom_left, fix: [x]}}]
+loads: {{pull: {{on: plate.top, traction: [0, 1e6]}}}}
+steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: 0.1, until: {{length: 1.4}}}}}}]
+)",
+                           young));
+  };
+  const auto soft = beside(3e9), stiff = beside(300e9);
+  last(soft), last(stiff);
+  EXPECT_NE(soft.grown->ended.find("meets region 'core'"), std::string::npos) << soft.grown->ended;
+  EXPECT_NE(stiff.grown->ended.find("has the length 1.4"), std::string::npos) << stiff.grown->ended;
+  const std::vector<Vec2>& path = path_of(stiff);
+  double highest = 0.0, at_the_side = 0.0;
+  for (const Vec2& x : path) {
+    if (x.x() < 0.85) highest = std::max(highest, x.y());
+    if (x.x() > 0.95) at_the_side = std::min(at_the_side, x.y());
+  }
+  EXPECT_LT(at_the_side, highest - 0.03);
+}
+
+// Single-edge notched beam in four-point shear (Arrea and Ingraffea 1982; 1322 x 306 mm, notch 82 deep): the crack
+// kinks by 70 degrees out of the notch, bends round the near load and ends beyond it, as published. The numbers are
+// those of half the step.
+TEST(Growth, ANotchedBeamInShear) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: stress, thickness: 156}
+materials: {mortar: {young: 24.8e3, poisson: 0.18}}
+bodies:
+  beam:
+    material: mortar
+    shape: {polygon: {vertices: [[0, 0], [600, 0], [1119, 0], [1322, 0], [1322, 306], [722, 306], [203, 306], [0, 306]]}}
+    mesh: {kind: quadtree, size: 50}
+    cracks: [{path: [[661, 0], [661, 82]], name: notch}]
+contacts: {faces: {between: [beam.notch.left, beam.notch.right], friction: 0}}
+supports: [{on: beam.vertex_2, fix: [x, y]}, {on: beam.vertex_3, fix: y}]
+loads: {near: {on: beam.vertex_6, force: [0, -1000]}, far: {on: beam.vertex_7, force: [0, -130]}}
+steps: [{growth: {toughness: {K_Ic: 40}, step: 20}}]
+)");
+  last(solution);
+  EXPECT_TRUE(solution.grown->broken);
+  EXPECT_NEAR(std::abs(growth_at(solution, 0).tips.at(0).kink) * 180.0 / pi, 70.5, 0.5);
+  const std::vector<Vec2>& path = path_of(solution);
+  EXPECT_NEAR(path.back().x(), 749.2, 2.0);
+  EXPECT_EQ(path.back().y(), 306.0);
+  double farthest = 0.0;
+  for (const Vec2& x : path) farthest = std::max(farthest, x.x());
+  EXPECT_NEAR(farthest, 751.4, 2.0);
+}
+
+// Bittencourt, Wawrzynek, Ingraffea, Sousa (1996): beam of 20 x 8 with three holes of radius .25 in three-point
+// bending. From a notch 1 deep at 6 from the middle the crack passes the lowest hole and ends in the middle one.
+TEST(Growth, TheBeamOfBittencourt) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: strain}
+materials: {plexiglas: {young: 29e6, poisson: 0.3}}
+bodies:
+  beam:
+    material: plexiglas
+    shape: {polygon: {vertices: [[-10,0],[-9,0],[9,0],[10,0],[10,8],[0,8],[-10,8]]}}
+    holes:
+      low: {circle: {centre: [-4, 2.75], radius: 0.25}}
+      mid: {circle: {centre: [-4, 4.75], radius: 0.25}}
+      top: {circle: {centre: [-4, 6.75], radius: 0.25}}
+    mesh: {kind: quadtree, size: 0.6, refine: [{on: low, size: 0.12}, {on: mid, size: 0.12}]}
+    cracks: [{path: [[-6, 0], [-6, 1]], name: notch}]
+supports: [{on: beam.vertex_2, fix: [x, y]}, {on: beam.vertex_3, fix: [y]}]
+loads: {P: {on: beam.vertex_6, force: [0, -1]}}
+steps: [{growth: {toughness: {K_Ic: 1000}, step: 0.3}}]
+)");
+  last(solution);
+  EXPECT_LT(solution.grown->ended.find("meets edge 'mid'"), 100u) << solution.grown->ended;
+  const std::vector<Vec2>& path = path_of(solution);
+  ASSERT_EQ(path.size(), 16u);  // 13 steps, and the point on the hole
+  // With quarter steps, on another mesh:
+  const Vec2 finer[] = {{-5.5022, 2.4109}, {-5.0634, 3.1963}, {-4.6109, 3.9741}};
+  const std::size_t points[] = {6, 9, 12};
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((path[points[k]] - finer[k]).norm(), 0.0, 0.01);
+}
+
+}  // namespace
+}  // namespace scabo::verification
