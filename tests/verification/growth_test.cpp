@@ -198,6 +198,36 @@ TEST(Growth, MirroredAndInOtherUnitsThePathIsTheSame) {
   }
 }
 
+// What growth releases by the energies of the body, on two meshes, is the integral of G by the factors of the tips;
+// behind the kink their difference falls faster than with the square of the step.
+TEST(Growth, ReleasedIsTheIntegralOfG) {
+  std::vector<double> differences;
+  for (const double step : {0.16, 0.08, 0.04}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 30e9, poisson: 0.2}}}}
+bodies:
+  plate:
+    material: stone
+    shape: {{rectangle: {{corner: [0, 0], size: [1, 2]}}}}
+    mesh: {{kind: quadtree, size: 0.25, order: 4}}
+    cracks: [{{path: [[0, 0.8], [0.25, 1]], name: flaw}}]
+supports: [{{on: plate.bottom, fix: [x, y]}}]
+loads: {{pull: {{on: plate.top, traction: [0, 1e6]}}}}
+steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: {}, until: {{steps: 2}}}}}}]
+)",
+                                          step));
+    last(solution);
+    const analysis::GrowthEnergy& energy = growth_at(solution, 2).energy.value();
+    expect_balance(energy);
+    differences.push_back(std::abs(energy.released / energy.integral - 1.0));
+  }
+  EXPECT_LT(differences[0], 5e-3);
+  EXPECT_LT(differences[1], differences[0] / 4.0);
+  EXPECT_LT(differences[2], differences[1] / 4.0);
+  EXPECT_LT(differences[2], 2e-5);
+}
+
 /// The same crack for 0.25 on, of step `step`; `turned`: everything by 90 degrees counter-clockwise, (x, y) -> (-y, x).
 std::vector<Vec2> inclined_for_a_quarter(const std::string& mesh, double step, bool turned = false) {
   const auto solution = run(fmt::format(

@@ -32,9 +32,10 @@ def cracks(results, units=None, window=None):
     place = units.scale("length", np.abs(grid.points if window is None else window).max())
     low, high = (grid.points.min(axis=0), grid.points.max(axis=0)) if window is None else (window[::2], window[1::2])
     width, height = style.map_size(low, high)
+    panels = panels_of(tips)
+    width = max(width, 2.2 * len(panels) + 0.4)
     ended = results.summary["growth"].get("ended")
     figure = style.new_figure(width, height + 2.2, results.title, f"growth ended: {ended}" if ended else "growth has not ended")
-    panels = panels_of(tips)
     axes = figure.subplot_mosaic([["map"] * len(panels), panels], height_ratios=(height, 2.2))
     above = axes["map"]
     points = place.factor * grid.points
@@ -48,8 +49,8 @@ def cracks(results, units=None, window=None):
     fields.finish_map(above, place, window, height)
     for panel in panels:
         PANELS[panel](axes[panel], tips, units)
-    for panel in panels[1:]:
-        axes[panel].set_ylabel("")
+        if panel in ("opening", "displacement"):
+            axes[panel].set_ylabel("")  # that of the first panel
     if len(tips) > 1:
         axes[panels[0]].legend()
     return figure
@@ -77,27 +78,43 @@ def draw_cycles(axis, tips, units):
     axis.set(xlabel="cycles of load", ylabel=length.label("length of the crack"))
 
 
-def draw_over(column, dimension, name):
-    """The load factor over a column of cracks.csv."""
+def draw_over(column, name):
+    """The load factor over a length of cracks.csv."""
     def over(axis, tips, units):
-        scale = units.scale(dimension, largest_of(tips, column))
+        scale = units.scale("length", largest_of(tips, column))
         draw(axis, [(scale.factor * tip[column], tip["load_factor"]) for tip in tips.values()], tips)
         axis.set(xlabel=scale.label(name, "\n"), ylabel="load factor", ylim=(0, 1.1 * max(0.0, largest_of(tips, "load_factor"))))
-        if column != "length":
-            axis.set_xlim(left=min(0.0, axis.get_xlim()[0]))
     return over
+
+
+def of_states(tips, column):
+    """Load factor and a column that all tips of a state share, state by state."""
+    states = {}
+    for tip in tips.values():
+        for at, factor, value in zip(tip["increment"], tip["load_factor"], tip[column]):
+            states[at] = factor, value
+    return np.array([states[at] for at in sorted(states)]).T
+
+
+def draw_displacement(axis, tips, units):
+    """The load factor over the displacement of the loads."""
+    factor, value = of_states(tips, "displacement")
+    scale = units.scale("energy", np.nanmax(np.abs(value)))
+    draw(axis, [(scale.factor * value, factor)], [""])
+    axis.set(xlabel=scale.label("displacement of the load,\nwork at factor 1"), ylabel="load factor", ylim=(0, 1.1 * max(0.0, factor.max())),
+             xlim=(min(0.0, axis.get_xlim()[0]), None))
 
 
 def draw_reaction(axis, tips, units):
     """The reaction over the factor of supports that move."""
-    scale = units.scale("energy", largest_of(tips, "reaction"))
-    draw(axis, [(tip["load_factor"], scale.factor * tip["reaction"]) for tip in tips.values()], tips)
-    axis.set(xlabel="factor of the supports", ylabel="", title=scale.label("reaction, work at factor 1"))
+    factor, value = of_states(tips, "reaction")
+    scale = units.scale("energy", np.nanmax(np.abs(value)))
+    draw(axis, [(factor, scale.factor * value)], [""])
+    axis.set(xlabel="factor of the supports", ylabel=scale.label("reaction, work at factor 1"), xlim=(0, None), ylim=(0, None))
 
 
-PANELS = {"cycles": draw_cycles, "length": draw_over("length", "length", "length of the crack"),
-          "opening": draw_over("opening", "length", "its largest opening"),
-          "displacement": draw_over("displacement", "energy", "displacement of the load,\nwork at factor 1"), "reaction": draw_reaction}
+PANELS = {"cycles": draw_cycles, "length": draw_over("length", "length of the crack"), "opening": draw_over("opening", "its largest opening"),
+          "displacement": draw_displacement, "reaction": draw_reaction}
 
 
 def draw(axis, curves, tips):
