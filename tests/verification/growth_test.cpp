@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scabo/result/report.hpp"
+
 namespace scabo::verification {
 namespace {
 
@@ -102,6 +104,10 @@ steps: [{growth: {toughness: {K_Ic: 2e6}, step: 0.2, until: {length: 2.6}}}]
   const std::vector<Vec2>& path = path_of(solution);
   EXPECT_NEAR((path.front() - Vec2(-1.3, 0)).norm(), 0.0, 1e-4);
   EXPECT_NEAR((path.back() - Vec2(1.3, 0)).norm(), 0.0, 1e-4);
+  EXPECT_EQ(result::report_growth(solution),
+            "Growth is unstable under a given load in increments 1 to 3: the next one needs less\n"
+            "Several tips are critical at once in increments 1 to 3: they grow together, the symmetric one of several "
+            "ways\nGrowth ended: the crack of 'plate.flaw.start' has the length 2.6\n");
 }
 
 // The same crack opened by water of the same pressure on its faces, which follows it: the same factors.
