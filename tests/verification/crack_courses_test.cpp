@@ -73,6 +73,36 @@ steps: [{growth: {toughness: {K_Ic: 40}, step: 20}}]
   EXPECT_NEAR(farthest, 751.4, 2.0);
 }
 
+// Two notches in antisymmetric four-point shear, after Bocca, Carpinteri and Valente (1991): both cracks grow together,
+// each the other one turned by half a turn, towards the near load and the near support.
+TEST(Growth, TwoNotchesInShear) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: stress, thickness: 100}
+materials: {concrete: {young: 27e3, poisson: 0.18}}
+bodies:
+  beam:
+    material: concrete
+    shape: {polygon: {vertices: [[0, 0], [320, 0], [780, 0], [800, 0], [800, 200], [480, 200], [20, 200], [0, 200]]}}
+    mesh: {kind: quadtree, size: 50}
+    cracks: [{path: [[400, 0], [400, 40]], name: low}, {path: [[400, 200], [400, 160]], name: high}]
+contacts:
+  low: {between: [beam.low.left, beam.low.right], friction: 0}
+  high: {between: [beam.high.left, beam.high.right], friction: 0}
+supports: [{on: beam.vertex_2, fix: [x, y]}, {on: beam.vertex_3, fix: y}]
+loads: {near: {on: beam.vertex_6, force: [0, -1000]}, far: {on: beam.vertex_7, force: [0, -210.526315789]}}
+steps: [{growth: {toughness: {K_Ic: 40}, step: 40, until: {length: 120}}}]
+)");
+  last(solution);
+  const std::vector<Vec2>&low = solution.grown->paths.at(0).points, &high = solution.grown->paths.at(1).points;
+  ASSERT_EQ(low.size(), high.size());
+  for (std::size_t k = 0; k < low.size(); ++k) EXPECT_NEAR((low[k] + high[k] - Vec2(800, 200)).norm(), 0.0, 0.1);
+  for (std::size_t k = 2; k + 1 < low.size(); ++k) {  // upwards by and by
+    const Vec2 before = low[k] - low[k - 1], after = low[k + 1] - low[k];
+    EXPECT_GT(std::atan2(after.y(), after.x()), std::atan2(before.y(), before.x()));
+  }
+  EXPECT_GT(low.back().x(), 450.0);
+}
+
 // Bittencourt, Wawrzynek, Ingraffea, Sousa (1996): beam of 20 x 8 with three holes of radius .25 in three-point
 // bending. From a notch 1 deep at 6 from the middle the crack passes the lowest hole and ends in the middle one.
 TEST(Growth, TheBeamOfBittencourt) {

@@ -102,5 +102,26 @@ TEST(Kinks, WithTheTStress) {
   }
 }
 
+// Straight wings of length l at the tips of a closed crack under compression, by friction and length: k_1 and k_2 of a
+// crack that is closed everywhere (VERIFICATION, "Cracks that grow"). Here it opens beside its wings, which changes
+// k_2.
+TEST(Kinks, WingsByFrictionAndLength) {
+  const struct {
+    double friction, length;
+    Vec2 k;
+  } rows[] = {{0.3, 0.02, {.37755, -.06038}}, {0.0, 0.1, {.44461, -.06795}}, {0.0, 0.5, {.24796, .03905}}};
+  for (const auto& row : rows) {
+    const double turn = (45.0 + 70.529) * degree;
+    const Vec2 end = Vec2::Constant(std::sqrt(0.5)), tip = end + row.length * Vec2(std::cos(turn), std::sin(turn));
+    CrackedPlate plate{.kind = "quadtree", .order = 2, .yy = -1};
+    plate.crack("flaw", {-tip, -end, end, tip}).refine_at({-tip, -end, end, tip}, 0.25 * row.length);
+    plate.contacts = fmt::format("faces: {{between: [plate.flaw.left, plate.flaw.right], friction: {}}}", row.friction);
+    const auto solution = run(plate.text());
+    const element::StressIntensity& factors = factors_at(last(solution), "plate.flaw.end");
+    EXPECT_NEAR(factors.K_I / std::sqrt(pi) / row.k[0], 1.0, 6e-3) << row.length;
+    EXPECT_NEAR(factors.K_II / std::sqrt(pi), row.k[1], 8e-3) << row.length;
+  }
+}
+
 }  // namespace
 }  // namespace scabo::verification
