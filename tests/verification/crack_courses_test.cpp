@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "growth.hpp"
@@ -11,6 +12,66 @@ namespace scabo::verification {
 namespace {
 
 using std::numbers::pi;
+
+/// Of a mesh after a step: cells that the one before has too, the largest relative difference of their stiffness, and
+/// how far others are from the tip.
+struct Kept {
+  std::size_t cells = 0, kept = 0;
+  double difference = 0.0, farthest = 0.0;
+};
+Kept kept_cells() {
+  const auto grown = [&](int steps) {
+    return run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 30e9, poisson: 0.2}}}}
+bodies:
+  plate:
+    material: stone
+    shape: {{rectangle: {{corner: [0, 0], size: [2, 4]}}}}
+    mesh: {{kind: quadtree, size: 0.1}}
+    cracks: [{{path: [[0, 1.8], [0.5, 2.2]], name: flaw}}]
+supports: [{{on: plate.bottom, fix: [x, y]}}]
+loads: {{pull: {{on: plate.top, traction: [0, 1e6]}}}}
+steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: 0.1, until: {{steps: {}}}}}}}]
+)",
+                           steps));
+  };
+  using Corners = std::vector<std::pair<double, double>>;
+  const auto corners = [](const mesh::BodyMesh& body, const mesh::Cell& cell) {
+    Corners list;
+    for (const int node : cell.nodes()) {
+      const Vec2& x = body.nodes[static_cast<std::size_t>(node)];
+      list.emplace_back(x.x(), x.y());
+    }
+    return list;
+  };
+  const auto first = grown(2), second = grown(3);
+  std::map<Corners, std::size_t> before;
+  const mesh::BodyMesh &old = first.mesh.bodies[0], &body = second.mesh.bodies[0];
+  for (std::size_t c = 0; c < old.cells.size(); ++c) before.emplace(corners(old, old.cells[c]), c);
+  Kept result;
+  for (std::size_t c = 0; c < body.cells.size(); ++c) {
+    ++result.cells;
+    const auto same = before.find(corners(body, body.cells[c]));
+    if (same == before.end()) {
+      result.farthest = std::max(result.farthest, (body.cells[c].centre - path_of(second).back()).norm());
+      continue;
+    }
+    ++result.kept;
+    const Matrix &K = first.cells[0][same->second]->K(), now = second.cells[0][c]->K();
+    result.difference = std::max(result.difference, (K - now).norm() / K.norm());
+  }
+  return result;
+}
+
+// In a step only cells of the quadtree near the way change. The others stay where they were, and so does their
+// stiffness but for rounding: cells that are equal but for where they are share that of one of them.
+TEST(Growth, OnlyCellsOnTheWayChange) {
+  const Kept of = kept_cells();
+  EXPECT_GT(static_cast<double>(of.kept), 0.85 * static_cast<double>(of.cells));
+  EXPECT_LT(of.farthest, 0.5);
+  EXPECT_LT(of.difference, 1e-14);
+}
 
 // An inclusion: a stiff one deflects the crack, which passes it, and a soft one draws it in (half a plate between).
 TEST(Growth, AStiffInclusionRepelsAndASoftOneAttracts) {

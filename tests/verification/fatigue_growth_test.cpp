@@ -103,6 +103,42 @@ TEST(FatigueGrowth, FacesThatStayApartDoNotMatter) {
                 1e-4);
 }
 
+// A closed crack under a pressure p that stays and shear from 0 to tau: it slides by tau - mu p, and back only when the
+// shear has fallen by 2 mu p, so that mu p is left at no load, and the range of the second cycle is tau - 2 mu p.
+TEST(FatigueGrowth, FrictionHasFoundItsCycle) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: stress}
+materials: {steel: {young: 200e9, poisson: 0.3}}
+bodies:
+  plate:
+    material: steel
+    shape: {rectangle: {corner: [-100, -100], size: [200, 200]}}
+    mesh: {kind: quadtree, size: 20, order: 2}
+    cracks: [{path: [[-1, 0], [1, 0]], name: flaw}]
+contacts: {faces: {between: [plate.flaw.left, plate.flaw.right], friction: 0.3}}
+supports: [{on: plate.bottom_left, fix: [x, y]}, {on: plate.bottom_right, fix: [y]}]
+loads:
+  top: {on: plate.top, traction: [0, -1e6]}
+  bottom: {on: plate.bottom, traction: [0, 1e6]}
+  up: {on: plate.top, traction: [1e6, 0]}
+  down: {on: plate.bottom, traction: [-1e6, 0]}
+  right: {on: plate.right, traction: [0, 1e6]}
+  left: {on: plate.left, traction: [0, -1e6]}
+steps:
+  - {loads: {top: 1, bottom: 1}}
+  - loads: {up: 1, down: 1, right: 1, left: 1}
+    growth: {criterion: straight, law: paris, C: 1e-29, m: 3, step: 0.1, until: {steps: 1},
+             between: [{up: 0, down: 0, right: 0, left: 0}, {up: 1, down: 1, right: 1, left: 1}]}
+)");
+  last(solution);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double a = 1.0 + 0.05 * static_cast<double>(k);
+    const analysis::TipResult& tip = growth_at(solution, k + 1).tips.at(1);
+    EXPECT_NEAR(std::abs(tip.K_II) / (0.7e6 * std::sqrt(pi * a)), 1.0, 3e-3);
+    EXPECT_NEAR(tip.range.value() / (0.4e6 * std::sqrt(pi * a)), 1.0, 5e-3);
+  }
+}
+
 TEST(FatigueGrowth, ABreakEndsIt) {
   const auto solution = cycled(
       "law: walker, C: 1e-29, m: 3, gamma: 0.5, between: [{pull: 0.5}, {pull: 1}], step: 0.05, toughness: {K_Ic: "
