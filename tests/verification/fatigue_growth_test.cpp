@@ -139,6 +139,32 @@ steps:
   }
 }
 
+// Two cracks far from each other: each becomes longer by its own rate, of which the step is the sum.
+TEST(FatigueGrowth, EveryTipHasItsOwnRate) {
+  const auto solution = run(R"(scabo: 1
+analysis: {plane: strain}
+materials: {steel: {young: 200e9, poisson: 0.3}}
+bodies:
+  strip:
+    material: steel
+    shape: {rectangle: {corner: [0, 0], size: [1, 4]}}
+    mesh: {kind: quadtree, size: 0.25, order: 3}
+    cracks: [{path: [[0, 1], [0.2, 1]], name: long}, {path: [[0, 3], [0.15, 3]], name: short}]
+supports: [{on: strip.bottom, fix: [y]}, {on: strip.bottom_left, fix: [x]}]
+loads: {pull: {on: strip.top, traction: [0, 50e6]}}
+steps: [{growth: {law: paris, C: 1e-29, m: 3, between: [{pull: 0}, {pull: 1}], step: 0.02, until: {steps: 2}}}]
+)");
+  last(solution);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::vector<analysis::TipResult>&at = growth_at(solution, k).tips, &after = growth_at(solution, k + 1).tips;
+    const auto rate = [&](std::size_t t) { return std::pow(0.5 * (at[t].range.value() + after[t].range.value()), 3); };
+    const double grown[] = {after[0].length - at[0].length, after[1].length - at[1].length};
+    EXPECT_NEAR(grown[0] + grown[1], 0.02, 1e-9);
+    EXPECT_GT(grown[0], 1.3 * grown[1]);
+    EXPECT_NEAR(grown[0] / grown[1] / (rate(0) / rate(1)), 1.0, 5e-3);
+  }
+}
+
 TEST(FatigueGrowth, ABreakEndsIt) {
   const auto solution = cycled(
       "law: walker, C: 1e-29, m: 3, gamma: 0.5, between: [{pull: 0.5}, {pull: 1}], step: 0.05, toughness: {K_Ic: "
