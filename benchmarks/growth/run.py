@@ -2,6 +2,8 @@
 """Time of growth: processor time of many steps of Bittencourt's beam (example 31), a step, beside a whole run of the beam with its
 crack as it is at the end, at one load.
 
+Then the same of cells that give the beam about 100,000 degrees of freedom: a step beside the first state, which is one full solution.
+
     benchmarks/growth/run.py --scabo build/bin/scabo
 """
 import argparse
@@ -33,6 +35,12 @@ def main():
             f"bodies.beam.mesh.refine={json.dumps([{'on': 'low', 'size': 0.12}, {'on': 'middle', 'size': 0.12}, near])}"])
         print(f"{done} steps: {spent:.1f} s of the processors, {wall:.1f} s by the clock; {spent / done:.3f} s a step, a whole run {alone:.3f} s")
         print(", ".join(f"{name} {seconds:.1f}" for name, seconds in summary["timing"].items()))
+        fine, few = ["bodies.beam.mesh.size=0.1", "bodies.beam.mesh.refine=[]"], 5
+        first, _ = run(options.scabo, pathlib.Path(folder, "first"), {"growth": grow | {"step": 0.15, "until": {"load_factor": 1e-9}}}, fine)
+        five, _ = run(options.scabo, pathlib.Path(folder, "five"), {"growth": grow | {"step": 0.15, "until": {"steps": few}}}, fine)
+        model = json.loads((pathlib.Path(folder, "five") / "summary.json").read_text(encoding="utf-8"))["model"]
+        step = (five - first) / few
+        print(f"{model['dofs']} degrees of freedom: the first state {first:.2f} s of the processors, a step {step:.2f} s, {step / first:.2f} of it")
 
 
 def run(scabo, directory, step, settings=()):

@@ -8,15 +8,15 @@ import pictures
 from pictures import np, plt
 
 HERE = pathlib.Path(__file__).resolve().parent
-NOTCHES = ((6, 1.0), (5, 1.5))  # from the middle, deep
+NOTCHES = ((6, 1.0), (5, 1.5), (4.97, 1.5))  # from the middle, deep
 HOLES = {"low": 2.75, "middle": 4.75, "high": 6.75}
 
 
 def main():
     options = pictures.options_of(__doc__, HERE, "three_holes")
-    figure = plt.figure(figsize=(9.6, 3.9), layout="constrained")
-    axes = figure.subplots(1, 3, width_ratios=(1, 1, 1.15))
-    for axis, (middle, deep), colour, dashes in zip(axes, NOTCHES, (pictures.BLUE, pictures.RED), ("-", "--")):
+    figure = plt.figure(figsize=(12.0, 3.9), layout="constrained")
+    axes = figure.subplots(1, 4, width_ratios=(1, 1, 1, 1.15))
+    for axis, (middle, deep), colour, dashes in zip(axes, NOTCHES, (pictures.BLUE, pictures.RED, pictures.GREY), ("-", "--", ":")):
         directory = options.results.with_name(f"{options.results.name}_{middle}.results")
         summary = pictures.run(options.scabo, HERE / "model.yaml", directory, f"parameters.from_middle={middle}", f"parameters.deep={deep}")
         path, table = np.array(summary["growth"]["paths"]["beam.notch"]), pictures.table_of(directory, "cracks.csv")
@@ -26,10 +26,10 @@ def main():
         pictures.draw_cells(axis, directory, linewidths=0.3)
         axis.plot(*path.T, "o-", color=colour, ms=2, lw=1.3)
         axis.set(xlim=(-7, -2), ylim=(0, 8), aspect="equal", xlabel="x (in)", ylabel="y (in)", title=f"notch {deep:g} deep, {middle} from the middle")
-        axes[2].plot(table["length"], table["load_factor"], dashes, color=colour, marker="o", ms=2.5, label=f"{middle} from the middle")
-    axes[2].set(xlabel="length of the crack (in)", ylabel="load (lb)", title="load at which it grows", ylim=(0, None))
-    axes[2].grid(True)
-    axes[2].legend()
+        axes[3].plot(table["length"], table["load_factor"], dashes, color=colour, marker="o", ms=2.5, label=f"{middle} from the middle")
+    axes[3].set(xlabel="length of the crack (in)", ylabel="load (lb)", title="load at which it grows", ylim=(0, None))
+    axes[3].grid(True)
+    axes[3].legend()
     figure.savefig(options.output / "three_holes.png")
     print(options.output / "three_holes.png")
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Contact", "Increment", "Result"]
 
 _STATES = np.array(["open", "stick", "slip"])
-_PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "envelope", "spectrum", "history")
+_PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "envelope", "spectrum", "history", "cracks")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
 
 
@@ -232,7 +232,7 @@ class Result:
     def cracks(self) -> dict[str, dict[str, np.ndarray]]:
         """Of a step in which cracks grow: for each tip by name, as in "plate.flaw.end", columns over the states of growth:
         increment (an index into ``increments``), x, y, length, K_I, K_II, T, G, kink (radians), load_factor, critical_at,
-        grows, range and cycles (docs/results.md). Empty without growth."""
+        grows, range, cycles, opening, displacement and reaction (docs/results.md). Empty without growth."""
         columns: dict[str, dict[str, list[Any]]] = {}
         for number, increment in enumerate(self._increments):
             growth = increment.as_dict().get("growth", {})
@@ -241,7 +241,8 @@ class Result:
                 row = {"increment": number, "x": tip["position"][0], "y": tip["position"][1], "length": tip["length"],
                        **{key: np.nan if factors.get(key) is None else factors[key] for key in ("K_I", "K_II", "T", "G")},
                        "kink": tip["kink"], "load_factor": growth["load_factor"], "critical_at": tip["critical_at"],
-                       "grows": tip["grows"], "range": tip.get("range"), "cycles": growth.get("cycles")}
+                       "grows": tip["grows"], "range": tip.get("range"), "cycles": growth.get("cycles"), "opening": tip["opening"],
+                       "displacement": growth.get("displacement"), "reaction": growth.get("reaction")}
                 of_tip = columns.setdefault(name, {key: [] for key in row})
                 for key, value in row.items():
                     of_tip[key].append(np.nan if value is None else value)
@@ -319,7 +320,7 @@ class Result:
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
         """A figure of Matplotlib by ``scabo.plot``, whose functions describe the options: what="stress" on the deformed
         shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism", "envelope", "spectrum"
-        (``columns="NAME"``, a velocity of the history) or "history". ``mirrored=True`` draws both halves of bodies of
+        (``columns="NAME"``, a velocity of the history), "history" or "cracks". ``mirrored=True`` draws both halves of bodies of
         revolution. Results that are not in a directory are first written to a temporary one."""
         if what not in _PICTURES:
             raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")

@@ -14,7 +14,7 @@ import meshio
 import numpy as np
 import plot
 import support
-from plot import command, contacts, fields, mechanisms
+from plot import command, contacts, cracks, fields, mechanisms
 
 
 class Program(support.InTemporaryDirectory):
@@ -120,6 +120,23 @@ class Program(support.InTemporaryDirectory):
         self.assertIn(b"vtkZLibDataCompressor", (results / "fields_0001.vtu").read_bytes()[:200])
         grid = meshio.read(results / "fields_0001.vtu")
         np.testing.assert_array_equal(plot.Results(results).fields(1).point_data["von_mises"], grid.point_data["von_mises"])
+
+    def test_cracks_that_grow(self):
+        """The picture against cracks.csv, and the animation: every file has a mesh of its own, whose crack is open by what cracks.csv says."""
+        results = self.run_model("growth", "output.every=1", "steps.0.growth.until={steps: 3}", "output.fields=[displacement]")
+        table = plot.Results(results).table("cracks.csv")
+        figure = cracks.cracks(plot.Results(results))
+        for axis, column in zip(figure.axes[1:], ("length", "opening", "displacement"), strict=True):
+            line, = axis.lines
+            np.testing.assert_allclose(line.get_xdata() / line.get_xdata()[0], table[column] / table[column][0], rtol=1e-12)
+            np.testing.assert_array_equal(line.get_ydata(), table["load_factor"])
+        files = re.findall('file="(.*?)"', (results / "fields.pvd").read_text(encoding="utf-8"))
+        self.assertEqual(len(files), 4)
+        grids = [meshio.read(results / name) for name in files]
+        self.assertEqual(len({len(grid.points) for grid in grids}), 4)
+        for grid, opening in zip(grids, table["opening"]):
+            at_mouth = grid.point_data["displacement"][np.linalg.norm(grid.points, axis=1) < 1e-12, 1]
+            self.assertAlmostEqual(np.ptp(at_mouth) / opening, 1.0, delta=1e-6)
 
     def test_modes(self):
         model = self.directory / "modes.yaml"

@@ -23,6 +23,23 @@ def copies(array):
     return address(array()) != address(array())
 
 
+class Growth(InTemporaryDirectory):
+    def test_cracks_are_the_columns_of_the_file(self):
+        model = scabo.read(ROOT / "apps" / "scabo" / "models" / "growth.yaml")
+        model["steps"][0]["growth"]["until"] = {"steps": 2}
+        result = model.run(output=self.directory / "results")
+        with open(self.directory / "results" / "cracks.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(result.cracks), ["beam.flaw.end"])
+        columns = result.cracks["beam.flaw.end"]
+        self.assertEqual(set(columns), set(rows[0]) - {"step", "tip"})
+        for name, values in columns.items():
+            expected = [float(row[name] or "nan") for row in rows]
+            np.testing.assert_array_equal(values, np.array(expected) - 1 if name == "increment" else expected, name)
+        np.testing.assert_allclose(np.diff(columns["length"]), 0.02, atol=1e-12)
+        self.assertTrue((np.diff(columns["opening"]) > 0).all() and (np.diff(columns["displacement"]) > 0).all())
+
+
 class Memory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -313,7 +330,7 @@ class Plot(InTemporaryDirectory):
         self.assertEqual(self.calls.pop()[::3], ("spectrum", {"columns": "ground"}))
         with self.assertRaises(IndexError):
             result.plot(increment=3)
-        with self.assertRaisesRegex(ValueError, "what must be stress, .* or history, not 'strees'"):
+        with self.assertRaisesRegex(ValueError, "what must be stress, .* or cracks, not 'strees'"):
             result.plot("strees")
 
     def test_temporary_directory(self):

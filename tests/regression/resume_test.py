@@ -252,6 +252,28 @@ class Resume(unittest.TestCase):
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assert_same(whole)
 
+    def test_killed_under_cycles_in_contact_and_where_one_crack_has_ended(self):
+        growing = GROWTH.replace(f"steps: {STEPS_OF_GROWTH}", "steps: 4").replace("fix: [x, y]}", "fix: y}, {on: plate.bottom_left, fix: x}")
+        cycled = growing.replace("[[0, 0.8], [0.25, 1]]", "[[0, 1], [0.3, 1]]").replace(
+            "supports:", "contacts: {faces: {between: [plate.flaw.left, plate.flaw.right], friction: 0.2}}\nsupports:").replace(
+            "LAW", "law: paris, C: 1e-29, m: 3, between: [{pull: -0.5}, {pull: 1}]")
+        ended = growing.replace("[{path: [[0, 0.8], [0.25, 1]], name: flaw}]", "[{path: [[0, 1], [0.35, 1]], name: flaw}, {path: [[1, 1], [0.85, 1]], "
+                                "name: other}]\n    holes: {bore: {circle: {centre: [0.55, 1], radius: 0.1}}}").replace(
+            "fix: x}]", "fix: x}, {on: plate.top, displacement: [null, 1e-4], name: up}]").replace("loads: {pull: 1}", "loads: {up: 1}").replace(
+            "LAW", "toughness: {K_Ic: 1e6}").replace("{steps: 4}", "{steps: 4, break: true}").replace("pull: {on: plate.top, traction: [0, 1e6]}, ", "")
+        for model in (cycled, ended):
+            self.model.write_text(model, encoding="utf-8")
+            run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            whole = content(self.directory / "whole")
+            for checkpoints in (4,) if SANITIZED else (4, 3, 5):  # two of them of increments before growth
+                shutil.rmtree(self.results, ignore_errors=True)
+                self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
+                run = scabo("resume", self.results, "--quiet")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assert_same(whole)
+        self.assertIn(b'"meets"', whole["summary.json"])
+
     def test_half_written_files_are_cut_off(self):
         whole, _ = self.unbroken()
         self.assertTrue(self.killed(), "the run was too fast")

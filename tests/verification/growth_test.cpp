@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scabo/result/report.hpp"
+
 namespace scabo::verification {
 namespace {
 
@@ -102,6 +104,10 @@ steps: [{growth: {toughness: {K_Ic: 2e6}, step: 0.2, until: {length: 2.6}}}]
   const std::vector<Vec2>& path = path_of(solution);
   EXPECT_NEAR((path.front() - Vec2(-1.3, 0)).norm(), 0.0, 1e-4);
   EXPECT_NEAR((path.back() - Vec2(1.3, 0)).norm(), 0.0, 1e-4);
+  EXPECT_EQ(result::report_growth(solution),
+            "Growth is unstable under a given load in increments 1 to 3: the next one needs less\n"
+            "Several tips are critical at once in increments 1 to 3: they grow together, the symmetric one of several "
+            "ways\nGrowth ended: the crack of 'plate.flaw.start' has the length 2.6\n");
 }
 
 // The same crack opened by water of the same pressure on its faces, which follows it: the same factors.
@@ -196,6 +202,36 @@ TEST(Growth, MirroredAndInOtherUnitsThePathIsTheSame) {
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(growth_at(other, k).load_factor / growth_at(first, k).load_factor, 1.0, 1e-6);
   }
+}
+
+// What growth releases by the energies of the body, on two meshes, is the integral of G by the factors of the tips;
+// behind the kink their difference falls faster than with the square of the step.
+TEST(Growth, ReleasedIsTheIntegralOfG) {
+  std::vector<double> differences;
+  for (const double step : {0.16, 0.08, 0.04}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 30e9, poisson: 0.2}}}}
+bodies:
+  plate:
+    material: stone
+    shape: {{rectangle: {{corner: [0, 0], size: [1, 2]}}}}
+    mesh: {{kind: quadtree, size: 0.25, order: 4}}
+    cracks: [{{path: [[0, 0.8], [0.25, 1]], name: flaw}}]
+supports: [{{on: plate.bottom, fix: [x, y]}}]
+loads: {{pull: {{on: plate.top, traction: [0, 1e6]}}}}
+steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: {}, until: {{steps: 2}}}}}}]
+)",
+                                          step));
+    last(solution);
+    const analysis::GrowthEnergy& energy = growth_at(solution, 2).energy.value();
+    expect_balance(energy);
+    differences.push_back(std::abs(energy.released / energy.integral - 1.0));
+  }
+  EXPECT_LT(differences[0], 5e-3);
+  EXPECT_LT(differences[1], differences[0] / 4.0);
+  EXPECT_LT(differences[2], differences[1] / 4.0);
+  EXPECT_LT(differences[2], 2e-5);
 }
 
 /// The same crack for 0.25 on, of step `step`; `turned`: everything by 90 degrees counter-clockwise, (x, y) -> (-y, x).
@@ -342,34 +378,65 @@ steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: 0.2}}}}]
   EXPECT_NE(hollow.grown->ended.find("meets edge 'bore'"), std::string::npos) << hollow.grown->ended;
 }
 
-// Bittencourt, Wawrzynek, Ingraffea, Sousa (1996): beam of 20 x 8 with three holes of radius .25 in three-point
-// bending. From a notch 1 deep at 6 from the middle the crack passes the lowest hole and ends in the middle one.
-TEST(Growth, TheBeamOfBittencourt) {
-  const auto solution = run(R"(scabo: 1
-analysis: {plane: strain}
-materials: {plexiglas: {young: 29e6, poisson: 0.3}}
+/// Two edge cracks towards a bore, in a strip whose top is moved.
+analysis::StaticSolution towards_a_bore(const std::string& until, const std::string& conditions) {
+  return run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 30e9, poisson: 0.2}}}}
 bodies:
-  beam:
-    material: plexiglas
-    shape: {polygon: {vertices: [[-10,0],[-9,0],[9,0],[10,0],[10,8],[0,8],[-10,8]]}}
-    holes:
-      low: {circle: {centre: [-4, 2.75], radius: 0.25}}
-      mid: {circle: {centre: [-4, 4.75], radius: 0.25}}
-      top: {circle: {centre: [-4, 6.75], radius: 0.25}}
-    mesh: {kind: quadtree, size: 0.6, refine: [{on: low, size: 0.12}, {on: mid, size: 0.12}]}
-    cracks: [{path: [[-6, 0], [-6, 1]], name: notch}]
-supports: [{on: beam.vertex_2, fix: [x, y]}, {on: beam.vertex_3, fix: [y]}]
-loads: {P: {on: beam.vertex_6, force: [0, -1]}}
-steps: [{growth: {toughness: {K_Ic: 1000}, step: 0.3}}]
-)");
-  last(solution);
-  EXPECT_LT(solution.grown->ended.find("meets edge 'mid'"), 100u) << solution.grown->ended;
-  const std::vector<Vec2>& path = path_of(solution);
-  ASSERT_EQ(path.size(), 16u);  // 13 steps, and the point on the hole
-  // With quarter steps, on another mesh:
-  const Vec2 finer[] = {{-5.5022, 2.4109}, {-5.0634, 3.1963}, {-4.6109, 3.9741}};
-  const std::size_t points[] = {6, 9, 12};
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((path[points[k]] - finer[k]).norm(), 0.0, 0.01);
+  strip:
+    material: stone
+    shape: {{rectangle: {{corner: [0, 0], size: [1, 2]}}}}
+    holes: {{bore: {{circle: {{centre: [0.55, 1], radius: 0.1}}}}}}
+    mesh: {{kind: quadtree, size: 0.25}}
+    cracks: [{{path: [[0, 1], [0.3, 1]], name: left}}, {{path: [[1, 1], [0.85, 1]], name: right}}]
+{}
+steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: 0.05, until: {{{}}}}}}}]
+)",
+                         conditions, until));
+}
+
+// Until it breaks: where one crack has met the bore, the other one goes on, with more load, until the strip is in two.
+TEST(Growth, OneCrackGoesOnWhereTheOtherHasEnded) {
+  const std::string moved =
+      "supports: [{on: strip.bottom, fix: [y]}, {on: strip.bottom_left, fix: [x]}, {on: strip.top, displacement: "
+      "[null, 1e-4], name: pull}]";
+  const auto one = towards_a_bore("", moved), all = towards_a_bore("break: true", moved);
+  last(one), last(all);
+  EXPECT_FALSE(one.grown->broken);
+  EXPECT_TRUE(all.grown->broken);
+  ASSERT_EQ(all.grown->paths.size(), 2u);
+  EXPECT_NEAR(all.grown->paths[0].points.back().x(), 0.45, 1e-6);
+  EXPECT_NEAR(all.grown->paths[1].points.back().x(), 0.65, 1e-6);
+  const std::size_t met = one.increments.size() - 1;
+  ASSERT_GT(all.increments.size(), met + 2);
+  EXPECT_TRUE(growth_at(all, met).tips.at(0).meets.has_value());
+  ASSERT_EQ(growth_at(all, met + 1).tips.size(), 1u);
+  EXPECT_EQ(growth_at(all, met + 1).tips[0].name, "strip.right.end");
+  EXPECT_GT(growth_at(all, met + 1).load_factor, 1.5 * growth_at(all, met).load_factor);
+  EXPECT_FALSE(growth_at(all, met + 1).energy.has_value());
+  EXPECT_TRUE(growth_at(all, met + 2).energy.has_value());
+}
+
+// The area under the load over its displacement is the work of the load; of the reaction of a support that moves, over
+// its displacement.
+TEST(Growth, LoadAndDisplacementEncloseTheWork) {
+  const auto pulled = towards_a_bore("load_factor: 1e-9",
+                                     "supports: [{on: strip.bottom, fix: [x, y]}]\nloads: {pull: "
+                                     "{on: strip.top, traction: [0, 1e6]}}");
+  last(pulled);
+  const analysis::GrowthResult& first = growth_at(pulled, 0);
+  ASSERT_TRUE(first.displacement && !first.reaction);
+  EXPECT_NEAR(0.5 * first.load_factor * *first.displacement / increment_at(pulled, 0).energy.elastic, 1.0, 1e-9);
+  EXPECT_GT(first.tips.at(1).opening, 0.0);
+  EXPECT_LT(first.tips[1].opening, first.tips[0].opening);
+  const auto moved = towards_a_bore("steps: 1",
+                                    "supports: [{on: strip.bottom, fix: [x, y]}, {on: strip.top, "
+                                    "displacement: [null, 1e-4], name: pull}]");
+  last(moved);
+  const analysis::GrowthResult& at = growth_at(moved, 1);
+  ASSERT_TRUE(at.reaction && !at.displacement);
+  EXPECT_NEAR(0.5 * at.load_factor * *at.reaction / increment_at(moved, 1).energy.elastic, 1.0, 1e-9);
 }
 
 }  // namespace

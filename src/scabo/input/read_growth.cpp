@@ -48,12 +48,13 @@ void read_toughness(Reading& reading, const Value& value, GrowthStep& growth) {
 }
 
 void read_until(Reading& reading, const Value& value, GrowthStep& growth) {
-  const MapReader map(reading.report, value, {"length", "tip", "load_factor", "steps"}, "{length: 0.5}");
+  const MapReader map(reading.report, value, {"length", "tip", "load_factor", "steps", "break"}, "{length: 0.5}");
   if (const auto length = map.get("length")) growth.length = number_or_unread(reading, length);
   if (const auto tip = map.get("tip")) growth.tip = read_vector(reading.report, *tip).value_or(Vec2::Constant(unread));
   if (const auto factor = map.get("load_factor")) growth.load_factor = number_or_unread(reading, factor);
   if (const auto steps = map.get("steps"))
     growth.steps = static_cast<int>(read_integer(reading.report, *steps, limits::growth_steps).value_or(1));
+  if (const auto broken = map.get("break")) growth.broken = read_flag(reading.report, *broken).value_or(false);
 }
 
 void report_unknown(Reading& reading, const Value& at, const std::string& name) {
@@ -149,10 +150,10 @@ std::vector<char> changed(const std::vector<double>& from, const std::vector<dou
 }  // namespace
 
 void read_growth(Reading& reading, const Value& value, const Index& supports, const Step& before, Step& step) {
-  const MapReader map(
-      reading.report, value,
-      {"criterion", "toughness", "step", "cracks", "scale", "until", "law", "C", "m", "gamma", "K_c", "between"},
-      growth_example);
+  const MapReader map(reading.report, value,
+                      {"criterion", "distance", "toughness", "step", "cracks", "scale", "until", "law", "C", "m",
+                       "gamma", "K_c", "between"},
+                      growth_example);
   GrowthStep growth;
   growth.step = unread;
   if (!map.is_map()) return;
@@ -165,6 +166,7 @@ void read_growth(Reading& reading, const Value& value, const Index& supports, co
     if (choice && *choice == "straight") growth.criterion = GrowthCriterion::straight;
     if (choice && *choice == "zero_K_II") growth.criterion = GrowthCriterion::zero_K_II;
   }
+  if (const auto distance = map.get("distance")) growth.distance = number_or_unread(reading, distance);
   read_cycles(reading, map, supports, step, growth);
   if (const auto toughness = growth.cycles ? map.get("toughness") : map.need("toughness"))
     read_toughness(reading, *toughness, growth);

@@ -115,6 +115,20 @@ void check_cycles(Checking& checking, const std::string& path, const Step& step)
     checking.error(path, "", "a factor follows a curve, which it cannot under cycles of load: give a number");
 }
 
+/// The distance from the tip at which T counts.
+void check_distance(Checking& checking, const std::string& path, const GrowthStep& growth) {
+  if (!checking.positive(path, "distance", *growth.distance)) return;
+  if (growth.criterion != GrowthCriterion::hoop_stress)
+    return checking.error(
+        path, "distance",
+        "is where criterion: hoop_stress takes the stress, and other criteria have none: leave it out");
+  for (const Contact& contact : checking.model.contacts)
+    if (contact.a.kind == Place::Kind::face)
+      return checking.error(path, "distance",
+                            "needs the T-stress, which cracks in contact do not have: leave it or the contact of the "
+                            "faces out");
+}
+
 /// Limits of growth, and what is left until them.
 void check_until(Checking& checking, const std::string& path, const GrowthStep& growth) {
   if (growth.tip) checking.vector(path, "until.tip", *growth.tip);
@@ -153,7 +167,7 @@ void check_shortest(Checking& checking, const std::string& path, const GrowthSte
 }
 
 /// What a model in which cracks grow cannot have.
-void check_beside_growth(Checking& checking, const GrowthStep& growth) {
+void check_beside_growth(Checking& checking) {
   const Model& model = checking.model;
   const auto refuse = [&](const Source& at, const std::string& path, std::string message) {
     checking.enter(at);
@@ -163,9 +177,7 @@ void check_beside_growth(Checking& checking, const GrowthStep& growth) {
     const Contact& contact = model.contacts[c];
     const std::string path = path_of_joint("contacts", contact.source, contact.name, c);
     const bool grows = contact.a.kind == Place::Kind::face;
-    if (growth.cycles)
-      refuse(contact.source, path, "is not available under cycles of load in this version: leave it out");
-    else if (contact.large_slip)
+    if (contact.large_slip)
       refuse(contact.source, path, "has slip: large, which is not available where cracks grow: give slip: small");
     else if (grows && (contact.bond || contact.gap != 0.0 || !contact.friction_along.empty()))
       refuse(contact.source, path,
@@ -212,6 +224,7 @@ void check_growth_steps(Checking& checking) {
       checking.error(path, "", "has as many increments as it takes: leave 'increments' out");
     if (growth.cycles ? growth.K_Ic && growth.G_c : growth.K_Ic.has_value() == growth.G_c.has_value())
       checking.error(path, "toughness", "must be one of K_Ic and G_c, as in {K_Ic: 1e6}");
+    if (growth.distance) check_distance(checking, path, growth);
     if (growth.K_Ic) checking.positive(path, "toughness.K_Ic", *growth.K_Ic);
     if (growth.G_c) checking.positive(path, "toughness.G_c", *growth.G_c);
     if (checking.positive(path, "step", growth.step)) check_shortest(checking, path, growth);
@@ -222,7 +235,7 @@ void check_growth_steps(Checking& checking) {
       check_scaled(checking, path, step);
     check_until(checking, path, growth);
     check_bodies_of(checking, growth);
-    check_beside_growth(checking, growth);
+    check_beside_growth(checking);
   }
 }
 

@@ -38,9 +38,11 @@ struct LoadCycles {
 /// then the crack grows by a given length.
 struct GrowthStep {
   GrowthCriterion criterion = GrowthCriterion::hoop_stress;
-  std::optional<double> K_Ic, G_c;    ///< force / length^(3/2), force / length; > 0, one of the two; of cycles at most
-  std::optional<LoadCycles> cycles;   ///< instead of growth under a load; `loads` and `supports` have no meaning then
-  double step = 0.0;                  ///< length, > 0: sum of the growth of all tips between two states
+  std::optional<double> K_Ic, G_c;   ///< force / length^(3/2), force / length; > 0, one of the two; of cycles at most
+  std::optional<LoadCycles> cycles;  ///< instead of growth under a load; `loads` and `supports` have no meaning then
+  /// Of hoop_stress: distance from the tip at which the stress is taken, so that the T-stress counts; length, > 0.
+  std::optional<double> distance;
+  double step = 0.0;                  ///< length, > 0: the largest sum of the growth of all tips between two states
   std::vector<GrowingCrack> cracks;   ///< empty: all of the model
   std::vector<char> loads, supports;  ///< for each of the model: lambda multiplies its factor
   // When it ends, besides where a tip meets something:
@@ -48,6 +50,7 @@ struct GrowthStep {
   std::optional<Vec2> tip;            ///< a tip is within half a step of this point
   std::optional<double> load_factor;  ///< lambda would have to be larger
   std::optional<int> steps;           ///< growth steps
+  bool broken = false;  ///< not where a tip meets something, but where a body is in pieces or no tip is left
 };
 
 }  // namespace scabo::model

@@ -365,9 +365,40 @@ std::string report_timing(const analysis::Timing& timing) {
   return text;
 }
 
+namespace {
+
+/// Increments as "1 to 4 and 7".
+std::string ranges_of(const std::vector<int>& numbers) {
+  std::vector<std::string> ranges;
+  for (std::size_t i = 0, end = 0; i < numbers.size(); i = end) {
+    for (end = i + 1; end < numbers.size() && numbers[end] == numbers[end - 1] + 1;) ++end;
+    ranges.push_back(end - i == 1 ? fmt::format("{}", numbers[i])
+                                  : fmt::format("{} to {}", numbers[i], numbers[end - 1]));
+  }
+  return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
+}  // namespace
+
 std::string report_growth(const analysis::StaticSolution& solution) {
   if (!solution.grown || solution.grown->ended.empty() || solution.outcome != analysis::Outcome::solved) return {};
-  return fmt::format("Growth ended: {}\n", solution.grown->ended);
+  std::vector<int> unstable, together;
+  for (std::size_t i = 0; i + 1 < solution.increments.size(); ++i) {
+    const auto &at = solution.increments[i].growth, &after = solution.increments[i + 1].growth;
+    if (!at || !after || at->cycles) continue;
+    if (after->load_factor < at->load_factor) unstable.push_back(solution.increments[i].increment);
+    const auto grow = std::count_if(at->tips.begin(), at->tips.end(), [](const auto& tip) { return tip.grows; });
+    if (grow > 1) together.push_back(solution.increments[i].increment);
+  }
+  std::string text;
+  if (!unstable.empty())
+    text += fmt::format("Growth is unstable under a given load in increments {}: the next one needs less\n",
+                        ranges_of(unstable));
+  if (!together.empty())
+    text += fmt::format(
+        "Several tips are critical at once in increments {}: they grow together, the symmetric one of several ways\n",
+        ranges_of(together));
+  return text + fmt::format("Growth ended: {}\n", solution.grown->ended);
 }
 
 std::string report_limit(const analysis::StaticSolution& solution) {

@@ -126,6 +126,8 @@ Json json_of(const element::StressIntensity& crack) {
 Json json_of(const analysis::GrowthResult& growth) {
   Json json = {{"load_factor", number_or_null(growth.load_factor)}, {"tips", Json::object()}};
   if (growth.cycles) json["cycles"] = number_or_null(*growth.cycles);
+  if (growth.displacement) json["displacement"] = number_or_null(*growth.displacement);
+  if (growth.reaction) json["reaction"] = number_or_null(*growth.reaction);
   if (const auto& energy = growth.energy)
     json["energy"] = {{"external", number_or_null(energy->external)},
                       {"elastic", number_or_null(energy->elastic)},
@@ -136,10 +138,12 @@ Json json_of(const analysis::GrowthResult& growth) {
     Json& of = json["tips"][tip.name];
     of = {{"position", json_of(tip.position)},
           {"length", number_or_null(tip.length)},
+          {"opening", number_or_null(tip.opening)},
           {"kink", number_or_null(tip.kink)},
           {"critical_at", number_or_null(tip.load_factor)},
           {"grows", tip.grows}};
     if (tip.range) of["range"] = number_or_null(*tip.range);
+    if (tip.meets) of["meets"] = json_of(*tip.meets);
   }
   return json;
 }

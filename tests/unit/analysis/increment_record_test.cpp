@@ -16,11 +16,14 @@ IncrementResult with_growth() {
   GrowthResult growth;
   growth.load_factor = 1.25;
   growth.cycles = 1e5;
+  growth.displacement = 0.5;
   growth.energy = GrowthEnergy{1.0, 2.0, 5.0, 3.0, 4.0};
   TipResult tip;
   tip.name = "plate.flaw.end";
   tip.position = Vec2(0.1, -0.2);
   tip.length = 0.3;
+  tip.opening = 0.01;
+  tip.meets = Vec2(0.5, 0.25);
   tip.K_I = 5.0;
   tip.K_II = -6.0;
   tip.T = 7.0;
@@ -41,6 +44,8 @@ TEST(IncrementRecord, GrowthIsReadBackAsItWas) {
   ASSERT_TRUE(read.growth.has_value());
   EXPECT_EQ(read.growth->load_factor, 1.25);
   EXPECT_EQ(read.growth->cycles, 1e5);
+  EXPECT_EQ(read.growth->displacement, 0.5);
+  EXPECT_FALSE(read.growth->reaction.has_value());
   EXPECT_EQ(read.growth->energy->contact, 5.0);
   EXPECT_EQ(read.growth->energy->integral, 4.0);
   ASSERT_EQ(read.growth->tips.size(), 2u);
@@ -48,6 +53,8 @@ TEST(IncrementRecord, GrowthIsReadBackAsItWas) {
   EXPECT_EQ(tip.name, "plate.flaw.end");
   EXPECT_EQ(tip.position, Vec2(0.1, -0.2));
   EXPECT_EQ(tip.T, 7.0);
+  EXPECT_EQ(tip.opening, 0.01);
+  EXPECT_EQ(tip.meets, Vec2(0.5, 0.25));
   EXPECT_FALSE(tip.G.has_value());
   EXPECT_EQ(tip.range, 8.0);
   EXPECT_TRUE(tip.grows && !read.growth->tips[1].grows);

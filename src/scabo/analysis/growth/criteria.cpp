@@ -61,10 +61,9 @@ double series(std::span<const double> coefficients, double square) {
   return sum;
 }
 
-/// Where `increases` turns from true to false between 0 and `end`; it does so once.
+/// Where `increases` turns from true to false between two angles; it does so once.
 template <typename Increases>
-double turning_point(double end, const Increases& increases) {
-  double low = 0.0, high = end;
+double turning_point(double low, double high, const Increases& increases) {
   while (true) {
     const double middle = 0.5 * (low + high);
     if (middle <= low || middle >= high) return middle;
@@ -74,7 +73,27 @@ double turning_point(double end, const Increases& increases) {
 
 // The criteria for K_I >= 0 and K_II <= 0, where angles are not negative.
 
-Kink hoop_stress(const Vec2& K) {  // eq. (1)
+Kink hoop_stress_at_distance(const Vec2& K, double T) {
+  const auto stress = [&](double a) {  // eq. (7)
+    const double c = std::cos(0.5 * a), s = std::sin(a);
+    return c * (K[0] * c * c - 1.5 * K[1] * s) + T * s * s;
+  };
+  const auto slope = [&](double a) {
+    const double c = std::cos(0.5 * a), s = std::sin(0.5 * a);
+    return -1.5 * c * c * s * K[0] - 1.5 * K[1] * (c * std::cos(a) - 0.5 * s * std::sin(a)) + T * std::sin(2.0 * a);
+  };
+  constexpr double degree = pi / 180.0;
+  double nearest = 0.0;
+  for (int k = 1; k < 180; ++k)
+    if (stress(k * degree) > stress(nearest)) nearest = k * degree;
+  const double a =
+      turning_point(std::max(0.0, nearest - degree), nearest + degree, [&](double at) { return slope(at) > 0.0; });
+  return {a, stress(a)};
+}
+
+Kink hoop_stress(const Vec2& K, double T) {
+  if (T != 0.0) return hoop_stress_at_distance(K, T);
+  // eq. (1)
   const double half = std::atan2(-2.0 * K[1], K[0] + std::sqrt(K[0] * K[0] + 8.0 * K[1] * K[1]));
   const double c = std::cos(half);
   return {2.0 * half, c * (K[0] * c * c - 1.5 * K[1] * std::sin(2.0 * half))};
@@ -82,14 +101,14 @@ Kink hoop_stress(const Vec2& K) {  // eq. (1)
 
 Kink energy_release(const Vec2& K) {  // eq. (3)
   constexpr double difference = 1e-4;
-  const double angle = turning_point(0.5 * pi, [&](double a) {
+  const double angle = turning_point(0.0, 0.5 * pi, [&](double a) {
     return factors_at_kink(K, a + difference).norm() > factors_at_kink(K, a - difference).norm();
   });
   return {angle, factors_at_kink(K, angle).norm()};
 }
 
 Kink zero_K_II(const Vec2& K) {  // eq. (4)
-  const double angle = turning_point(0.5 * pi, [&](double a) { return factors_at_kink(K, a)[1] < 0.0; });
+  const double angle = turning_point(0.0, 0.5 * pi, [&](double a) { return factors_at_kink(K, a)[1] < 0.0; });
   return {angle, factors_at_kink(K, angle)[0]};
 }
 
@@ -103,7 +122,7 @@ Kink strain_energy_density(const Vec2& K, double kappa) {  // eq. (5)
   constexpr double degree = pi / 180.0;
   double end = degree;
   while (end < pi && slope(end) < 0.0) end += degree;
-  const double a = turning_point(end, [&](double at) { return slope(at) < 0.0; });
+  const double a = turning_point(0.0, end, [&](double at) { return slope(at) < 0.0; });
   const double c = std::cos(a), s = std::sin(a);
   const double S = I * (1.0 + c) * (kappa - c) + mixed * s * (2.0 * c - kappa + 1.0) +
                    II * ((kappa + 1.0) * (1.0 - c) + (1.0 + c) * (3.0 * c - 1.0));
@@ -118,23 +137,23 @@ Vec2 factors_at_kink(const Vec2& factors, double angle) {
           m * series(F21, square) * factors[0] + series(F22, square) * factors[1]};
 }
 
-Kink kink_of(model::GrowthCriterion criterion, const Vec2& factors, double kappa) {
-  const double size = factors.norm();
-  const Vec2 K(factors[0] / size, -std::abs(factors[1]) / size);
-  Kink kink = criterion == model::GrowthCriterion::hoop_stress      ? hoop_stress(K)
+Kink kink_of(model::GrowthCriterion criterion, const TipFactors& factors, double kappa) {
+  const double size = factors.K.norm();
+  const Vec2 K(factors.K[0] / size, -std::abs(factors.K[1]) / size);
+  Kink kink = criterion == model::GrowthCriterion::hoop_stress      ? hoop_stress(K, factors.T / size)
               : criterion == model::GrowthCriterion::energy_release ? energy_release(K)
               : criterion == model::GrowthCriterion::zero_K_II      ? zero_K_II(K)
               : criterion == model::GrowthCriterion::straight       ? Kink{0.0, 1.0}  // eq. (6)
                                                                     : strain_energy_density(K, kappa);
-  if (K[1] == 0.0) kink.angle = 0.0;
-  if (factors[1] > 0.0) kink.angle = -kink.angle;
+  if (K[1] == 0.0 && factors.T == 0.0) kink.angle = 0.0;
+  if (factors.K[1] > 0.0) kink.angle = -kink.angle;
   kink.equivalent *= size;
   return kink;
 }
 
-double kink_at(model::GrowthCriterion criterion, const Vec2& factors, double kappa) {
-  const Vec2 open(std::max(factors[0], 0.0), factors[1]);
-  return open.norm() > 0.0 ? kink_of(criterion, open, kappa).angle : 0.0;
+double kink_at(model::GrowthCriterion criterion, const TipFactors& factors, double kappa) {
+  const TipFactors open = factors.opened();
+  return open.K.norm() > 0.0 ? kink_of(criterion, open, kappa).angle : 0.0;
 }
 
 }  // namespace scabo::analysis

@@ -8,6 +8,13 @@
 //
 //     tan(a / 2) = -2 K_II / (K_I + (K_I^2 + 8 K_II^2)^1/2),   K* = cos(a / 2) (K_I cos^2(a / 2) - 3/2 K_II sin a)  (1)
 //
+// With the T-stress, at a distance r from the tip (Williams and Ewing 1972; Smith, Ayatollahi and Pavier 2001): a is
+// where
+//
+//     cos(a / 2) (K_I cos^2(a / 2) - 3/2 K_II sin a) + T (2 pi r)^1/2 sin^2 a                                       (7)
+//
+// is largest, which is K*. Where T (2 pi r)^1/2 > 3/8 K_I a crack in pure mode I turns, to its left.
+//
 // Factors of an infinitesimal kink at the angle a, F_ij as series in a / pi (Amestoy and Leblond 1992):
 //
 //     k_1 = F11 K_I + F12 K_II,   k_2 = F21 K_I + F22 K_II                                                          (2)
@@ -35,11 +42,23 @@ struct Kink {
   double equivalent = 0.0;  ///< K*, force / length^(3/2)
 };
 
-/// `factors`: [K_I, K_II] with K_I >= 0, not both zero. `kappa` > 1.
-Kink kink_of(model::GrowthCriterion criterion, const Vec2& factors, double kappa);
+/// Of a tip, force / length^(3/2).
+struct TipFactors {
+  Vec2 K = Vec2::Zero();  ///< [K_I, K_II]
+  double T = 0.0;         ///< T (2 pi r)^1/2 of eq. (7); 0 without a distance
+
+  /// A tip that is closed counts with K_I = 0.
+  TipFactors opened() const { return {Vec2(K[0] > 0.0 ? K[0] : 0.0, K[1]), T}; }
+};
+inline TipFactors operator+(const TipFactors& a, const TipFactors& b) { return {a.K + b.K, a.T + b.T}; }
+inline TipFactors operator-(const TipFactors& a, const TipFactors& b) { return {a.K - b.K, a.T - b.T}; }
+inline TipFactors operator*(double factor, const TipFactors& a) { return {factor * a.K, factor * a.T}; }
+
+/// `factors`: with K_I >= 0, K not zero. `kappa` > 1.
+Kink kink_of(model::GrowthCriterion criterion, const TipFactors& factors, double kappa);
 
 /// The angle; a tip that is closed counts with K_I = 0, and 0 is that of no load.
-double kink_at(model::GrowthCriterion criterion, const Vec2& factors, double kappa);
+double kink_at(model::GrowthCriterion criterion, const TipFactors& factors, double kappa);
 
 /// Eq. (2): [k_1, k_2] at a kink of up to 90 degrees either way.
 Vec2 factors_at_kink(const Vec2& factors, double angle);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
-#include "scabo/analysis/growth/criteria.hpp"
 #include "scabo/analysis/quasistatic/attempt.hpp"
 #include "scabo/analysis/state/cracks.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
@@ -68,11 +68,18 @@ Reached reach_from(const Prepared& prepared, const State& from, const Factors& f
   return reached;
 }
 
-std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
-                                                             const State& state) {
+TipFactors tip_factors(const model::GrowthStep& growth, const element::StressIntensity& factors) {
+  TipFactors found{{factors.K_I, factors.K_II}};
+  if (growth.distance)
+    found.T = std::sqrt(2.0 * std::numbers::pi * *growth.distance) *
+              factors.T_left.value_or(std::numeric_limits<double>::quiet_NaN());
+  return found;
+}
+
+FactorsOfTips factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips, const State& state) {
   const IncrementResult described = describe(prepared, state);
   const std::vector<CrackResult> cracks = crack_results(prepared.discretisation, described);
-  std::vector<Vec2> found;
+  std::vector<TipFactors> found;
   for (const Tip& tip : tips) {
     const std::string name = name_of(prepared.model, tip);
     const auto crack =
@@ -81,15 +88,15 @@ std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& pre
       return fmt::format("the mesh has no cell around the tip '{}': use smaller cells there", name);
     if (crack->factors.kind != element::CornerKind::crack)
       return fmt::format("the tip '{}' lies where materials meet, from where growth is not known", name);
-    found.emplace_back(crack->factors.K_I, crack->factors.K_II);
-    if (!found.back().allFinite())
+    found.push_back(tip_factors(*prepared.model.steps.back().growth, crack->factors));
+    if (!found.back().K.allFinite() || !std::isfinite(found.back().T))
       return fmt::format("the stress intensity factors of '{}' are undefined under these loads", name);
   }
   return found;
 }
 
-std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
-                                                             const Factors& factors, const Options& options) {
+FactorsOfTips factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips, const Factors& factors,
+                              const Options& options) {
   const Reached reached = reach_from_rest(prepared, factors, options);
   if (!reached.reason.empty()) return reached.reason;
   return factors_of_tips(prepared, tips, reached.state);
@@ -98,15 +105,15 @@ std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& pre
 std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& prepared, const std::vector<Tip>& tips,
                                                                 const Options& options) {
   const model::GrowthStep& growth = *prepared.model.steps.back().growth;
-  std::vector<Vec2> constant(tips.size(), Vec2(0.0, 0.0));
+  std::vector<TipFactors> constant(tips.size());
   if (const Factors none = factors_at(prepared.model, 0.0); is_loaded(none)) {
     auto found = factors_of_tips(prepared, tips, none, options);
     if (auto* reason = std::get_if<std::string>(&found)) return *reason;
-    constant = std::get<std::vector<Vec2>>(found);
+    constant = std::get<std::vector<TipFactors>>(found);
   }
   auto found = factors_of_tips(prepared, tips, factors_at(prepared.model, 1.0), options);
   if (auto* reason = std::get_if<std::string>(&found)) return *reason;
-  const std::vector<Vec2>& whole = std::get<std::vector<Vec2>>(found);
+  const std::vector<TipFactors>& whole = std::get<std::vector<TipFactors>>(found);
   std::vector<TipPattern> patterns;
   for (std::size_t t = 0; t < tips.size(); ++t) {
     const auto [kappa, modulus] = material_constants(prepared, tips[t]);
@@ -115,9 +122,9 @@ std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& 
   return patterns;
 }
 
-double equivalent_factor(model::GrowthCriterion criterion, const Vec2& K, double kappa) {
-  const Vec2 open(std::max(K[0], 0.0), K[1]);
-  return open.norm() > 0.0 ? kink_of(criterion, open, kappa).equivalent : 0.0;
+double equivalent_factor(model::GrowthCriterion criterion, const TipFactors& factors, double kappa) {
+  const TipFactors open = factors.opened();
+  return open.K.norm() > 0.0 ? kink_of(criterion, open, kappa).equivalent : 0.0;
 }
 
 double toughness_of(const model::GrowthStep& growth, double modulus) {
@@ -126,12 +133,12 @@ double toughness_of(const model::GrowthStep& growth, double modulus) {
 
 double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip) {
   const auto equivalent = [&](double lambda) { return equivalent_factor(criterion, tip.at(lambda), tip.kappa); };
-  if (tip.constant == Vec2(0.0, 0.0)) {
+  if (tip.constant.K == Vec2(0.0, 0.0) && tip.constant.T == 0.0) {
     const double at_one = equivalent(1.0);
     return at_one > 0.0 ? tip.toughness / at_one : std::numeric_limits<double>::infinity();
   }
   if (equivalent(0.0) >= tip.toughness) return 0.0;
-  double low = 0.0, high = tip.toughness / tip.per_lambda.norm();
+  double low = 0.0, high = tip.toughness / tip.per_lambda.K.norm();
   for (int doublings = 0; !(equivalent(high) >= tip.toughness); ++doublings) {
     constexpr int most = 40;
     if (doublings == most || !std::isfinite(high)) return std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "scabo/analysis/growth/criteria.hpp"
 #include "scabo/analysis/growth/tips.hpp"
 #include "scabo/analysis/march/options.hpp"
 #include "scabo/analysis/march/reached.hpp"
@@ -33,20 +34,23 @@ struct MaterialConstants {
 };
 MaterialConstants material_constants(const Prepared& prepared, const Tip& tip);
 
-/// Stress intensity factors of all tips in a state, [K_I, K_II], or why there are none.
-std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
-                                                             const State& state);
-/// The same at these factors of the loads, from rest.
-std::variant<std::vector<Vec2>, std::string> factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips,
-                                                             const Factors& factors, const Options& options);
+/// Of all tips, or why there are none.
+using FactorsOfTips = std::variant<std::vector<TipFactors>, std::string>;
+/// In a state.
+FactorsOfTips factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips, const State& state);
+/// At these factors of the loads, from rest.
+FactorsOfTips factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips, const Factors& factors,
+                              const Options& options);
+/// From the results at a tip; `kind` is a crack.
+TipFactors tip_factors(const model::GrowthStep& growth, const element::StressIntensity& factors);
 
 /// Factors at a tip: constant + lambda per_lambda.
 struct TipPattern {
-  Vec2 constant = Vec2::Zero(), per_lambda = Vec2::Zero();  ///< [K_I, K_II]
-  double kappa = 0.0, modulus = 0.0;                        ///< MaterialConstants
-  double toughness = 0.0;                                   ///< K_Ic
+  TipFactors constant, per_lambda;
+  double kappa = 0.0, modulus = 0.0;  ///< MaterialConstants
+  double toughness = 0.0;             ///< K_Ic
 
-  Vec2 at(double lambda) const { return constant + lambda * per_lambda; }
+  TipFactors at(double lambda) const { return constant + lambda * per_lambda; }
 };
 /// Of all tips, or why there is none.
 std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& prepared, const std::vector<Tip>& tips,
@@ -57,7 +61,7 @@ std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& 
 double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip);
 
 /// K* by which a tip is compared with its toughness; a tip that its load closes counts with K_I = 0.
-double equivalent_factor(model::GrowthCriterion criterion, const Vec2& K, double kappa);
+double equivalent_factor(model::GrowthCriterion criterion, const TipFactors& factors, double kappa);
 /// Toughness as a factor K_Ic.
 double toughness_of(const model::GrowthStep& growth, double modulus);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scabo/analysis/growth/criteria.hpp"
+#include "scabo/analysis/growth/longer_pairs.hpp"
 #include "scabo/analysis/growth/overlap.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 
@@ -14,25 +14,38 @@ namespace scabo::analysis {
 
 namespace {
 
-/// Factors below this part of those at the other end of the cycle are none.
-constexpr double no_load = 1e-6;
+/// Factors below this part of those at the other end of the cycle are none; below the second part their mode mix does
+/// not matter.
+constexpr double no_load = 1e-6, no_mix = 1e-2;
 
 /// Why a tip does not grow by the cycles between these factors; empty if it does.
-std::string why_not(const std::string& name, const Vec2& low, const Vec2& high, double turn) {
+std::string why_not(const model::Model& model, const Tip& at, const Vec2& low, const Vec2& high, double turn) {
   constexpr double degree = 0.017453292519943295;
+  const std::string name = name_of(model, at);
   if (low.norm() > high.norm())
     return fmt::format("the first load of 'between' is the higher one at the tip '{}': exchange the two", name);
-  if (high[0] < -no_load * high.norm() || low[0] < -no_load * high.norm())
+  const bool closed = high[0] < -no_load * high.norm() || low[0] < -no_load * high.norm();
+  if (closed && !has_contact(model, at))
     return fmt::format(
-        "the loads of the cycle close the crack at its tip '{}' (K_I < 0), and growth of cracks in contact is not "
-        "available in this version",
-        name);
-  if (std::abs(turn) > degree)
+        "the loads of the cycle close the crack at its tip '{}' (K_I < 0): give a contact between the faces of '{}', "
+        "so that they touch",
+        name, name_of_crack(model, at));
+  if (low.norm() > no_mix * high.norm() && std::abs(turn) > degree)
     return fmt::format(
         "the mode mix at the tip '{}' turns within a cycle, by {:.3g} degrees of the kink, for which no law of growth "
         "is available",
         name, std::abs(turn) / degree);
   return {};
+}
+
+/// Factors of all tips in a state; of those that stick none.
+FactorsOfTips factors_in(const Prepared& prepared, const std::vector<Tip>& tips, const State& state) {
+  if (std::string reason = overlap(prepared, describe(prepared, state).fields); !reason.empty()) return reason;
+  auto found = factors_of_tips(prepared, tips, state);
+  if (std::holds_alternative<std::string>(found)) return found;
+  for (std::size_t t = 0; t < tips.size(); ++t)
+    if (is_stuck(prepared, state, tips[t])) std::get<std::vector<TipFactors>>(found)[t] = {};
+  return found;
 }
 
 }  // namespace
@@ -60,43 +73,56 @@ Factors factors_in_cycle(const model::Model& model, int end) {
   return factors;
 }
 
-std::variant<std::vector<CycledTip>, std::string> cycled_tips(const Prepared& prepared, const std::vector<Tip>& tips,
-                                                              const Options& options) {
+std::variant<Cycled, std::string> cycled_tips(const Prepared& prepared, const std::vector<Tip>& tips, const State& from,
+                                              const Options& options) {
   const model::GrowthStep& growth = *prepared.model.steps.back().growth;
-  std::vector<std::vector<Vec2>> ends;
-  for (const int end : {0, 1}) {
+  std::vector<TipFactors> low(tips.size()), high;
+  Cycled cycled;
+  cycled.highest.state = from;
+  const bool has_contacts = !prepared.model.contacts.empty();
+  for (const int end : has_contacts ? std::vector<int>{0, 1, 0, 1} : std::vector<int>{0, 1}) {
     const Factors factors = factors_in_cycle(prepared.model, end);
-    if (!is_loaded(factors)) {
-      ends.emplace_back(tips.size(), Vec2(0.0, 0.0));
-      continue;
+    if (!has_contacts) {
+      if (end == 0 && !is_loaded(factors)) continue;
+      cycled.highest.state = initial_state(prepared);
     }
-    const Reached reached = reach_from_rest(prepared, factors, options);
-    if (!reached.reason.empty()) return reached.reason;
-    if (std::string reason = overlap(prepared, describe(prepared, reached.state).fields); !reason.empty())
-      return reason;
-    auto found = factors_of_tips(prepared, tips, reached.state);
+    cycled.highest = reach_from(prepared, cycled.highest.state, factors, options);
+    if (!cycled.highest.reason.empty()) return cycled.highest.reason;
+    auto found = factors_in(prepared, tips, cycled.highest.state);
     if (auto* reason = std::get_if<std::string>(&found)) return *reason;
-    ends.push_back(std::get<std::vector<Vec2>>(std::move(found)));
+    (end == 0 ? low : high) = std::get<std::vector<TipFactors>>(std::move(found));
   }
+  for (std::size_t t = 0; t < tips.size(); ++t) {
+    CycledTip& tip = cycled.tips.emplace_back();
+    if (high[t].K.norm() == 0.0) continue;
+    const double kappa = material_constants(prepared, tips[t]).kappa;
+    tip.kink = kink_at(growth.criterion, high[t], kappa);
+    tip.highest = equivalent_factor(growth.criterion, high[t], kappa);
+    const bool loaded = low[t].K.norm() > no_load * high[t].K.norm();
+    const double turn = loaded ? kink_at(growth.criterion, low[t], kappa) - tip.kink : 0.0;
+    if (std::string reason = why_not(prepared.model, tips[t], low[t].K, high[t].K, turn); !reason.empty())
+      return reason;
+    tip.range = tip.highest - (loaded ? equivalent_factor(growth.criterion, low[t], kappa) : 0.0);
+    tip.rate = growth_per_cycle(*growth.cycles, tip.range, tip.highest);
+  }
+  return cycled;
+}
+
+std::variant<std::vector<CycledTip>, std::string> cycled_again(const Prepared& prepared, const std::vector<Tip>& tips,
+                                                               const State& highest, const GrowthResult& known) {
+  const model::GrowthStep& growth = *prepared.model.steps.back().growth;
+  auto found = factors_in(prepared, tips, highest);
+  if (auto* reason = std::get_if<std::string>(&found)) return *reason;
   std::vector<CycledTip> cycled;
   for (std::size_t t = 0; t < tips.size(); ++t) {
-    const Vec2 low = ends[0][t], high = ends[1][t];
-    CycledTip tip;
-    if (high.norm() == 0.0) {
-      cycled.push_back(tip);
-      continue;
-    }
+    const TipFactors& high = std::get<std::vector<TipFactors>>(found)[t];
+    CycledTip& tip = cycled.emplace_back();
+    if (high.K.norm() == 0.0) continue;
     const double kappa = material_constants(prepared, tips[t]).kappa;
-    const auto kink = [&](const Vec2& K) { return kink_of(growth.criterion, {std::max(K[0], 0.0), K[1]}, kappa); };
-    const Kink at_high = kink(high), at_low = low.norm() > no_load * high.norm() ? kink(low) : Kink{at_high.angle, 0.0};
-    if (std::string reason = why_not(name_of(prepared.model, tips[t]), low, high, at_low.angle - at_high.angle);
-        !reason.empty())
-      return reason;
-    tip.kink = at_high.angle;
-    tip.highest = at_high.equivalent;
-    tip.range = at_high.equivalent - at_low.equivalent;
+    tip.kink = kink_at(growth.criterion, high, kappa);
+    tip.highest = equivalent_factor(growth.criterion, high, kappa);
+    tip.range = *known.tips[t].range;
     tip.rate = growth_per_cycle(*growth.cycles, tip.range, tip.highest);
-    cycled.push_back(tip);
   }
   return cycled;
 }

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "scabo/analysis/growth/criteria.hpp"
 #include "scabo/analysis/growth/growth_energy.hpp"
 #include "scabo/analysis/growth/longer_pairs.hpp"
 #include "scabo/analysis/growth/overlap.hpp"
+#include "scabo/analysis/growth/path_step.hpp"
 #include "scabo/analysis/growth/sought.hpp"
-#include "scabo/analysis/growth/split.hpp"
 #include "scabo/analysis/march/increment_warnings.hpp"
 #include "scabo/analysis/march/reports.hpp"
 #include "scabo/analysis/state/continuation.hpp"
@@ -22,62 +23,16 @@ namespace scabo::analysis {
 
 namespace {
 
-/// A crack meets what lies within so many steps ahead of it.
-constexpr double reach_of_tip = 1.5;
+/// A step is halved while the direction turns by more than this at its middle, radians: a quarter of a step off its
+/// course by a hundredth of it. Not below a part of the step that is wanted: after a kink the path bends like the root
+/// of its length, so that no step is short enough.
+constexpr double largest_turn = 0.25, shortest_part = 0.125;
 
-GrownCracks cracks_of(const model::Model& model, const std::vector<Tip>& tips, std::string ended) {
-  GrownCracks grown;
-  grown.ended = std::move(ended);
-  for (const Tip& tip : tips)
-    if (const std::string name = name_of_crack(model, tip); grown.paths.empty() || grown.paths.back().crack != name)
-      grown.paths.push_back({name, crack_of(model, tip).path});
-  return grown;
-}
-
-/// Why growth ends in state `number` though nothing is met; empty if it goes on.
-std::string end_wanted(const model::GrowthStep& growth, const GrowthResult& at, int number) {
-  constexpr double rounding = 1e-9;
-  if (growth.steps && number > *growth.steps) return model::counted(*growth.steps, "growth step") + " done";
-  if (growth.load_factor && at.load_factor > *growth.load_factor)
-    return fmt::format("further growth needs the load factor {:.6g}, above {}", at.load_factor,
-                       model::number_text(*growth.load_factor));
-  for (const TipResult& tip : at.tips) {
-    if (growth.length && tip.length >= (1.0 - rounding) * *growth.length)
-      return fmt::format("the crack of '{}' has the length {:.6g}", tip.name, tip.length);
-    if (growth.tip && (tip.position - *growth.tip).norm() <= 0.5 * growth.step)
-      return fmt::format("'{}' is at {}", tip.name, model::point_text(tip.position));
-    if (growth.cycles && tip.load_factor <= 1.0)
-      return fmt::format("the body breaks at '{}' after {:.6g} cycles, where K* reaches what it resists", tip.name,
-                         *at.cycles);
-  }
-  return {};
-}
-
-std::string crack_of(const TipResult& tip) { return tip.name.substr(0, tip.name.rfind('.')); }
-
-/// How far each tip grows in a step: in proportion to its rate, or by equal parts where growth follows the load; less
-/// where a crack would become longer than wanted.
-std::vector<double> shares(const model::GrowthStep& growth, const GrowthResult& at,
-                           const std::vector<CycledTip>& cycled) {
-  std::vector<double> lengths;
-  double sum = 0.0, whole = growth.step;
-  for (std::size_t t = 0; t < at.tips.size(); ++t) {
-    lengths.push_back(!at.tips[t].grows ? 0.0 : cycled.empty() ? 1.0 : cycled[t].rate);
-    sum += lengths.back();
-  }
-  for (std::size_t t = 0; growth.length && t < at.tips.size(); ++t) {
-    double of_crack = 0.0;
-    for (std::size_t other = 0; other < at.tips.size(); ++other)
-      if (crack_of(at.tips[other]) == crack_of(at.tips[t])) of_crack += lengths[other] / sum;
-    if (of_crack > 0.0) whole = std::min(whole, (*growth.length - at.tips[t].length) / of_crack);
-  }
-  for (double& length : lengths) length *= whole / sum;
-  return lengths;
-}
-
-Vec2 turned(const Vec2& direction, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y()};
+/// Smaller kinks, radians, are errors of the factors: the crack goes on straight, and stays on the line of cells that
+/// it is on.
+double kink_or_none(double kink) {
+  constexpr double least = 1e-4;
+  return std::abs(kink) < least ? 0.0 : kink;
 }
 
 /// What the next state needs of the growth that leads to it.
@@ -91,6 +46,9 @@ struct Growth {
   // Under cycles:
   double cycles = 0.0;                // before
   double rate = 0.0, rate_mid = 0.0;  // of all tips together
+  // Where tips met something, and others go on; `lengths` are then 0:
+  std::vector<std::optional<Vec2>> met;  // of each tip
+  double until_met = 0.0;                // how far the ones that met something went, together
 };
 
 /// At the middle of a step.
@@ -108,11 +66,23 @@ struct Next {
   Growth growth;
 };
 
+std::vector<Tip> without_met(const std::vector<Tip>& tips, const std::vector<std::optional<Vec2>>& met) {
+  std::vector<Tip> left;
+  for (std::size_t t = 0; t < tips.size(); ++t)
+    if (!met[t]) left.push_back(tips[t]);
+  return left;
+}
+
 class Growing {
  public:
   /// `before`: the state at the end of the steps before; empty: there are none.
   Growing(StaticSolution& solution, const Options& options, std::optional<State> before)
-      : solution_(solution), options_(options), tips_(growing_tips(solution.model)), from_(std::move(before)) {
+      : solution_(solution),
+        options_(options),
+        tips_(growing_tips(solution.model)),
+        all_tips_(tips_),
+        first_(solution.increments.size()),
+        from_(std::move(before)) {
     for (const model::Body& body : solution.model.bodies) sizes_.push_back(body.mesh.refine);
     for (const Tip& tip : tips_) first_length_ = std::max(first_length_, length_of(crack_of(solution.model, tip)));
   }
@@ -130,8 +100,6 @@ class Growing {
                       double part = 1.0) const;
   Discretisation divided(model::Model model);
   void go_on(Discretisation longer);
-  std::optional<GrownCracks> meetings(const std::vector<Vec2>& directions, const GrowthResult& at,
-                                      const std::vector<double>& lengths) const;
   bool has_contacts() const { return !model().contacts.empty(); }
   Sought sought(const Prepared& prepared) const;
   Sought known_again(const Prepared& prepared, const State& state) const;
@@ -139,9 +107,11 @@ class Growing {
   std::optional<GrowthEnergy> energy_until(const Prepared& prepared, const Sought& now, const State& state) const;
   std::variant<Middle, std::string> middle(const Prepared& prepared, const Sought& now, const State& state,
                                            const std::vector<Vec2>& directions, const std::vector<double>& lengths);
-  std::string turn_at_middle(const Prepared& prepared, const Sought& now, const State& state,
-                             std::vector<Vec2>& directions, Growth& by);
-  Next next(const Prepared& prepared, const Sought& now, const State& state, int number);
+  std::variant<double, std::string> turn_at_middle(const Prepared& prepared, const Sought& now, const State& state,
+                                                   std::vector<Vec2>& directions, Growth& by);
+  double step_wanted(const GrowthResult& at, int number) const;
+  Next next(const Prepared& prepared, Sought& now, const State& state, int number);
+  Next after_meeting(const Meetings& met, Sought& now, Growth by) const;
   double part_done(int number) const;
   IncrementResult result_at(const Prepared& prepared, Reached& reached, int number);
   bool fail(const Prepared& prepared, std::string reason, int number);
@@ -149,7 +119,9 @@ class Growing {
 
   StaticSolution& solution_;
   const Options& options_;
-  std::vector<Tip> tips_;
+  std::vector<Tip> tips_;                             // that may still grow
+  const std::vector<Tip> all_tips_;                   // at first
+  std::size_t first_ = 0;                             // increments of the steps before
   std::vector<std::vector<model::LocalSize>> sizes_;  // given by the user
   double first_length_ = 0.0;
   std::optional<Growth> last_;  // that led to the present cracks
@@ -187,11 +159,20 @@ int Growing::restore(const Continuation& from) {
   solution_.warnings = from.warnings;
   const int number = from.at.progress.increment;
   model::Model longer = model();
-  const std::size_t first = from.increments.size() - static_cast<std::size_t>(number);
-  for (std::size_t i = first; i + 1 < from.increments.size(); ++i)
-    for (std::size_t t = 0; t < tips_.size(); ++t)
-      if (from.increments[i].growth->tips[t].grows)
+  first_ = from.increments.size() - static_cast<std::size_t>(number);
+  for (std::size_t i = first_; i + 1 < from.increments.size(); ++i) {
+    const GrowthResult& here = *from.increments[i].growth;
+    std::vector<std::optional<Vec2>> met;
+    for (const TipResult& tip : here.tips) met.push_back(tip.meets);
+    const bool meets = std::any_of(met.begin(), met.end(), [](const auto& at) { return at.has_value(); });
+    for (std::size_t t = 0; t < tips_.size(); ++t) {
+      if (met[t])
+        extend(longer, tips_[t], *met[t]);
+      else if (here.tips[t].grows && !meets)
         extend(longer, tips_[t], from.increments[i + 1].growth->tips[t].position);
+    }
+    tips_ = without_met(tips_, met);
+  }
   if (number > 1) {
     refine_at_tips(longer, tips_, sizes_);
     go_on(divided(std::move(longer)));
@@ -200,29 +181,8 @@ int Growing::restore(const Continuation& from) {
   return number;
 }
 
-/// The cracks where some of them meet something ahead.
-std::optional<GrownCracks> Growing::meetings(const std::vector<Vec2>& directions, const GrowthResult& at,
-                                             const std::vector<double>& lengths) const {
-  model::Model there = model();
-  std::string ended;
-  for (std::size_t t = 0; t < tips_.size(); ++t) {
-    if (!at.tips[t].grows) continue;
-    const auto met = meeting(model(), tips_[t], at.tips[t].position + reach_of_tip * lengths[t] * directions[t]);
-    if (!met) continue;
-    extend(there, tips_[t], met->at);
-    ended += fmt::format("{}'{}' meets {} at {}", ended.empty() ? "" : ", ", at.tips[t].name, met->what,
-                         model::point_text(met->at));
-  }
-  if (ended.empty()) return {};
-  const bool broken = std::any_of(there.bodies.begin(), there.bodies.end(), is_split);
-  if (broken) ended += ", and the body is broken";
-  GrownCracks grown = cracks_of(there, tips_, std::move(ended));
-  grown.broken = broken;
-  return grown;
-}
-
 Sought Growing::sought(const Prepared& prepared) const {
-  if (growth().cycles) return sought_in_cycle(prepared, tips_, options_);
+  if (growth().cycles) return sought_in_cycle(prepared, tips_, from_ ? *from_ : initial_state(prepared), options_);
   if (!has_contacts()) return sought_without_contact(prepared, tips_, options_);
   const double guess = last_ ? last_->load_factor : 1.0;
   return sought_in_contact(prepared, tips_, from_ ? *from_ : initial_state(prepared), guess, options_);
@@ -237,12 +197,18 @@ Sought Growing::known_again(const Prepared& prepared, const State& state) const 
   Reached& reached = now.reached.emplace();
   reached.state = state;
   complete(prepared, reached.state);
+  if (growth().cycles) {
+    auto found = cycled_again(prepared, tips_, reached.state, now.at);
+    if (auto* reason = std::get_if<std::string>(&found)) return now.failed = std::move(*reason), now;
+    now.cycled = std::get<std::vector<CycledTip>>(std::move(found));
+  }
   return now;
 }
 
 /// Cycles of load until this state: dN = ds / (da/dN of all tips), by Simpson's rule over the growth that led to it.
 double Growing::cycles_until(const Sought& now) const {
   if (!last_) return 0.0;
+  if (!last_->met.empty()) return last_->cycles + last_->until_met / last_->rate;
   double whole = 0.0, rate = 0.0;
   for (std::size_t t = 0; t < tips_.size(); ++t) {
     whole += last_->lengths[t];
@@ -254,8 +220,8 @@ double Growing::cycles_until(const Sought& now) const {
 /// What the growth that led to this state took (growth_energy.hpp).
 std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, const Sought& now,
                                                   const State& state) const {
-  if (!last_ || growth().cycles || !prepared.structure.thermal.empty() || !prepared.references.empty() ||
-      prepared.contact.rigid_motions() > 0)
+  if (!last_ || !last_->met.empty() || growth().cycles || !prepared.structure.thermal.empty() ||
+      !prepared.references.empty() || prepared.contact.rigid_motions() > 0)
     return {};
   State longer;
   if (has_contacts()) {
@@ -270,7 +236,7 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
   double integral = last_->integral;
   for (std::size_t t = 0; t < tips_.size(); ++t)
     integral += model::thickness_of(model(), tips_[t].body) * last_->lengths[t] / 6.0 *
-                std::get<std::vector<Vec2>>(found)[t].squaredNorm() / now.materials[t].modulus;
+                std::get<std::vector<TipFactors>>(found)[t].K.squaredNorm() / now.materials[t].modulus;
   return energy_of_growth(prepared, last_->before, longer, state, integral);
 }
 
@@ -281,33 +247,34 @@ std::variant<Middle, std::string> Growing::middle(const Prepared& prepared, cons
   const Discretisation half = divided(longer(directions, now.at, lengths, 0.5));
   const Prepared there(half);
   Middle middle;
+  const State from = has_contacts() ? on_longer(there, prepared, state, tips_) : initial_state(there);
   if (growth().cycles) {
-    auto found = cycled_tips(there, tips_, options_);
+    auto found = cycled_tips(there, tips_, from, options_);
     if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
-    middle.cycled = std::get<std::vector<CycledTip>>(std::move(found));
+    middle.cycled = std::get<Cycled>(std::move(found)).tips;
     for (const CycledTip& tip : middle.cycled) middle.kinks.push_back(tip.kink);
     return middle;
   }
-  const State from = has_contacts() ? on_longer(there, prepared, state, tips_) : initial_state(there);
   const Reached reached = reach_from(there, from, now.factors, options_);
   if (!reached.reason.empty()) return reached.reason;
   const auto found = factors_of_tips(there, tips_, reached.state),
              alone = has_contacts() ? factors_of_tips(there, tips_, from) : found;
   for (const auto* factors : {&found, &alone})
     if (const auto* reason = std::get_if<std::string>(factors)) return *reason;
-  middle.K_alone = std::get<std::vector<Vec2>>(alone);
+  for (const TipFactors& factors : std::get<std::vector<TipFactors>>(alone)) middle.K_alone.push_back(factors.K);
   for (std::size_t t = 0; t < tips_.size(); ++t) {
-    const Vec2& K = std::get<std::vector<Vec2>>(found)[t];
-    const bool kinks = K[0] > 0.0 || has_contact(model(), tips_[t]);
-    middle.kinks.push_back(kinks ? kink_at(growth().criterion, K, now.materials[t].kappa) : 0.0);
+    const TipFactors& factors = std::get<std::vector<TipFactors>>(found)[t];
+    const bool kinks = factors.K[0] > 0.0 || has_contact(model(), tips_[t]);
+    middle.kinks.push_back(kinks ? kink_at(growth().criterion, factors, now.materials[t].kappa) : 0.0);
   }
   return middle;
 }
 
 /// Turns the directions so that no kink is left at the middle of the step, and shares the growth as the tips grow
-/// there; a reason where there is no such state.
-std::string Growing::turn_at_middle(const Prepared& prepared, const Sought& now, const State& state,
-                                    std::vector<Vec2>& directions, Growth& by) {
+/// there; the largest turn, or a reason where there is no such state.
+std::variant<double, std::string> Growing::turn_at_middle(const Prepared& prepared, const Sought& now,
+                                                          const State& state, std::vector<Vec2>& directions,
+                                                          Growth& by) {
   constexpr double small = 0.05, most_left = 0.5;
   auto found = middle(prepared, now, state, directions, by.lengths);
   if (auto* reason = std::get_if<std::string>(&found)) return std::move(*reason);
@@ -325,39 +292,88 @@ std::string Growing::turn_at_middle(const Prepared& prepared, const Sought& now,
     for (std::size_t t = 0; t < tips_.size(); ++t)
       if (turns[t] != 0.0) turns[t] /= 1.0 - std::min(at.kinks[t] / turns[t], most_left);
   }
-  for (std::size_t t = 0; t < tips_.size(); ++t)
-    if (now.at.tips[t].grows) directions[t] = turned(directions[t], turns[t]);
+  largest = 0.0;
+  for (std::size_t t = 0; t < tips_.size(); ++t) {
+    if (!now.at.tips[t].grows) continue;
+    directions[t] = turned(directions[t], kink_or_none(turns[t]));
+    largest = std::max(largest, std::abs(turns[t]));
+  }
   if (growth().cycles) {
     by.rate_mid = rate_of(now.at, at.cycled);
-    if (std::isfinite(by.rate_mid)) by.lengths = shares(growth(), now.at, at.cycled);
-    return {};
+    const double whole = std::accumulate(by.lengths.begin(), by.lengths.end(), 0.0);
+    if (std::isfinite(by.rate_mid)) by.lengths = shares(growth(), now.at, at.cycled, whole);
+    return largest;
   }
+  by.integral = 0.0;
   for (std::size_t t = 0; t < tips_.size(); ++t) {
     const Vec2 first = factors_at_kink({now.at.tips[t].K_I, now.at.tips[t].K_II}, now.at.tips[t].kink);
     by.integral += model::thickness_of(model(), tips_[t].body) * by.lengths[t] / 6.0 *
                    (first.squaredNorm() + 4.0 * at.K_alone[t].squaredNorm()) / now.materials[t].modulus;
   }
-  return {};
+  return largest;
 }
 
-Next Growing::next(const Prepared& prepared, const Sought& now, const State& state, int number) {
-  if (std::string ended = end_wanted(growth(), now.at, number); !ended.empty())
-    return {{}, cracks_of(model(), tips_, std::move(ended)), {}, {}};
-  Growth by{shares(growth(), now.at, now.cycled), now.factors, now.at.load_factor, rest_energy(prepared, state)};
+/// Twice as far as before, up to the step that is given.
+double Growing::step_wanted(const GrowthResult& at, int number) const {
+  if (number == 1) return growth().step;
+  const GrowthResult& before = *solution_.increments[first_ + static_cast<std::size_t>(number) - 2].growth;
+  const double grown = grown_between(before, at);
+  return grown > 0.0 ? std::min(growth().step, 2.0 * grown) : growth().step;
+}
+
+/// Ends the cracks that meet something. The others wait, and go on from there if the model asks for it.
+Next Growing::after_meeting(const Meetings& met, Sought& now, Growth by) const {
+  Next after;
+  const auto left = std::count(met.at.begin(), met.at.end(), std::nullopt);
+  if (!growth().broken || met.broken || left == 0) {
+    after.end = cracks_of(met.model, all_tips_, met.told);
+    after.end->broken = met.broken;
+    return after;
+  }
+  by.until_met = length_until(met, now.at);
+  by.met = met.at;
+  by.lengths.assign(tips_.size(), 0.0);
+  for (std::size_t t = 0; t < tips_.size(); ++t) now.at.tips[t].meets = met.at[t];
+  after.model = met.model;
+  after.growth = std::move(by);
+  return after;
+}
+
+Next Growing::next(const Prepared& prepared, Sought& now, const State& state, int number) {
+  Next after;
+  if (std::string ended = end_wanted(growth(), now.at, number); !ended.empty()) {
+    after.end = cracks_of(model(), all_tips_, std::move(ended));
+    return after;
+  }
+  const double wanted = step_wanted(now.at, number);
+  Growth by;
+  by.lengths = shares(growth(), now.at, now.cycled, wanted);
+  by.factors = now.factors;
+  by.load_factor = now.at.load_factor;
+  by.before = rest_energy(prepared, state);
   by.cycles = now.at.cycles.value_or(0.0);
   if (growth().cycles) by.rate = rate_of(now.at, now.cycled);
-  std::vector<Vec2> directions;
+  std::vector<Vec2> ahead, directions;
   for (std::size_t t = 0; t < tips_.size(); ++t)
-    directions.push_back(turned(direction_of(model(), tips_[t]), now.at.tips[t].kink));
-  if (auto met = meetings(directions, now.at, by.lengths)) return {{}, std::move(met), {}, {}};
-  try {
-    if (std::string reason = turn_at_middle(prepared, now, state, directions, by); !reason.empty())
-      return {{}, {}, std::move(reason), {}};
-  } catch (const InputError& error) {
-    return {{}, {}, error.diagnostics().front().message, {}};
+    ahead.push_back(turned(direction_of(model(), tips_[t]), kink_or_none(now.at.tips[t].kink)));
+  for (double part = 1.0;; part *= 0.5) {
+    directions = ahead;
+    if (const auto met = meetings(model(), tips_, now.at, directions, by.lengths))
+      return after_meeting(*met, now, std::move(by));
+    try {
+      const auto turn = turn_at_middle(prepared, now, state, directions, by);
+      if (const auto* reason = std::get_if<std::string>(&turn)) return after.failed = *reason, after;
+      if (std::get<double>(turn) <= largest_turn || 0.5 * part * wanted < shortest_part * growth().step) break;
+    } catch (const InputError& error) {
+      return after.failed = error.diagnostics().front().message, after;
+    }
+    for (double& length : by.lengths) length *= 0.5;
   }
-  if (auto met = meetings(directions, now.at, by.lengths)) return {{}, std::move(met), {}, {}};
-  return {longer(directions, now.at, by.lengths), {}, {}, std::move(by)};
+  if (const auto met = meetings(model(), tips_, now.at, directions, by.lengths))
+    return after_meeting(*met, now, std::move(by));
+  after.model = longer(directions, now.at, by.lengths);
+  after.growth = std::move(by);
+  return after;
 }
 
 /// Of the step, if nothing ends it before.
@@ -381,7 +397,7 @@ bool Growing::fail(const Prepared& prepared, std::string reason, int number) {
   Reached reached;
   reached.reason = std::move(reason);
   solution_.increments.push_back(result_at(prepared, reached, number));
-  solution_.grown = cracks_of(model(), tips_, reached.reason);
+  solution_.grown = cracks_of(model(), all_tips_, reached.reason);
   end_unsolved(reached, solution_, options_);
   return false;
 }
@@ -389,6 +405,7 @@ bool Growing::fail(const Prepared& prepared, std::string reason, int number) {
 /// Makes the next cracks the present ones; with contacts their history follows.
 void Growing::grow_to(const Prepared& prepared, const State& state, Next after) {
   last_ = std::move(after.growth);
+  if (!last_->met.empty()) refine_at_tips(*after.model, without_met(tips_, last_->met), sizes_);
   Discretisation longer = divided(*std::move(after.model));
   if (has_contacts()) {
     const Prepared there(longer);
@@ -396,6 +413,9 @@ void Growing::grow_to(const Prepared& prepared, const State& state, Next after) 
     from_->energy.external += rest_energy(there, *from_).of_loads - last_->before.of_loads;
   }
   go_on(std::move(longer));
+  if (last_->met.empty()) return;
+  tips_ = without_met(tips_, last_->met);
+  last_->lengths.assign(tips_.size(), 0.0);
 }
 
 bool Growing::advance(int number, const State* known) {
@@ -408,11 +428,14 @@ bool Growing::advance(int number, const State* known) {
   if (std::string reason = overlap(prepared, result.fields); !reason.empty())
     return fail(prepared, std::move(reason), number);
   add_factors(prepared, tips_, result, now.at);
+  for (std::size_t t = 0; t < tips_.size(); ++t)
+    now.at.tips[t].opening = largest_opening(prepared, result.fields, tips_[t].body, tips_[t].crack);
+  if (!growth().cycles) add_conjugates(prepared, reached.state, now.at);
   if (growth().cycles)
     now.at.cycles = known != nullptr ? solution_.increments.back().growth->cycles : cycles_until(now);
   if (known == nullptr) now.at.energy = energy_until(prepared, now, reached.state);
   Next after = next(prepared, now, reached.state, number);
-  solution_.grown = after.end ? *after.end : cracks_of(model(), tips_, {});
+  solution_.grown = after.end ? *after.end : cracks_of(model(), all_tips_, {});
   if (known != nullptr) {
     solution_.increments.back().fields = std::move(result.fields);
   } else {
@@ -435,8 +458,17 @@ bool Growing::advance(int number, const State* known) {
 }  // namespace
 
 void check_growth(const model::Model& model) {
-  if (!model::has_growth(model) || !growing_tips(model).empty()) return;
-  throw InputError(model.file.empty() ? "model" : model.file,
+  if (!model::has_growth(model)) return;
+  const std::string file = model.file.empty() ? "model" : model.file;
+  if (const auto tip = end_on_a_border(model))
+    throw InputError(
+        file,
+        {{model.steps.back().source,
+          fmt::format("the tip '{}' lies on the border of a region, where materials meet: growth from there is not "
+                      "available in this version, so let it end inside one material",
+                      name_of(model, *tip))}});
+  if (!growing_tips(model).empty()) return;
+  throw InputError(file,
                    {{model.steps.back().source,
                      "no crack of the step has a tip that could grow: both ends of each lie on the boundary or on "
                      "another crack"}});

@@ -1,5 +1,8 @@
 #include "scabo/analysis/growth/growth_energy.hpp"
 
+#include "scabo/analysis/growth/critical.hpp"
+#include "scabo/analysis/state/loads.hpp"
+
 namespace scabo::analysis {
 
 RestEnergy rest_energy(const Prepared& prepared, const State& state) {
@@ -30,6 +33,22 @@ GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, con
   energy.released = A.potential() - longer.potential();
   energy.integral = integral;
   return energy;
+}
+
+void add_conjugates(const Prepared& prepared, const State& state, GrowthResult& growth) {
+  const Factors none = factors_at(prepared.model, 0.0), whole = factors_at(prepared.model, 1.0);
+  if (whole.loads != none.loads) {
+    const std::vector<Vector> from = applied_forces(prepared, none, state.released),
+                              to = applied_forces(prepared, whole, state.released);
+    growth.displacement = 0.0;
+    for (std::size_t p = 0; p < to.size(); ++p) *growth.displacement += (to[p] - from[p]).dot(state.u[p]);
+  }
+  if (whole.supports != none.supports) {
+    const std::vector<Vector> from = prescribed_values(prepared, none.supports, {}),
+                              to = prescribed_values(prepared, whole.supports, {});
+    growth.reaction = 0.0;
+    for (std::size_t p = 0; p < to.size(); ++p) *growth.reaction += (to[p] - from[p]).dot(state.reactions[p]);
+  }
 }
 
 }  // namespace scabo::analysis

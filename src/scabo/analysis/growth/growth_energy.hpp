@@ -34,4 +34,7 @@ RestEnergy rest_energy(const Prepared& prepared, const State& state);
 GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const State& O, const State& B,
                               double integral);
 
+/// What the scaled loads and supports would work at factor 1 (GrowthResult::displacement, reaction).
+void add_conjugates(const Prepared& prepared, const State& state, GrowthResult& growth);
+
 }  // namespace scabo::analysis

@@ -109,12 +109,12 @@ class Trials {
     if (const auto* reason = std::get_if<std::string>(&found)) return trial.failed = *reason, trial;
     const model::GrowthStep& growth = *prepared_.model.steps.back().growth;
     for (std::size_t t = 0; t < tips_.size(); ++t) {
-      const Vec2& K = std::get<std::vector<Vec2>>(found)[t];
+      const TipFactors& at_tip = std::get<std::vector<TipFactors>>(found)[t];
       if (is_stuck(prepared_, reached.state, tips_[t])) continue;
-      trial.failed = closed(prepared_.model, tips_[t], K);
+      trial.failed = closed(prepared_.model, tips_[t], at_tip.K);
       if (!trial.failed.empty()) return trial;
-      trial.part[t] =
-          equivalent_factor(growth.criterion, K, materials_[t].kappa) / toughness_of(growth, materials_[t].modulus);
+      trial.part[t] = equivalent_factor(growth.criterion, at_tip, materials_[t].kappa) /
+                      toughness_of(growth, materials_[t].modulus);
     }
     trial.reached = std::move(reached);
     return trial;
@@ -170,7 +170,7 @@ Sought sought_without_contact(const Prepared& prepared, const std::vector<Tip>& 
     now.failed = never_critical;
   for (std::size_t t = 0; t < tips.size(); ++t) {
     now.materials.push_back({patterns[t].kappa, patterns[t].modulus});
-    if (now.failed.empty()) now.failed = closed(prepared.model, tips[t], patterns[t].at(now.at.load_factor));
+    if (now.failed.empty()) now.failed = closed(prepared.model, tips[t], patterns[t].at(now.at.load_factor).K);
   }
   return now;
 }
@@ -210,11 +210,13 @@ Sought sought_in_contact(const Prepared& prepared, const std::vector<Tip>& tips,
   return now;
 }
 
-Sought sought_in_cycle(const Prepared& prepared, const std::vector<Tip>& tips, const Options& options) {
+Sought sought_in_cycle(const Prepared& prepared, const std::vector<Tip>& tips, const State& from,
+                       const Options& options) {
   Sought now;
-  auto found = cycled_tips(prepared, tips, options);
+  auto found = cycled_tips(prepared, tips, from, options);
   if (auto* reason = std::get_if<std::string>(&found)) return now.failed = std::move(*reason), now;
-  now.cycled = std::get<std::vector<CycledTip>>(std::move(found));
+  now.cycled = std::get<Cycled>(found).tips;
+  now.reached = std::get<Cycled>(std::move(found)).highest;
   now.at = tips_in_cycle(prepared.model, tips, now.cycled);
   if (rate_of(now.at, now.cycled) == 0.0) now.failed = "no tip grows: the loads of the cycle do not reach any";
   now.factors = factors_in_cycle(prepared.model, 1);
@@ -224,7 +226,7 @@ Sought sought_in_cycle(const Prepared& prepared, const std::vector<Tip>& tips, c
 /// Factors, T and G from the state itself, and the kinks.
 void add_factors(const Prepared& prepared, const std::vector<Tip>& tips, const IncrementResult& increment,
                  GrowthResult& growth) {
-  const model::GrowthCriterion criterion = prepared.model.steps.back().growth->criterion;
+  const model::GrowthStep& step = *prepared.model.steps.back().growth;
   for (std::size_t t = 0; t < growth.tips.size(); ++t) {
     TipResult& tip = growth.tips[t];
     const auto crack = std::find_if(increment.cracks.begin(), increment.cracks.end(),
@@ -233,7 +235,7 @@ void add_factors(const Prepared& prepared, const std::vector<Tip>& tips, const I
     tip.K_II = crack->factors.K_II;
     tip.T = crack->factors.T_left;
     tip.G = crack->factors.G;
-    tip.kink = kink_at(criterion, {tip.K_I, tip.K_II}, material_constants(prepared, tips[t]).kappa);
+    tip.kink = kink_at(step.criterion, tip_factors(step, crack->factors), material_constants(prepared, tips[t]).kappa);
   }
 }
 

@@ -24,7 +24,9 @@ Sought sought_without_contact(const Prepared& prepared, const std::vector<Tip>& 
 Sought sought_in_contact(const Prepared& prepared, const std::vector<Tip>& tips, const State& from, double guess,
                          const Options& options);
 
-Sought sought_in_cycle(const Prepared& prepared, const std::vector<Tip>& tips, const Options& options);
+/// `from`: the state before, of models with contacts.
+Sought sought_in_cycle(const Prepared& prepared, const std::vector<Tip>& tips, const State& from,
+                       const Options& options);
 
 /// The rates of the tips that grow, together.
 double rate_of(const GrowthResult& at, const std::vector<CycledTip>& cycled);

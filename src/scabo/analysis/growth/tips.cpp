@@ -53,6 +53,23 @@ std::vector<Barrier> barriers_of(const model::Model& model, const Tip& tip) {
   return barriers;
 }
 
+std::vector<Tip> ends_that_may_grow(const model::Model& model) {
+  const std::vector<model::GrowingCrack>& named = model.steps.back().growth->cracks;
+  const auto may_grow = [&](int body, int crack, bool at_end) {
+    return named.empty() || std::any_of(named.begin(), named.end(), [&](const model::GrowingCrack& one) {
+             return one.body == body && one.crack == crack && (at_end ? one.at_end : one.at_start);
+           });
+  };
+  std::vector<Tip> ends;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    for (std::size_t c = 0; c < model.bodies[b].cracks.size(); ++c)
+      for (const bool at_end : {false, true}) {
+        const Tip tip{static_cast<int>(b), static_cast<int>(c), at_end};
+        if (may_grow(tip.body, tip.crack, at_end)) ends.push_back(tip);
+      }
+  return ends;
+}
+
 bool is_tip(const model::Model& model, const Tip& tip) {
   const Vec2 here = position_of(model, tip);
   const double tolerance = 3.0 * tolerance_in(body_of(model, tip));
@@ -78,20 +95,24 @@ double size_at(const model::Model& model, const Tip& tip) {
 }  // namespace
 
 std::vector<Tip> growing_tips(const model::Model& model) {
-  const std::vector<model::GrowingCrack>& named = model.steps.back().growth->cracks;
-  const auto may_grow = [&](int body, int crack, bool at_end) {
-    return named.empty() || std::any_of(named.begin(), named.end(), [&](const model::GrowingCrack& one) {
-             return one.body == body && one.crack == crack && (at_end ? one.at_end : one.at_start);
-           });
-  };
-  std::vector<Tip> tips;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    for (std::size_t c = 0; c < model.bodies[b].cracks.size(); ++c)
-      for (const bool at_end : {false, true}) {
-        const Tip tip{static_cast<int>(b), static_cast<int>(c), at_end};
-        if (may_grow(tip.body, tip.crack, at_end) && is_tip(model, tip)) tips.push_back(tip);
-      }
+  std::vector<Tip> tips = ends_that_may_grow(model);
+  std::erase_if(tips, [&](const Tip& tip) { return !is_tip(model, tip); });
   return tips;
+}
+
+std::optional<Tip> end_on_a_border(const model::Model& model) {
+  for (const Tip& tip : ends_that_may_grow(model)) {
+    const model::Body& body = body_of(model, tip);
+    const auto is_on = [&](const geometry::Outline& outline) {
+      return std::any_of(outline.edges.begin(), outline.edges.end(), [&](const geometry::Edge& edge) {
+        return geometry::distance_to(edge, position_of(model, tip)) <= 3.0 * tolerance_in(body);
+      });
+    };
+    if (!is_on(body.outline) && std::any_of(body.regions.begin(), body.regions.end(),
+                                            [&](const model::Region& region) { return is_on(region.outline); }))
+      return tip;
+  }
+  return {};
 }
 
 const model::Crack& crack_of(const model::Model& model, const Tip& tip) {

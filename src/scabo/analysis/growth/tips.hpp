@@ -19,6 +19,9 @@ struct Tip {
 /// its end. An end on the boundary of its body or on another crack is none.
 std::vector<Tip> growing_tips(const model::Model& model);
 
+/// An end that would grow if it did not lie on the border of a region, from where growth is not known.
+std::optional<Tip> end_on_a_border(const model::Model& model);
+
 const model::Crack& crack_of(const model::Model& model, const Tip& tip);
 std::string name_of_crack(const model::Model& model, const Tip& tip);  ///< `plate.flaw`
 std::string name_of(const model::Model& model, const Tip& tip);        ///< `plate.flaw.end`

@@ -172,10 +172,10 @@ template <typename Io>
 void exchange(Io& io, TipResult& of) {
   exchange(io, of.name);
   exchange(io, of.position);
-  io(of.length), io(of.K_I), io(of.K_II);
+  io(of.length), io(of.opening), io(of.K_I), io(of.K_II);
   exchange(io, of.T), exchange(io, of.G);
   io(of.kink), io(of.load_factor), io(of.grows);
-  exchange(io, of.range);
+  exchange(io, of.range), exchange(io, of.meets);
 }
 template <typename Io>
 void exchange(Io& io, GrowthEnergy& of) {
@@ -184,7 +184,7 @@ void exchange(Io& io, GrowthEnergy& of) {
 template <typename Io>
 void exchange(Io& io, GrowthResult& of) {
   io(of.load_factor);
-  exchange(io, of.cycles);
+  exchange(io, of.cycles), exchange(io, of.displacement), exchange(io, of.reaction);
   exchange(io, of.energy);
   exchange(io, of.tips);
 }

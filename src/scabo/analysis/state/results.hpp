@@ -150,12 +150,14 @@ struct TipResult {
   std::string name;              ///< `plate.flaw.end`
   Vec2 position = Vec2::Zero();  ///< undeformed
   double length = 0.0;           ///< of its crack
+  double opening = 0.0;          ///< the largest one of its crack, along the normal of the faces, length
   double K_I = 0.0, K_II = 0.0;  ///< force / length^(3/2)
   std::optional<double> T, G;
   double kink = 0.0;            ///< counter-clockwise from the direction of the crack, radians
   double load_factor = 0.0;     ///< at which it would be critical
   bool grows = false;           ///< in the step that follows
   std::optional<double> range;  ///< under cycles of load: Delta K of the equivalent factor
+  std::optional<Vec2> meets;    ///< where it ends in the step that follows, while others go on
 };
 
 /// Of the growth between two states, force times length. First the crack grows under the load and the pair forces of
@@ -170,8 +172,13 @@ struct GrowthEnergy {
 
 /// Where cracks stand in an increment of a step in which they grow.
 struct GrowthResult {
-  double load_factor = 0.0;            ///< lambda, at which the leading tip is critical; 1 under cycles of load
-  std::optional<double> cycles;        ///< of load so far
+  double load_factor = 0.0;      ///< lambda, at which the leading tip is critical; 1 under cycles of load
+  std::optional<double> cycles;  ///< of load so far
+  // Of growth under a load, force times length: what the scaled loads and the scaled supports would work at factor 1.
+  std::optional<double>
+      displacement;  ///< forces of the loads on the displacements of the state; none without such loads
+  std::optional<double>
+      reaction;  ///< reactions of the state on the prescribed displacements; none without such supports
   std::optional<GrowthEnergy> energy;  ///< of the growth since the state before; none under cycles of load
   std::vector<TipResult> tips;         ///< in the order of bodies and cracks, the start of a crack before its end
 };
