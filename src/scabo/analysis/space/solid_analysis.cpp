@@ -51,7 +51,8 @@ PairedFaces paired_faces(const SolidModel& model) {
     };
     const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
     const bool turned = has_pairs_on_first(model, contact, a, b);
-    const std::vector<mesh::FacetPair> found = turned ? mesh::facet_pairs(b, a) : mesh::facet_pairs(a, b);
+    const std::vector<mesh::FacetPair> found =
+        turned ? mesh::facet_pairs(b, a, !contact.friction) : mesh::facet_pairs(a, b, !contact.friction);
     const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),
                second = static_cast<std::size_t>(turned ? contact.a.body : contact.b.body);
     std::shared_ptr<const contact::Law> law = std::make_shared<contact::Bonded>();
