@@ -3,8 +3,10 @@ rigid bodies and shapes."""
 import json
 import math
 import resource
+import shutil
 import signal
 import subprocess
+import time
 import unittest
 
 import support
@@ -228,6 +230,110 @@ steps: [{name: shake, increments: 2, cycles: 2, loads: {push: back_and_forth}}]
         self.assertEqual(len(list((self.directory / "results").glob("fields_*.vtu"))), finished)
         rows = rows_of(self.directory / "results")
         self.assertEqual(len(rows), 9 * finished)
+
+
+class Bolts(support.InTemporaryDirectory):
+    """A bolt between two rigid plates that press two columns together; Poisson's ratio 0, so that all stresses are uniform."""
+    head = """scabo: 1
+analysis: {space: true}
+materials: {steel: {young: 200e3, poisson: 0}}
+bodies:
+  left: {material: steel, shape: {box: {corner: [-30, 0, 0], size: [15, 10, 20]}}, mesh: {size: 5}}
+  right: {material: steel, shape: {box: {corner: [15, 0, 0], size: [15, 10, 20]}}, mesh: {size: 5}}
+  head: {rigid: true, shape: {box: {corner: [-30, 0, 20], size: [60, 10, 5]}}, mesh: {size: 20}}
+  nut: {rigid: true, shape: {box: {corner: [-30, 0, -5], size: [60, 10, 5]}}, mesh: {size: 20}}
+  shank:
+    material: steel
+    shape: {box: {corner: [-5, 0, 0], size: [10, 10, 20]}}
+    mesh: {size: 5}
+    preload: PRELOAD
+supports:
+  - {on: nut, fix: [x, y, z], name: ground}
+loads:
+  pull: {on: head, force: [0, 0, 5e3]}
+contacts:
+  left_head: {between: [left.top, head.bottom], friction: 0.2}
+  left_nut: {between: [nut.top, left.bottom], friction: 0.2}
+  right_head: {between: [right.top, head.bottom], friction: 0.2}
+  right_nut: {between: [nut.top, right.bottom], friction: 0.2}
+ties:
+  to_head: {between: [shank.top, head.bottom]}
+  to_nut: {between: [nut.top, shank.bottom]}
+steps:
+  - {name: rest, loads: {pull: 0}}
+  - {name: tighten, increments: 2, loads: {pull: 0}}
+  - {name: load, loads: {pull: 1}}
+  - {name: off, loads: {pull: 8}}
+"""
+    bolt, columns = 200e3 * 100 / 20, 200e3 * 300 / 20  # stiffness of the shank, of what it presses together
+    cut = "cut: {point: [0, 0, 8], normal: [0, 0, 3]}"
+
+    def solve(self, preload, *settings):
+        model = self.directory / "model.yaml"
+        model.write_text(self.head.replace("PRELOAD", preload), encoding="utf-8")
+        done = scabo("run", model, "-o", self.directory / "results", "--quiet", *settings)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return summary_of(self.directory / "results")["increments"]
+
+    def check(self, increments, force):
+        shortening = force * (1 / self.bolt + 1 / self.columns)
+        tensions = (0, force / 2, force, force + 5e3 * self.bolt / (self.bolt + self.columns), 40e3)
+        for increment, tension, s in zip(increments, tensions, (0, shortening / 2) + 3 * (shortening,), strict=True):
+            self.assertLessEqual(certificate_of(increment), 1e-10)
+            made = increment["preloads"]["shank"]
+            self.assertAlmostEqual(made["force"], tension, delta=1e-9 * force)
+            self.assertAlmostEqual(made["shortening"], s, delta=1e-9 * shortening)
+            pressed = tension - 5e3 * increment["factors"]["pull"]
+            for side in ("left", "right"):
+                self.assertAlmostEqual(increment["contacts"][f"{side}_head"]["normal_force"][2], 0.5 * pressed, delta=1e-9 * force)
+        for increment in increments[:4]:  # up to here nothing opens
+            self.assertAlmostEqual(increment["energy"]["external"], increment["energy"]["elastic"], delta=1e-9 * force * shortening)
+        self.assertAlmostEqual(increments[2]["energy"]["elastic"], 0.5 * force * shortening, delta=1e-9 * force * shortening)
+
+    def test_a_force_is_set_and_then_the_shortening_stays(self):
+        self.check(self.solve(f"{{{self.cut}, force: 20e3, tightened: tighten}}"), 20e3)
+        arrays = arrays_of(self.directory / "results" / "fields_0003.vtu")
+        stresses = [arrays["stress"][6 * i + 2] for i, body in enumerate(arrays["node_body"]) if body == 5]
+        self.assertGreater(len(stresses), 100)
+        for stress in stresses:  # also of the elements that the cut goes between
+            self.assertAlmostEqual(stress, 200, delta=1e-3)
+
+    def test_a_shortening_is_set(self):
+        shortening = 20e3 * (1 / self.bolt + 1 / self.columns)
+        self.check(self.solve(f"{{{self.cut}, shortening: {shortening!r}, tightened: tighten}}"), 20e3)
+
+    def test_a_run_is_resumed_while_the_bolt_is_tightened(self):
+        preload = f"{{{self.cut}, force: 20e3, tightened: tighten}}"
+        whole = self.solve(preload, "--set", "steps.1.increments=40")
+        shutil.rmtree(self.directory / "results")
+        process = subprocess.Popen([support.SCABO, "run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet", "--set", "steps.1.increments=40"],
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        while process.poll() is None and not (self.directory / "results" / "fields_0004.vtu").exists():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=support.PATIENCE)
+        self.assertEqual(process.returncode, 130)
+        self.assertLess(len(summary_of(self.directory / "results")["increments"]), 41)
+        done = scabo("resume", self.directory / "results", "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(summary_of(self.directory / "results")["increments"], whole)
+
+    def test_the_log_tells_the_tension(self):
+        self.solve(f"{{{self.cut}, force: 20e3, tightened: tighten}}")
+        self.assertIn("preload of shank: tension 40000, shortened by 0.0266667\n", (self.directory / "results" / "log.txt").read_text(encoding="utf-8"))
+
+    def test_what_only_the_mesh_shows_is_refused(self):
+        model = self.directory / "model.yaml"
+        for preload, more, why in (
+                ("{cut: {point: [0, 0, 21], normal: [0, 0, 1]}, force: 1}", "", r":13:14: bodies.shank.preload: the cut of the preload of body 'shank' has all of it on one side: "),
+                (f"{{{self.cut}, force: 1}}", "  - {on: shank.top, fix: z}\n  - {on: shank.bottom, fix: z}\n", r":13:14: bodies.shank.preload: .* lies between supports that hold it along the bolt, ")):
+            with self.subTest(preload=preload):
+                model.write_text(self.head.replace("PRELOAD", preload).replace("loads:\n", more + "loads:\n", 1), encoding="utf-8")
+                done = scabo("check", model)
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertRegex(done.stderr, why)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
 
 class AgainstThePlane(support.InTemporaryDirectory):
