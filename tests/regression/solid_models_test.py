@@ -445,6 +445,52 @@ contacts:
             self.assertAlmostEqual(float(row["pressure"]), expected, delta=0.1 * expected)
         self.assertAlmostEqual(area, 2 * math.pi * 1.5 * 0.4, delta=0.02 * area)
 
+    def extruded(self, plane, loads):
+        """A plate of 6 x 4 with a hole, 2 thick across the plane of its profile, on its bottom edge."""
+        across, = set("xyz") - set(plane)
+        text = f"""scabo: 1
+analysis: {{space: true}}
+materials: {{steel: {{young: 200e3, poisson: 0.3, density: 3}}}}
+bodies:
+  plate:
+    material: steel
+    shape:
+      extrude:
+        profile: {{rectangle: {{corner: [10, 20], size: [6, 4]}}}}
+        holes: {{hole: {{circle: {{centre: [13, 22], radius: 1}}}}}}
+        plane: {plane}
+        from: -1
+        to: 1
+    mesh: {{size: 1, refine: [{{near: [0, 0, 0], size: 0.5}}]}}
+supports:
+  - {{on: plate.bottom, fix: [x, y, z], name: ground}}
+loads:
+{loads}
+"""
+        (self.directory / "model.yaml").write_text(text, encoding="utf-8")
+        done = scabo("run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        increment, = summary_of(self.directory / "results")["increments"]
+        axes = ["xyz".index(axis) for axis in plane + across]
+        return [-increment["reactions"]["ground"][k] for k in axes], [-increment["moments"]["ground"][k] for k in axes]
+
+    def test_an_extruded_profile_has_its_volume_and_faces(self):
+        for plane in ("xy", "xz", "yz", "zx"):
+            with self.subTest(plane=plane):
+                pull = ["0", "0", "0"]
+                pull["xyz".index(plane[1])] = "-10"
+                force, _ = self.extruded(plane, f"  weight: {{gravity: [{', '.join(pull)}]}}")
+                volume = 2 * (24 - math.pi)
+                self.assertAlmostEqual(force[1], -30 * volume, delta=1e-3 * 30 * volume)
+                self.assertAlmostEqual(force[0], 0, delta=1e-9)
+                for face, expected in (("top", [0, -12, 0]), ("left", [8, 0, 0]), ("right", [-8, 0, 0]), ("hole", [0, 0, 0])):
+                    force, _ = self.extruded(plane, f"  push: {{on: plate.{face}, pressure: 1}}")
+                    for one, other in zip(force, expected, strict=True):
+                        self.assertAlmostEqual(one, other, delta=1e-9)
+                for face, sign in (("start", 1), ("end", -1)):
+                    force, _ = self.extruded(plane, f"  push: {{on: plate.{face}, pressure: 1}}")
+                    self.assertAlmostEqual(force[2], sign * (24 - math.pi), delta=2e-3)
+
     def test_too_many_nodes_are_refused_before_they_are_made(self):
         text = (EXAMPLE.parent / "35_ball_on_block" / "model.yaml").read_text(encoding="utf-8")
         (self.directory / "model.yaml").write_text(text, encoding="utf-8")

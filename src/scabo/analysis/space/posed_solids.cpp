@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "scabo/mesh/extruded_solid.hpp"
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
 #include "scabo/model/limits.hpp"
@@ -48,14 +49,22 @@ class Posing {
 void Posing::add_body(const model::SpaceBody& of) {
   mesh::ShapedSolid shaped;
   if (of.shape) {
-    const double nodes = mesh::count_nodes(*of.shape, of.sizes);
+    const auto* extrusion = std::get_if<model::SolidExtrusion>(&*of.shape);
+    const double nodes = extrusion ? mesh::count_nodes(*extrusion, of.sizes) : mesh::count_nodes(*of.shape, of.sizes);
     if (nodes > model::limits::model_nodes) {
       mistakes_.push_back({of.source, fmt::format("its mesh would have {:.2g} nodes, and at most {:.2g} are possible: "
                                                   "give it a larger 'size'",
                                                   nodes, model::limits::model_nodes)});
       return;
     }
-    shaped = mesh::solid_of_shape(*of.shape, of.sizes);
+    if (extrusion) {
+      auto extruded = mesh::extruded_solid(*extrusion, of.sizes, model::limits::model_nodes);
+      if (const auto* wrong = std::get_if<Diagnostic>(&extruded))
+        return mistakes_.push_back({of.source, wrong->message});
+      shaped = std::get<mesh::ShapedSolid>(std::move(extruded));
+    } else {
+      shaped = mesh::solid_of_shape(*of.shape, of.sizes);
+    }
   } else {
     shaped.mesh = mesh::solid_mesh_of(*of.mesh);
   }
