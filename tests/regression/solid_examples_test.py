@@ -1,9 +1,10 @@
 """The checked numbers of the larger examples in space (check.json there names their source)."""
 import json
+import math
 import unittest
 
 import support
-from support import ROOT, certificate_of, scabo, summary_of
+from support import ROOT, certificate_of, rows_of, scabo, summary_of
 
 
 @unittest.skipIf(support.SANITIZED, "numbers")
@@ -53,6 +54,56 @@ class Examples(support.InTemporaryDirectory):
         # All of the water, and what balances it.
         names = ("ground", "ground_upstream", "ground_downstream", "left_bank", "right_bank")
         self.assert_within(sum(increments[-1]["reactions"][name][0] for name in names), -3 * (base + joints), 1e-9)
+
+
+@unittest.skipUnless(support.LONG, "127,000 degrees of freedom")
+class CattaneoAndMindlin(support.InTemporaryDirectory):
+    """Half of a ball on a block of the same material, Poisson's ratio 0, pressed by P and pushed by Q: radius of the sticking disc over that of
+    the contact, a = 1, is (1 - Q / (mu P))^(1/3). The ball is guided by a rigid plate."""
+    text = """scabo: 1
+title: Cattaneo and Mindlin
+analysis: {space: true}
+parameters: {fine: 0.2}
+materials: {m: {young: 1000, poisson: 0}}
+bodies:
+  block:
+    material: m
+    shape: {box: {corner: [-8, 0, -8], size: [16, 8, 8]}}
+    mesh: {size: 4, refine: &r [{near: [-0.9, 0.9, 0], size: "${fine}", growth: 0.5}, {near: [-0.45, 0.45, 0], size: "${fine}", growth: 0.5}, {near: [0, 0, 0], size: "${fine}", growth: 0.5}, {near: [0.45, 0.45, 0], size: "${fine}", growth: 0.5}, {near: [0.9, 0.9, 0], size: "${fine}", growth: 0.5}]}
+  ball:
+    material: m
+    shape: {sphere: {centre: [0, 0, 50], radius: 50, keep: [+y, -z]}}
+    mesh: {size: 20, refine: [{near: [-1.27, 1.27, 0], size: "${1.4 * fine}", growth: 0.5}, {near: [-0.6, 0.6, 0], size: "${1.4 * fine}", growth: 0.5}, {near: [0, 0, 0], size: "${1.4 * fine}", growth: 0.5}, {near: [0.6, 0.6, 0], size: "${1.4 * fine}", growth: 0.5}, {near: [1.27, 1.27, 0], size: "${1.4 * fine}", growth: 0.5}]}
+  plate:
+    rigid: true
+    shape: {box: {corner: [-60, 0, 50], size: [120, 60, 2]}}
+    mesh: {size: 30}
+supports:
+  - {on: plate, displacement: [null, 0, null], rotation: [0, 0, 0]}
+  - {on: block.bottom, fix: [x, y, z], name: ground}
+  - {on: block.front, fix: y}
+  - {on: ball.cut_y, fix: y}
+loads:
+  press: {on: plate, force: [0, 0, -6.6667]}
+  push: {on: plate, force: [1, 0, 0]}
+contacts:
+  joint: {between: [block.top, ball.surface], friction: 0.3}
+ties:
+  grip: {between: [ball.cut_z, plate.bottom]}
+steps:
+  - {name: press, loads: {press: 1, push: 0}}
+  - {name: push, increments: 3, loads: {press: 1, push: "${0.75 * 0.3 * 6.6667}"}}
+"""
+
+    def test_radius_of_the_sticking_disc(self):
+        (self.directory / "model.yaml").write_text(self.text, encoding="utf-8")
+        done = scabo("run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = [row for row in rows_of(self.directory / "results") if row["contact"] == "joint"]
+        self.assertAlmostEqual(max(float(row["pressure"]) for row in rows), 1.5 * 2 * 6.6667 / math.pi, delta=0.01 * 6.366)
+        for number, radius in ((1, 0.908560), (2, 0.793701), (3, 0.629961)):
+            stick = sum(float(row["area"]) for row in rows if (row["step"], row["increment"], row["state"]) == ("2", str(number), "stick"))
+            self.assertAlmostEqual(math.sqrt(2 * stick / math.pi), radius, delta=0.02 * radius)
 
 
 if __name__ == "__main__":
