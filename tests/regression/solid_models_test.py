@@ -3,8 +3,10 @@ rigid bodies and shapes."""
 import json
 import math
 import resource
+import shutil
 import signal
 import subprocess
+import time
 import unittest
 
 import support
@@ -28,16 +30,16 @@ class BallOnBlock(support.InTemporaryDirectory):
         force = check["normal_force"]
         self.assertAlmostEqual(increment["contacts"]["joint"]["normal_force"][2], force, delta=1e-3 * force)
         self.assertAlmostEqual(increment["reactions"]["ground"][2], increment["contacts"]["joint"]["normal_force"][2], delta=1e-3 * force)
-        tolerance, p0, a = check["relative_tolerance"], check["largest_pressure"], check["contact_radius"]
+        tolerance, p0, a = check["relative_tolerance"], check["largest_pressure"], check["contact_radius"]  # a is five elements
         self.assertAlmostEqual(increment["contacts"]["joint"]["max_pressure"], p0, delta=tolerance * p0)
         rows = rows_of(self.directory / "results")
         closed = sum(float(row["area"]) for row in rows if row["state"] != "open")
-        self.assertAlmostEqual(math.sqrt(4 * closed / math.pi), a, delta=tolerance * a)
-        inner = [row for row in rows if math.hypot(float(row["x"]), float(row["y"])) < 0.6 * a]
-        self.assertGreater(len(inner), 5)
+        self.assertAlmostEqual(math.sqrt(4 * closed / math.pi), a, delta=check["relative_tolerance_of_the_radius"] * a)
+        inner = [row for row in rows if math.hypot(float(row["x"]), float(row["y"])) < 0.85 * a]
+        self.assertGreater(len(inner), 10)
         for row in inner:
             r = math.hypot(float(row["x"]), float(row["y"]))
-            self.assertAlmostEqual(float(row["pressure"]), p0 * math.sqrt(1 - (r / a) ** 2), delta=0.08 * p0)
+            self.assertAlmostEqual(float(row["pressure"]), p0 * math.sqrt(1 - (r / a) ** 2), delta=0.02 * p0)
 
 
 class Loads(support.InTemporaryDirectory):
@@ -115,7 +117,7 @@ contacts:
 
     def test_a_press_fit_has_the_pressure_of_lame(self):
         """Interference of a bush in a ring, both kept from moving along the axis, that grows over a step."""
-        tubes = """  ring: {material: steel, shape: {tube: {from: [0, 0, 0], to: [0, 0, 0.4], inner: 1.5, outer: 2}}, mesh: {size: 0.3}}
+        tubes = """  ring: {material: steel, shape: {tube: {from: [0, 0, 0], to: [0, 0, 0.4], inner: 1.5, outer: 2}}, mesh: {size: 0.2}}
   bush: {material: steel, shape: {tube: {from: [0, 0, 0], to: [0, 0, 0.4], inner: 1, outer: 1.5}}, mesh: {size: 0.25}}
 supports:
 """ + "".join(f"  - {{on: {body}.{face}, fix: z}}\n" for body in ("ring", "bush") for face in ("bottom", "top"))
@@ -230,6 +232,110 @@ steps: [{name: shake, increments: 2, cycles: 2, loads: {push: back_and_forth}}]
         self.assertEqual(len(rows), 9 * finished)
 
 
+class Bolts(support.InTemporaryDirectory):
+    """A bolt between two rigid plates that press two columns together; Poisson's ratio 0, so that all stresses are uniform."""
+    head = """scabo: 1
+analysis: {space: true}
+materials: {steel: {young: 200e3, poisson: 0}}
+bodies:
+  left: {material: steel, shape: {box: {corner: [-30, 0, 0], size: [15, 10, 20]}}, mesh: {size: 5}}
+  right: {material: steel, shape: {box: {corner: [15, 0, 0], size: [15, 10, 20]}}, mesh: {size: 5}}
+  head: {rigid: true, shape: {box: {corner: [-30, 0, 20], size: [60, 10, 5]}}, mesh: {size: 20}}
+  nut: {rigid: true, shape: {box: {corner: [-30, 0, -5], size: [60, 10, 5]}}, mesh: {size: 20}}
+  shank:
+    material: steel
+    shape: {box: {corner: [-5, 0, 0], size: [10, 10, 20]}}
+    mesh: {size: 5}
+    preload: PRELOAD
+supports:
+  - {on: nut, fix: [x, y, z], name: ground}
+loads:
+  pull: {on: head, force: [0, 0, 5e3]}
+contacts:
+  left_head: {between: [left.top, head.bottom], friction: 0.2}
+  left_nut: {between: [nut.top, left.bottom], friction: 0.2}
+  right_head: {between: [right.top, head.bottom], friction: 0.2}
+  right_nut: {between: [nut.top, right.bottom], friction: 0.2}
+ties:
+  to_head: {between: [shank.top, head.bottom]}
+  to_nut: {between: [nut.top, shank.bottom]}
+steps:
+  - {name: rest, loads: {pull: 0}}
+  - {name: tighten, increments: 2, loads: {pull: 0}}
+  - {name: load, loads: {pull: 1}}
+  - {name: off, loads: {pull: 8}}
+"""
+    bolt, columns = 200e3 * 100 / 20, 200e3 * 300 / 20  # stiffness of the shank, of what it presses together
+    cut = "cut: {point: [0, 0, 8], normal: [0, 0, 3]}"
+
+    def solve(self, preload, *settings):
+        model = self.directory / "model.yaml"
+        model.write_text(self.head.replace("PRELOAD", preload), encoding="utf-8")
+        done = scabo("run", model, "-o", self.directory / "results", "--quiet", *settings)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return summary_of(self.directory / "results")["increments"]
+
+    def check(self, increments, force):
+        shortening = force * (1 / self.bolt + 1 / self.columns)
+        tensions = (0, force / 2, force, force + 5e3 * self.bolt / (self.bolt + self.columns), 40e3)
+        for increment, tension, s in zip(increments, tensions, (0, shortening / 2) + 3 * (shortening,), strict=True):
+            self.assertLessEqual(certificate_of(increment), 1e-10)
+            made = increment["preloads"]["shank"]
+            self.assertAlmostEqual(made["force"], tension, delta=1e-9 * force)
+            self.assertAlmostEqual(made["shortening"], s, delta=1e-9 * shortening)
+            pressed = tension - 5e3 * increment["factors"]["pull"]
+            for side in ("left", "right"):
+                self.assertAlmostEqual(increment["contacts"][f"{side}_head"]["normal_force"][2], 0.5 * pressed, delta=1e-9 * force)
+        for increment in increments[:4]:  # up to here nothing opens
+            self.assertAlmostEqual(increment["energy"]["external"], increment["energy"]["elastic"], delta=1e-9 * force * shortening)
+        self.assertAlmostEqual(increments[2]["energy"]["elastic"], 0.5 * force * shortening, delta=1e-9 * force * shortening)
+
+    def test_a_force_is_set_and_then_the_shortening_stays(self):
+        self.check(self.solve(f"{{{self.cut}, force: 20e3, tightened: tighten}}"), 20e3)
+        arrays = arrays_of(self.directory / "results" / "fields_0003.vtu")
+        stresses = [arrays["stress"][6 * i + 2] for i, body in enumerate(arrays["node_body"]) if body == 5]
+        self.assertGreater(len(stresses), 100)
+        for stress in stresses:  # also of the elements that the cut goes between
+            self.assertAlmostEqual(stress, 200, delta=1e-3)
+
+    def test_a_shortening_is_set(self):
+        shortening = 20e3 * (1 / self.bolt + 1 / self.columns)
+        self.check(self.solve(f"{{{self.cut}, shortening: {shortening!r}, tightened: tighten}}"), 20e3)
+
+    def test_a_run_is_resumed_while_the_bolt_is_tightened(self):
+        preload = f"{{{self.cut}, force: 20e3, tightened: tighten}}"
+        whole = self.solve(preload, "--set", "steps.1.increments=40")
+        shutil.rmtree(self.directory / "results")
+        process = subprocess.Popen([support.SCABO, "run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet", "--set", "steps.1.increments=40"],
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        while process.poll() is None and not (self.directory / "results" / "fields_0004.vtu").exists():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=support.PATIENCE)
+        self.assertEqual(process.returncode, 130)
+        self.assertLess(len(summary_of(self.directory / "results")["increments"]), 41)
+        done = scabo("resume", self.directory / "results", "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(summary_of(self.directory / "results")["increments"], whole)
+
+    def test_the_log_tells_the_tension(self):
+        self.solve(f"{{{self.cut}, force: 20e3, tightened: tighten}}")
+        self.assertIn("preload of shank: tension 40000, shortened by 0.0266667\n", (self.directory / "results" / "log.txt").read_text(encoding="utf-8"))
+
+    def test_what_only_the_mesh_shows_is_refused(self):
+        model = self.directory / "model.yaml"
+        for preload, more, why in (
+                ("{cut: {point: [0, 0, 21], normal: [0, 0, 1]}, force: 1}", "", r":13:14: bodies.shank.preload: the cut of the preload of body 'shank' has all of it on one side: "),
+                (f"{{{self.cut}, force: 1}}", "  - {on: shank.top, fix: z}\n  - {on: shank.bottom, fix: z}\n", r":13:14: bodies.shank.preload: .* lies between supports that hold it along the bolt, ")):
+            with self.subTest(preload=preload):
+                model.write_text(self.head.replace("PRELOAD", preload).replace("loads:\n", more + "loads:\n", 1), encoding="utf-8")
+                done = scabo("check", model)
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertRegex(done.stderr, why)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+
 class AgainstThePlane(support.InTemporaryDirectory):
     """Models in space whose fields are those of a plane one: forces that statics fixes are the same, others converge."""
     materials = "materials: {steel: {young: 200e3, poisson: 0.3}}\n"
@@ -314,8 +420,8 @@ class Shapes(support.InTemporaryDirectory):
 analysis: {space: true}
 materials: {steel: {young: 200e3, poisson: 0.3}}
 bodies:
-  ring: {material: steel, shape: {tube: {from: [0, 0, 0], to: [0, 0, 0.4], inner: 1.5, outer: 2}}, mesh: {size: 0.3}}
-  bush: {material: steel, shape: {tube: {from: [0, 0, 0], to: [0, 0, 0.4], inner: 1, outer: 1.5}}, mesh: {size: 0.25}}
+  ring: {material: steel, shape: {tube: {from: [0, 0, 0], to: [0, 0, 0.4], inner: 1.5, outer: 2}}, mesh: {size: 0.2}}
+  bush: {material: steel, shape: {tube: {from: [0, 0, 0], to: [0, 0, 0.4], inner: 1, outer: 1.5}}, mesh: {size: 0.16}}
 supports:
   - {on: ring.bottom, fix: z}
   - {on: ring.top, fix: z}
@@ -335,7 +441,55 @@ contacts:
         area = sum(float(row["area"]) for row in rows)
         mean = sum(float(row["normal_force"]) for row in rows) / area
         self.assertAlmostEqual(mean, expected, delta=1e-3 * expected)
+        for row in rows:
+            self.assertAlmostEqual(float(row["pressure"]), expected, delta=0.1 * expected)
         self.assertAlmostEqual(area, 2 * math.pi * 1.5 * 0.4, delta=0.02 * area)
+
+    def extruded(self, plane, loads):
+        """A plate of 6 x 4 with a hole, 2 thick across the plane of its profile, on its bottom edge."""
+        across, = set("xyz") - set(plane)
+        text = f"""scabo: 1
+analysis: {{space: true}}
+materials: {{steel: {{young: 200e3, poisson: 0.3, density: 3}}}}
+bodies:
+  plate:
+    material: steel
+    shape:
+      extrude:
+        profile: {{rectangle: {{corner: [10, 20], size: [6, 4]}}}}
+        holes: {{hole: {{circle: {{centre: [13, 22], radius: 1}}}}}}
+        plane: {plane}
+        from: -1
+        to: 1
+    mesh: {{size: 1, refine: [{{near: [0, 0, 0], size: 0.5}}]}}
+supports:
+  - {{on: plate.bottom, fix: [x, y, z], name: ground}}
+loads:
+{loads}
+"""
+        (self.directory / "model.yaml").write_text(text, encoding="utf-8")
+        done = scabo("run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        increment, = summary_of(self.directory / "results")["increments"]
+        axes = ["xyz".index(axis) for axis in plane + across]
+        return [-increment["reactions"]["ground"][k] for k in axes], [-increment["moments"]["ground"][k] for k in axes]
+
+    def test_an_extruded_profile_has_its_volume_and_faces(self):
+        for plane in ("xy", "xz", "yz", "zx"):
+            with self.subTest(plane=plane):
+                pull = ["0", "0", "0"]
+                pull["xyz".index(plane[1])] = "-10"
+                force, _ = self.extruded(plane, f"  weight: {{gravity: [{', '.join(pull)}]}}")
+                volume = 2 * (24 - math.pi)
+                self.assertAlmostEqual(force[1], -30 * volume, delta=1e-3 * 30 * volume)
+                self.assertAlmostEqual(force[0], 0, delta=1e-9)
+                for face, expected in (("top", [0, -12, 0]), ("left", [8, 0, 0]), ("right", [-8, 0, 0]), ("hole", [0, 0, 0])):
+                    force, _ = self.extruded(plane, f"  push: {{on: plate.{face}, pressure: 1}}")
+                    for one, other in zip(force, expected, strict=True):
+                        self.assertAlmostEqual(one, other, delta=1e-9)
+                for face, sign in (("start", 1), ("end", -1)):
+                    force, _ = self.extruded(plane, f"  push: {{on: plate.{face}, pressure: 1}}")
+                    self.assertAlmostEqual(force[2], sign * (24 - math.pi), delta=2e-3)
 
     def test_too_many_nodes_are_refused_before_they_are_made(self):
         text = (EXAMPLE.parent / "35_ball_on_block" / "model.yaml").read_text(encoding="utf-8")

@@ -27,14 +27,25 @@ struct SpaceMaterial {
   double expansion = 0.0;             ///< strain per change of temperature, >= 0
 };
 
+/// A bolt that is tightened: over its step the part of the body above a plane is pulled towards the part below it. From
+/// then on their shortening stays.
+struct SpacePreload {
+  Eigen::Vector3d point, normal;  ///< of the plane; the latter of length 1, out of the part below
+  std::optional<double> force;    ///< tension at the end of the step; none: `shortening` is given
+  double shortening = 0.0;        ///< by which the parts are pulled together
+  int step = 0;                   ///< index of the step over which it grows
+  Source source;
+};
+
 struct SpaceBody {
   std::string name;
   std::shared_ptr<const files::ImportedSolidMesh> mesh;  ///< either this or `shape`
   std::optional<SolidShape> shape;
   SolidSizes sizes;  ///< of a shape
   int material = -1;
-  bool rigid = false;    ///< then without a material
-  double density = 0.0;  ///< of a rigid body, mass / length^3, >= 0
+  bool rigid = false;                   ///< then without a material
+  double density = 0.0;                 ///< of a rigid body, mass / length^3, >= 0
+  std::optional<SpacePreload> preload;  ///< of an elastic body
   Source source;
 };
 

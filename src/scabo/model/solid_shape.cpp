@@ -16,6 +16,12 @@ struct Names {
       if (sphere.kept[k] != 0) names.push_back(std::string("cut_") + "xyz"[k]);
     return names;
   }
+  std::vector<std::string> operator()(const SolidExtrusion& extrusion) const {
+    std::vector<std::string> names{"start", "end"};
+    for (const geometry::Edge& edge : extrusion.outline.edges)
+      names.insert(names.end(), edge.names.begin(), edge.names.end());
+    return names;
+  }
 };
 
 }  // namespace

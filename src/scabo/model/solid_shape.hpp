@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scabo/base/types.hpp"
+#include "scabo/geometry/plane/outline.hpp"
 
 namespace scabo::model {
 
@@ -36,7 +37,15 @@ struct SolidSphere {
   std::array<int, 3> kept{0, 0, 0};
 };
 
-using SolidShape = std::variant<SolidBox, SolidCylinder, SolidTube, SolidSphere>;
+/// A plane outline, in two of the axes, drawn along the third one. Faces start and end, and those of the edges of the
+/// outline by their names.
+struct SolidExtrusion {
+  geometry::Outline outline;
+  std::array<int, 3> axes{0, 1, 2};  ///< of the first and second coordinate of the outline, and across
+  double from = 0.0, to = 0.0;       ///< coordinate across, from < to
+};
+
+using SolidShape = std::variant<SolidBox, SolidCylinder, SolidTube, SolidSphere, SolidExtrusion>;
 
 /// In the order of their creation by mesh::solid_of_shape.
 std::vector<std::string> face_names(const SolidShape& shape);

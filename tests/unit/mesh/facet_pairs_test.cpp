@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <numbers>
 
 #include "scabo/files/solid_abaqus.hpp"
@@ -80,6 +81,36 @@ TEST_P(Faces, OfTheSameMeshHaveTheAreasOfTheirCorners) {
       facets += static_cast<int>(std::count(facet.begin(), facet.begin() + 3, pair.corner));
     EXPECT_NEAR(pair.area, facets * 0.5 / 3.0, 1e-14);
   }
+}
+
+/// Of faces of which one is not plane: the weights of side B, which side A covers wholly, are at the corner, the other
+/// corners of its facets and the middles of their edges that meet there. Of a tie they are also at those opposite.
+TEST(QuadraticFaces, HavePairsWithoutWeightAtTheMiddlesOfEdgesOpposite) {
+  SolidMesh lower = test::solid_block({0, 0, -1}, {1, 1, 0}, {3, 2, 1}, 10, 0.2, 1);
+  const SolidMesh upper = test::solid_block({0, 0, 0}, {1, 1, 1}, {4, 5, 1}, 10, 0.2, 2);
+  const Face a{lower, test::facets_at(lower, {0, 0, 0}, up)}, b{upper, test::facets_at(upper, {0, 0, 0}, -up)};
+  lower.nodes(2, a.facets.front()[3]) -= 1e-2;
+  for (const bool tied : {false, true})
+    for (const FacetPair& pair : facet_pairs(a, b, tied)) {
+      std::map<int, double> weights;
+      for (const WeightedNode& at : pair.b) weights[at.node] = at.weight;
+      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+      for (const SolidFacet& facet : b.facets)
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (facet[k] != pair.corner) continue;
+          const Eigen::Matrix3d x = nodes_of(upper, {facet[k], facet[(k + 1) % 3], facet[(k + 2) % 3]});
+          const Eigen::Vector3d e = x.col(1) - x.col(0), f = x.col(2) - x.col(0);
+          // int phi_i psi_i, int phi_i psi_j over the area
+          mean +=
+              0.5 * e.cross(f).norm() * (x.col(0) / (tied ? 6.0 : 4.0) + (x.col(1) + x.col(2)) / (tied ? 12.0 : 24.0));
+          if (tied)
+            EXPECT_GT(weights.at(facet[3 + (k + 1) % 3]), 1e-2);
+          else
+            EXPECT_NEAR(weights.at(facet[3 + (k + 1) % 3]), 0.0, 1e-12);
+          EXPECT_GT(weights.at(facet[3 + k]), 1e-2);
+        }
+      EXPECT_LT((pair.point - mean / pair.area).norm(), 1e-12);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(LinearAndQuadratic, Faces, testing::Values(4, 10));

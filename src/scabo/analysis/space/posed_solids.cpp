@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "scabo/mesh/extruded_solid.hpp"
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
 #include "scabo/model/limits.hpp"
@@ -31,6 +32,7 @@ class Posing {
   Vector load_on_face(const model::SpaceLoad& load);
   Vector varying_load(const model::SpaceLoad& load, const std::vector<mesh::SolidFacet>& on);
   void add_contact(const model::SpaceContact& contact);
+  void add_preload(std::size_t body);
   void add_steps();
   SolidBody& body(int index) { return posed_.model.bodies[static_cast<std::size_t>(index)]; }
 
@@ -47,14 +49,22 @@ class Posing {
 void Posing::add_body(const model::SpaceBody& of) {
   mesh::ShapedSolid shaped;
   if (of.shape) {
-    const double nodes = mesh::count_nodes(*of.shape, of.sizes);
+    const auto* extrusion = std::get_if<model::SolidExtrusion>(&*of.shape);
+    const double nodes = extrusion ? mesh::count_nodes(*extrusion, of.sizes) : mesh::count_nodes(*of.shape, of.sizes);
     if (nodes > model::limits::model_nodes) {
       mistakes_.push_back({of.source, fmt::format("its mesh would have {:.2g} nodes, and at most {:.2g} are possible: "
                                                   "give it a larger 'size'",
                                                   nodes, model::limits::model_nodes)});
       return;
     }
-    shaped = mesh::solid_of_shape(*of.shape, of.sizes);
+    if (extrusion) {
+      auto extruded = mesh::extruded_solid(*extrusion, of.sizes, model::limits::model_nodes);
+      if (const auto* wrong = std::get_if<Diagnostic>(&extruded))
+        return mistakes_.push_back({of.source, wrong->message});
+      shaped = std::get<mesh::ShapedSolid>(std::move(extruded));
+    } else {
+      shaped = mesh::solid_of_shape(*of.shape, of.sizes);
+    }
   } else {
     shaped.mesh = mesh::solid_mesh_of(*of.mesh);
   }
@@ -247,6 +257,31 @@ void Posing::add_contact(const model::SpaceContact& contact) {
   posed_.model.contacts.push_back(std::move(posed));
 }
 
+void Posing::add_preload(std::size_t number) {
+  const model::SpaceBody& of = model_.bodies[number];
+  const SolidBody& at = posed_.model.bodies[number];
+  const model::SpacePreload& given = *of.preload;
+  const auto mistake = [&](const char* text) {
+    mistakes_.push_back({given.source, fmt::format("the cut of the preload of body '{}' {}", of.name, text)});
+  };
+  SolidPreload preload{
+      static_cast<int>(number),
+      system::cut_of(at.mesh, element::elasticity_in_space(at.young, at.poisson), given.point, given.normal),
+      given.force, given.shortening};
+  if (preload.cut.stiffness == 0.0) return mistake("has all of it on one side: move 'point', or make 'size' smaller");
+  std::array<bool, 2> held{};  // along the normal: the part below, that above
+  for (std::size_t c = 0; c < at.mesh.cells.size(); ++c)
+    for (const int node : at.mesh.cells[c])
+      for (int axis = 0; axis < 3; ++axis)
+        if (given.normal[axis] != 0.0 && held_.count({static_cast<int>(number), 3 * node + axis}) > 0)
+          held[static_cast<std::size_t>(preload.cut.above[c])] = true;
+  if (held[0] && held[1] && given.force)
+    return mistake(
+        "lies between supports that hold it along the bolt, so that no force can be set: free one side, or "
+        "give 'shortening'");
+  posed_.model.preloads.push_back(std::move(preload));
+}
+
 void Posing::add_steps() {
   const auto vector = [](const std::vector<double>& of) {
     return Vector(Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size())));
@@ -271,6 +306,11 @@ void Posing::add_steps() {
       for (std::size_t c = 0; c < model_.contacts.size(); ++c)
         if (const int fit = model_.contacts[c].fit_in; fit >= static_cast<int>(s))
           factors.fits[static_cast<Eigen::Index>(c)] = fit == static_cast<int>(s) ? t : 0.0;
+      factors.tightened = Vector::Zero(static_cast<Eigen::Index>(posed_.model.preloads.size()));
+      for (std::size_t i = 0; i < posed_.model.preloads.size(); ++i)
+        if (const int at = model_.bodies[static_cast<std::size_t>(posed_.model.preloads[i].body)].preload->step;
+            at <= static_cast<int>(s))
+          factors.tightened[static_cast<Eigen::Index>(i)] = at == static_cast<int>(s) ? t : 1.0;
       posed_.increments.push_back(std::move(factors));
       posed_.step_and_number.emplace_back(s, k);
     }
@@ -285,6 +325,8 @@ PosedSolids Posing::posed() {
     for (std::size_t s = 0; s < model_.supports.size(); ++s) add_support(s);
     for (const model::SpaceLoad& load : model_.loads) add_load(load);
     for (const model::SpaceContact& contact : model_.contacts) add_contact(contact);
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b)
+      if (model_.bodies[b].preload) add_preload(b);
   }
   if (!mistakes_.empty()) throw InputError(model_.file, mistakes_);
   add_steps();

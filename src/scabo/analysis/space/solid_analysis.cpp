@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/friction_work.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
@@ -51,7 +52,8 @@ PairedFaces paired_faces(const SolidModel& model) {
     };
     const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
     const bool turned = has_pairs_on_first(model, contact, a, b);
-    const std::vector<mesh::FacetPair> found = turned ? mesh::facet_pairs(b, a) : mesh::facet_pairs(a, b);
+    const std::vector<mesh::FacetPair> found =
+        turned ? mesh::facet_pairs(b, a, !contact.friction) : mesh::facet_pairs(a, b, !contact.friction);
     const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),
                second = static_cast<std::size_t>(turned ? contact.a.body : contact.b.body);
     std::shared_ptr<const contact::Law> law = std::make_shared<contact::Bonded>();
@@ -108,10 +110,12 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
 struct AppliedToSolids {
   std::vector<Vector> forces, prescribed, heated;
   std::vector<double> sums;
+  Vector shortening;  // of preloads
 };
-AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFactors& factors) {
+AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFactors& factors, Vector shortening) {
   const SolidModel& model = prepared.model;
   AppliedToSolids applied;
+  applied.shortening = std::move(shortening);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const SolidBody& body = model.bodies[b];
     Vector forces = Vector::Zero(in_space.count(body.mesh.nodes.cols())), heated;
@@ -125,6 +129,11 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
       if (model.temperatures.empty() || model.temperatures[load][b].size() == 0) continue;
       if (heated.size() == 0) heated = Vector::Zero(body.mesh.nodes.cols());
       heated += factor * model.temperatures[load][b];
+    }
+    for (std::size_t i = 0; i < model.preloads.size(); ++i) {
+      if (model.preloads[i].body != static_cast<int>(b)) continue;
+      forces += applied.shortening[static_cast<Eigen::Index>(i)] * model.preloads[i].cut.forces;
+      sum += std::abs(applied.shortening[static_cast<Eigen::Index>(i)]) * model.preloads[i].cut.forces.lpNorm<1>();
     }
     if (const Matrix& rigid = prepared.structure.parts[b]->rigid_motions(); rigid.cols() > 0 && !body.rigid_at)
       take_out_rounding(rigid, sum, forces);
@@ -155,9 +164,11 @@ double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors
   return gap * factors.fits[prepared.paired.pairs[i].contact];
 }
 
-/// The contact problem of the pairs that move; `slip`: (d - 1) numbers of each so far.
+/// The contact problem of the pairs that move; `slip`: (d - 1) numbers of each so far; `tightened`: preloads whose
+/// shortenings are unknowns too.
 contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied,
-                                   const SolidFactors& factors, const Vector& slip) {
+                                   const SolidFactors& factors, const Vector& slip,
+                                   const std::vector<std::size_t>& tightened) {
   const system::ContactSystem& system = prepared.contact;
   const Eigen::Index pairs = system.gap.size();
   contact::Problem problem;
@@ -173,12 +184,15 @@ contact::Problem problem_of_solids(const PreparedSolids& prepared, const Applied
                            : system.gap[i];  // that of a pair that keeps its gap is 0
     problem.q.segment<3>(in_space.of(i)) << gap, -slip.segment<2>(2 * i);
   }
+  std::vector<Vector> u;
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];
-    problem.q += system.motion[p] * part.displacement(applied.forces[p], applied.prescribed[p]);
+    u.push_back(part.displacement(applied.forces[p], applied.prescribed[p]));
+    problem.q += system.motion[p] * u[p];
     problem.f.segment(system.first_rigid[p], part.rigid_motions().cols()) =
         resultants_of_loads(part, applied.forces[p], applied.sums[p]);
   }
+  add_shortenings(prepared.model, tightened, factors.tightened, prepared.structure, system, u, problem);
   contact::set_limits(system.laws, contact::History(static_cast<std::size_t>(pairs)), problem);
   return problem;
 }
@@ -204,6 +218,7 @@ MovedSolids moved_solids(const PreparedSolids& prepared, AppliedToSolids applied
 /// Before the first increment.
 MovedSolids solids_at_rest(const PreparedSolids& prepared) {
   MovedSolids rest;
+  rest.applied.shortening = Vector::Zero(static_cast<Eigen::Index>(prepared.model.preloads.size()));
   for (const SolidBody& body : prepared.model.bodies) {
     rest.applied.forces.push_back(Vector::Zero(in_space.count(body.mesh.nodes.cols())));
     rest.applied.prescribed.push_back(Vector::Zero(static_cast<Eigen::Index>(body.supports.size())));
@@ -302,12 +317,16 @@ FrictionWork friction_work_of_solids(const PreparedSolids& prepared, const Solid
   return total;
 }
 
-/// What temperatures add to 1/2 u'K u: the strain they cause in a free body takes no energy.
-double thermal_energy_of_solid(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t b,
+/// What temperatures and preloads add to 1/2 u'K u: the strain they cause in a free body takes no energy.
+double initial_energy_of_solid(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t b,
                                const AppliedToSolids& applied, const Vector& u) {
-  if (applied.heated[b].size() == 0) return 0.0;
+  double energy = 0.0;
+  for (std::size_t i = 0; i < prepared.model.preloads.size(); ++i)
+    if (const SolidPreload& preload = prepared.model.preloads[i]; preload.body == static_cast<int>(b))
+      energy += preload.cut.energy(applied.shortening[static_cast<Eigen::Index>(i)], u);
+  if (applied.heated[b].size() == 0) return energy;
   const SolidBody& body = prepared.model.bodies[b];
-  double energy = system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b]);
+  energy += system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b]);
   for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
     if (prepared.model.temperatures[load][b].size() > 0)
       energy -= factors.loads[static_cast<Eigen::Index>(load)] * u.dot(prepared.model.loads[load][b]);
@@ -325,9 +344,9 @@ Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, 
         0.5 *
         (before.reactions[i] + after.reactions[i]).dot(after.applied.prescribed[i] - before.applied.prescribed[i]);
     energy.elastic += prepared.structure.parts[i]->elastic_energy(after.u[i], after.forces[i], after.unbalanced[i]);
-    const double thermal = thermal_energy_of_solid(prepared, factors, i, after.applied, after.u[i]);
-    energy.elastic += thermal;
-    energy.external += thermal - thermal_energy_of_solid(prepared, from.factors, i, before.applied, before.u[i]);
+    const double initial = initial_energy_of_solid(prepared, factors, i, after.applied, after.u[i]);
+    energy.elastic += initial;
+    energy.external += initial - initial_energy_of_solid(prepared, from.factors, i, before.applied, before.u[i]);
   }
   const FrictionWork friction = friction_work_of_solids(prepared, from, solution);
   energy.friction += friction.work;
@@ -349,10 +368,12 @@ class SolidMarch {
       state_.p = Vector::Zero(in_space.count(pairs));
       state_.a = Vector::Zero(prepared_.contact.rigid_motions());
       state_.states.assign(static_cast<std::size_t>(pairs), contact::ContactState::open);
+      state_.shortening = before_.applied.shortening;
       return;
     }
     state_ = *options.from;
-    before_ = moved_solids(prepared_, applied_to_solids(prepared_, state_.factors), state_.p, state_.a);
+    before_ =
+        moved_solids(prepared_, applied_to_solids(prepared_, state_.factors, state_.shortening), state_.p, state_.a);
   }
 
   SolidIncrement next(const SolidFactors& factors);
@@ -366,12 +387,23 @@ class SolidMarch {
 };
 
 SolidIncrement SolidMarch::next(const SolidFactors& factors) {
-  AppliedToSolids applied = applied_to_solids(prepared_, factors);
+  const SolidModel& model = prepared_.model;
+  const std::vector<std::size_t> tightened =
+      preloads_being_tightened(model, state_.factors.tightened, factors.tightened);
+  Vector shortening = known_shortenings(model, tightened, state_.shortening, factors.tightened);
+  AppliedToSolids applied = applied_to_solids(prepared_, factors, shortening);
   for (const Vector& forces : applied.forces)
     state_.force_scale = std::max(state_.force_scale, forces.lpNorm<Eigen::Infinity>());
+  for (const std::size_t i : tightened)
+    state_.force_scale = std::max(state_.force_scale, std::abs(*model.preloads[i].force));
   solver_.force_scale = state_.force_scale;
-  const contact::Solution solution =
-      contact::solve(problem_of_solids(prepared_, applied, factors, state_.slip), {state_.p, state_.a}, solver_);
+  const Eigen::Index motions = state_.a.size();
+  Vector start = state_.a;
+  start.conservativeResize(motions + static_cast<Eigen::Index>(tightened.size()));
+  for (std::size_t k = 0; k < tightened.size(); ++k)
+    start[motions + static_cast<Eigen::Index>(k)] = state_.shortening[static_cast<Eigen::Index>(tightened[k])];
+  const contact::Solution solution = contact::solve(
+      problem_of_solids(prepared_, applied, factors, state_.slip, tightened), {state_.p, start}, solver_);
   SolidIncrement to;
   to.factors = factors;
   to.status = solution.status;
@@ -379,11 +411,16 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   to.iterations = solution.iterations;
   if (solution.status != contact::Status::solved) return to;
   to.certificate = solution.certificate;
-  MovedSolids moved = moved_solids(prepared_, std::move(applied), solution.p, solution.a);
+  const Vector a = solution.a.head(motions);
+  for (std::size_t k = 0; k < tightened.size(); ++k)
+    shortening[static_cast<Eigen::Index>(tightened[k])] = solution.a[motions + static_cast<Eigen::Index>(k)];
+  if (!tightened.empty()) applied = applied_to_solids(prepared_, factors, shortening);
+  MovedSolids moved = moved_solids(prepared_, std::move(applied), solution.p, a);
   to.certificate.equilibrium = imbalance_of(prepared_, moved, solution.p);
   to.u = moved.u;
   to.reactions = moved.reactions;
   to.heated = moved.applied.heated;
+  to.tensions = tensions_of(model, shortening, moved.u);
   to.energy = energy_of_solids(prepared_, state_, before_, factors, moved, solution);
   const Vector slip = state_.slip + solution.slip_increment;
   to.pairs = solid_pairs(prepared_, solution, slip);
@@ -395,7 +432,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
     to.reason = "the forces at some node do not balance to the tolerance of the certificate";
   }
   if (to.status != contact::Status::solved) return to;
-  state_ = {factors, slip, solution.gap, solution.p, solution.a, solution.states, state_.force_scale, to.energy};
+  state_ = {factors, slip, solution.gap, solution.p, a, shortening, solution.states, state_.force_scale, to.energy};
   before_ = std::move(moved);
   return to;
 }

@@ -17,6 +17,7 @@
 #include "scabo/contact/solution.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
 #include "scabo/system/contact_system.hpp"
+#include "scabo/system/solid_cut.hpp"
 
 namespace scabo::analysis {
 
@@ -40,6 +41,14 @@ struct SolidContact {
   double gap = 0.0;                ///< added to that of the meshes; negative: an interference
 };
 
+/// A bolt that is tightened. Supports do not hold both of its parts along the normal of the cut.
+struct SolidPreload {
+  int body = -1;
+  system::SolidCut cut;
+  std::optional<double> force;  ///< tension when it is tightened; none: `shortening` is given
+  double shortening = 0.0;
+};
+
 struct SolidModel {
   std::vector<SolidBody> bodies;
   std::vector<SolidContact> contacts;
@@ -47,6 +56,7 @@ struct SolidModel {
   /// [load][body]: of a change of temperature, that of the nodes at factor 1; empty where there is none. `loads` has
   /// its forces. As long as `loads`, or empty.
   std::vector<std::vector<Vector>> temperatures = {};
+  std::vector<SolidPreload> preloads = {};
 };
 
 /// Factors of loads, supports and interferences at the end of an increment.
@@ -54,6 +64,9 @@ struct SolidFactors {
   Vector loads, supports;
   /// For each contact the part of the negative gaps of its pairs that is there, 0 to 1; empty: all of them.
   Vector fits = Vector();
+  /// For each preload the part of it that is there, 0 to 1. One with a force has this part of it in increments in which
+  /// the factor grows; in all others its shortening stays. Empty: none of them.
+  Vector tightened = Vector();
 };
 
 /// A pair in a solution; vectors along the axes.
@@ -70,6 +83,10 @@ struct SolidPair {
   double normal_force() const { return force.dot(normal); }  ///< compression positive
 };
 
+struct SolidTension {
+  double force = 0.0, shortening = 0.0;  ///< in the cut of a preload; tension positive
+};
+
 struct SolidIncrement {
   SolidFactors factors;
   contact::Status status = contact::Status::not_converged;
@@ -78,6 +95,7 @@ struct SolidIncrement {
   std::vector<Vector> reactions;  ///< [body], of its constraints
   std::vector<Vector> heated;     ///< [body], change of temperature of the nodes; empty: none
   std::vector<SolidPair> pairs;
+  std::vector<SolidTension> tensions;  ///< of each preload
   contact::Certificate certificate;
   Energy energy;
   int iterations = 0;
@@ -88,6 +106,7 @@ struct SolidState {
   SolidFactors factors;  ///< empty before the first increment
   Vector slip, gap;      ///< of each pair that moves, the former so far, two numbers
   Vector p, a;           ///< contact forces, rigid motions
+  Vector shortening;     ///< of each preload
   std::vector<contact::ContactState> states;
   double force_scale = 0.0;  ///< largest applied force so far
   Energy energy;

@@ -14,6 +14,8 @@ void exchange_solid_checkpoint(Io& io, SolidCheckpoint& of) {
   exchange_vector(io, "space/factors/loads", state.factors.loads);
   exchange_vector(io, "space/factors/supports", state.factors.supports);
   exchange_vector(io, "space/factors/fits", state.factors.fits);
+  exchange_vector(io, "space/factors/tightened", state.factors.tightened);
+  exchange_vector(io, "space/shortening", state.shortening);
   exchange_vector(io, "space/slip", state.slip);
   exchange_vector(io, "space/gap", state.gap);
   exchange_vector(io, "space/p", state.p);

@@ -47,9 +47,33 @@ int SpaceReader::material_of(const Value& value) {
   return -1;
 }
 
+/// `{cut: {point: [0, 0, 1], normal: [0, 0, 1]}, force: 50e3}`.
+std::optional<SpacePreload> SpaceReader::preload(const Value& value) {
+  const MapReader map(report_, value, {"cut", "force", "shortening", "tightened"},
+                      "{cut: {point: [0, 0, 1], normal: [0, 0, 1]}, force: 50e3}");
+  if (!map.is_map()) return {};
+  SpacePreload preload;
+  preload.source = value.source();
+  if (const auto given = map.need("cut")) {
+    const MapReader cut(report_, *given, {"point", "normal"}, "{point: [0, 0, 1], normal: [0, 0, 1]}");
+    if (const auto point = cut.need("point")) preload.point = vector(*point);
+    const auto normal = cut.need("normal");
+    if (normal) preload.normal = vector(*normal);
+    if (normal && preload.normal.isZero(0.0)) report_.error(*normal, "has no direction: not all of it may be 0");
+    preload.normal.stableNormalize();
+  }
+  const auto force = map.get("force"), shortening = map.get("shortening");
+  if (force) preload.force = number(force);
+  if (shortening) preload.shortening = number(shortening);
+  if (force.has_value() == shortening.has_value() && map.all_known())
+    report_.error(value, "needs either 'force' or 'shortening'");
+  if (const auto step = map.get("tightened")) tightened_.emplace_back(model_.bodies.size(), *step);
+  return preload;
+}
+
 void SpaceReader::body(const Entry& entry) {
   const MapReader map(
-      report_, entry.value, {"material", "shape", "mesh", "rigid", "density"},
+      report_, entry.value, {"material", "shape", "mesh", "rigid", "density", "preload"},
       "{material: steel, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.1}}",
       only_in_the_plane({"thickness", "holes", "regions", "sectors", "materials", "outside", "reference", "cracks",
                          "crack", "copies", "repeat", "image", "added", "removed", "join", "corners"}));
@@ -59,10 +83,12 @@ void SpaceReader::body(const Entry& entry) {
   if (const auto rigid = map.get("rigid")) body.rigid = read_flag(report_, *rigid).value_or(false);
   if (body.rigid) {
     map.refuse("material", "a rigid body has no material: leave it out, or 'rigid'");
+    map.refuse("preload", "is that of an elastic body: leave it out, or 'rigid'");
     body.density = number_from(map.get("density"), 0.0, true);
   } else {
     map.refuse("density", "is that of a rigid body: give it to the material");
     if (const auto name = map.need("material")) body.material = material_of(*name);
+    if (const auto given = map.get("preload")) body.preload = preload(*given);
   }
   const auto shape = map.get("shape"), mesh = map.need("mesh");
   if (shape) body.shape = read_solid_shape(report_, *shape);
@@ -111,6 +137,10 @@ void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
             fmt::format("a part of this file is called '{0}', as is another body: give that another name", body.name));
     model_.bodies.push_back(body);
   }
+  if (parts.size() > 1 && body.preload)
+    report_.error(mesh, fmt::format("has {} parts that have no side in common, and a preload is that of one: take the "
+                                    "cells of one of them by 'region'",
+                                    parts.size()));
   if (parts.size() > 1)
     model_.warnings.push_back(
         {WarningKind::input, whole + " parts",

@@ -79,6 +79,7 @@ SpaceModel SpaceReader::read(const Value& root) {
   if (const auto value = map.get("curves")) curves(*value);
   steps(map.get("steps"));
   find_fits();
+  find_tightened();
   return std::move(model_);
 }
 

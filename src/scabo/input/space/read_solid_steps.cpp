@@ -124,18 +124,26 @@ void SpaceReader::steps(const std::optional<Value>& value) {
   model_.steps.push_back(last);
 }
 
-void SpaceReader::find_fits() {
+/// Its index; -1 after a mistake.
+int SpaceReader::step_named(const Value& value) const {
   std::vector<std::string> known;
   for (const Step& step : model_.steps) known.push_back(step.name);
-  for (const auto& [contact, value] : fits_) {
-    const auto text = read_text(report_, value);
-    if (!text) continue;
-    const auto found = std::find(known.begin(), known.end(), *text);
-    if (found == known.end())
-      report_.error(value, fmt::format("there is no step named {}{}", quoted_name(*text), suggestion(*text, known)));
-    else
-      model_.contacts[contact].fit_in = static_cast<int>(found - known.begin());
-  }
+  const auto text = read_text(report_, value);
+  if (!text) return -1;
+  const auto found = std::find(known.begin(), known.end(), *text);
+  if (found != known.end()) return static_cast<int>(found - known.begin());
+  report_.error(value, fmt::format("there is no step named {}{}", quoted_name(*text), suggestion(*text, known)));
+  return -1;
+}
+
+void SpaceReader::find_fits() {
+  for (const auto& [contact, value] : fits_) model_.contacts[contact].fit_in = step_named(value);
+}
+
+void SpaceReader::find_tightened() {
+  for (const auto& [body, value] : tightened_)
+    if (const int step = step_named(value); step >= 0 && model_.bodies[body].preload)
+      model_.bodies[body].preload->step = step;
 }
 
 }  // namespace scabo::input

@@ -130,20 +130,23 @@ SpaceFormula read_formula_in_space(Report& report, const Value& value) {
 
 std::optional<SolidShape> read_solid_shape(Report& report, const Value& value) {
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"box", "cylinder", "tube", "sphere"},
+  const MapReader map(report, value, {"box", "cylinder", "tube", "sphere", "extrude"},
                       "{box: {corner: [0, 0, 0], size: [1, 1, 1]}}",
                       only_in_the_plane({"rectangle", "circle", "polygon", "outline", "image", "names"}));
   if (!map.is_map()) return {};
   const auto box = map.get("box"), cylinder = map.get("cylinder"), tube = map.get("tube"), sphere = map.get("sphere");
+  const auto extrude = map.get("extrude");
   std::optional<SolidShape> shape;
-  if (box.has_value() + cylinder.has_value() + tube.has_value() + sphere.has_value() != 1) {
-    if (map.all_known()) report.error(value, "needs one of 'box', 'cylinder', 'tube' and 'sphere'");
+  if (box.has_value() + cylinder.has_value() + tube.has_value() + sphere.has_value() + extrude.has_value() != 1) {
+    if (map.all_known()) report.error(value, "needs one of 'box', 'cylinder', 'tube', 'sphere' and 'extrude'");
   } else if (box) {
     shape = solid_box_of(report, *box);
   } else if (cylinder) {
     shape = cylinder_of(report, *cylinder);
   } else if (tube) {
     shape = tube_of(report, *tube);
+  } else if (extrude) {
+    shape = read_extrusion(report, *extrude);
   } else {
     shape = sphere_of(report, *sphere);
   }

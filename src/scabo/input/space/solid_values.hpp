@@ -21,6 +21,9 @@ Eigen::Vector3d read_vector_in_space(Report& report, const Value& value);
 /// A formula of the coordinates x, y and z, or a number; none if it is broken.
 model::SpaceFormula read_formula_in_space(Report& report, const Value& value);
 
+/// `{profile: {rectangle: ...}, holes: {...}, plane: xz, from: 0, to: 2}`.
+model::SolidExtrusion read_extrusion(Report& report, const Value& value);
+
 /// `{box: {corner: [0, 0, 0], size: [1, 1, 1]}}`; nothing after a mistake.
 std::optional<model::SolidShape> read_solid_shape(Report& report, const Value& value);
 

@@ -30,6 +30,7 @@ class SpaceReader {
   // read_solid_bodies.cpp
   int material_of(const Value& value);
   void body(const Entry& entry);
+  std::optional<model::SpacePreload> preload(const Value& value);
   std::shared_ptr<const files::ImportedSolidMesh> mesh_of_file(const Value& value);
   void add_bodies_of_file(const Value& mesh, model::SpaceBody body);
   std::optional<int> region_of(const Value& value, const files::ImportedSolidMesh& mesh) const;
@@ -56,6 +57,8 @@ class SpaceReader {
   model::Step step(const Value& value, const model::Step& before, std::size_t number);
   void factor(const Entry& entry, model::Step& step);
   void find_fits();
+  void find_tightened();
+  int step_named(const Value& value) const;
 
   double number(const std::optional<Value>& value, double otherwise = 0.0) const {
     return value ? read_number(report_, *value).value_or(otherwise) : otherwise;
@@ -69,7 +72,8 @@ class SpaceReader {
   Report& report_;
   model::SpaceModel model_;
   std::map<std::string, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
-  std::vector<std::pair<std::size_t, Value>> fits_;  ///< contacts, and the names of the steps of `fit_in`
+  std::vector<std::pair<std::size_t, Value>> fits_;       ///< contacts, and the names of the steps of `fit_in`
+  std::vector<std::pair<std::size_t, Value>> tightened_;  ///< bodies, and the names of the steps of their preloads
 };
 
 }  // namespace scabo::input

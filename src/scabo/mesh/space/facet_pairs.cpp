@@ -138,19 +138,24 @@ const geometry::SimplexBasis& basis_of(const Seen& facet) {
   return geometry::SimplexBasis::of(2, static_cast<int>(facet.nodes.size()));
 }
 
-/// Adds the integrals over a triangle that lies on both facets.
-void integrate(const std::array<Vec2, 3>& triangle, const Seen& a, const Seen& b, const View& view,
+using Triangle = std::array<Vec2, 3>;
+
+double area_of(const Triangle& triangle) { return 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]); }
+
+/// Adds the integrals over a triangle that lies on both facets, whose pairs have the functions `phi` of the
+/// barycentric coordinates on b.
+template <class Functions>
+void integrate(const Triangle& triangle, const Seen& a, const Seen& b, const View& view, const Functions& phi,
                std::map<int, Sums>& sums) {
-  const double area = 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
   const geometry::SimplexRule& rule = basis_of(b).rule();
   for (Eigen::Index i = 0; i < rule.weights.size(); ++i) {
     const Vec2 x = rule.points(0, i) * triangle[0] + rule.points(1, i) * triangle[1] + rule.points(2, i) * triangle[2];
-    const Vector psi = b.lambda_at(x), N_a = basis_of(a).values(a.curved_lambda_at(x, basis_of(a))),
+    const Vector phi_at_x = phi(b.lambda_at(x)), N_a = basis_of(a).values(a.curved_lambda_at(x, basis_of(a))),
                  N_b = basis_of(b).values(b.curved_lambda_at(x, basis_of(b)));
     const double height = N_b.dot(b.heights), gap = height - N_a.dot(a.heights);
     const Vector3d point = view.origin + view.directions * Vector3d(height, x.x(), x.y());
     for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = rule.weights[i] * area * psi[static_cast<Eigen::Index>(k)];
+      const double weight = rule.weights[i] * area_of(triangle) * phi_at_x[static_cast<Eigen::Index>(k)];
       Sums& of_pair = sums[b.nodes[k]];
       for (std::size_t j = 0; j < a.nodes.size(); ++j)
         of_pair.a[a.nodes[j]] += weight * N_a[static_cast<Eigen::Index>(j)];
@@ -164,16 +169,36 @@ void integrate(const std::array<Vec2, 3>& triangle, const Seen& a, const Seen& b
   }
 }
 
-/// Adds the integrals over what two facets have in common.
-void add_common(const Seen& a, const Seen& b, const View& view, std::map<int, Sums>& sums) {
-  constexpr double least = 1e-12;  // of the smaller facet: rounding, where facets only touch
-  const CommonPart common = clipped({a.corners.begin(), a.corners.end()}, b.corners);
-  for (std::size_t k = 2; k < common.size(); ++k) {
-    const std::array<Vec2, 3> triangle{common[0], common[k - 1], common[k]};
-    const double area = 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-    if (area > least * std::min(a.area(), b.area())) integrate(triangle, a, b, view, sums);
+/// What a facet of side B has in common with those of side A, as triangles. `local`: whether phi is orthogonal to the
+/// middle nodes opposite, on a facet that is covered wholly.
+class CommonTriangles {
+ public:
+  CommonTriangles(const Seen& b, const View& view, bool local) : b_(b), view_(view), local_(local) {}
+
+  void add(const Seen& a) {
+    constexpr double least = 1e-12;  // of the smaller facet: rounding, where facets only touch
+    const CommonPart common = clipped({a.corners.begin(), a.corners.end()}, b_.corners);
+    for (std::size_t k = 2; k < common.size(); ++k) {
+      const Triangle triangle{common[0], common[k - 1], common[k]};
+      if (area_of(triangle) > least * std::min(a.area(), b_.area())) triangles_.emplace_back(triangle, a);
+    }
   }
-}
+
+  void add_integrals(std::map<int, Sums>& sums) const {
+    constexpr double least = 1.0 - 1e-6;  // of the area: rounding
+    double covered = 0.0;
+    for (const auto& [triangle, a] : triangles_) covered += area_of(triangle);
+    const bool local = local_ && covered >= least * b_.area();
+    const auto phi = [&](const Vector& psi) { return local ? Vector(0.5 * (5.0 * psi.array() - 1.0)) : psi; };
+    for (const auto& [triangle, a] : triangles_) integrate(triangle, a, b_, view_, phi, sums);
+  }
+
+ private:
+  const Seen& b_;
+  const View& view_;
+  bool local_;
+  std::vector<std::pair<Triangle, Seen>> triangles_;
+};
 
 /// Of plane and parallel faces, seen along their normal.
 std::map<int, Sums> plane_integrals(const Face& a, const Face& b) {
@@ -190,8 +215,9 @@ std::map<int, Sums> plane_integrals(const Face& a, const Face& b) {
     const Seen of_b = seen_along(b, facet, view, false);
     const geometry::Box box = of_b.box();
     const Vec2 centre = 0.5 * (box.low + box.high);
-    tree.within(centre, 0.5 * (box.high - box.low).norm(),
-                [&](std::size_t i) { add_common(seen[i], of_b, view, sums); });
+    CommonTriangles common(of_b, view, false);
+    tree.within(centre, 0.5 * (box.high - box.low).norm(), [&](std::size_t i) { common.add(seen[i]); });
+    common.add_integrals(sums);
   }
   return sums;
 }
@@ -253,7 +279,7 @@ class BallsNearLines {
 };
 
 /// Of faces of any form: every facet of B sees those of A along its own normal, if they face it.
-std::map<int, Sums> curved_integrals(const Face& a, const Face& b) {
+std::map<int, Sums> curved_integrals(const Face& a, const Face& b, bool local) {
   constexpr double most_turned = -0.5;  // cosine of the angle between outward normals: 60 degrees from opposite ones
   std::map<int, Sums> sums;
   const std::vector<Ball> of_a = balls_of(a), of_b = balls_of(b);
@@ -262,12 +288,14 @@ std::map<int, Sums> curved_integrals(const Face& a, const Face& b) {
     const Ball& at = of_b[j];
     const View view{directions_of(-at.normal), at.centre};
     const Seen seen = seen_along(b, b.facets[j], view, true);
+    CommonTriangles common(seen, view, local);
     for (const std::size_t i : balls.near(at.centre, at.normal, at.radius)) {
       if (of_a[i].normal.dot(at.normal) > most_turned) continue;
       const Vector3d apart = of_a[i].centre - at.centre;
       if ((apart - apart.dot(at.normal) * at.normal).norm() > of_a[i].radius + at.radius) continue;
-      add_common(seen_along(a, a.facets[i], view, true), seen, view, sums);
+      common.add(seen_along(a, a.facets[i], view, true));
     }
+    common.add_integrals(sums);
   }
   return sums;
 }
@@ -310,20 +338,28 @@ std::vector<WeightedNode> weights_of(const std::map<int, double>& sums, double a
   return nodes;
 }
 
-/// Whether a face is plane with straight edges, to 1e-5 of the length of an edge: files have that many digits.
+// Files have that many digits: of the length of an edge.
+constexpr double plane_tolerance = 1e-5;
+
 bool is_plane(const Face& face) {
-  constexpr double tolerance = 1e-5;
   const Vector3d normal = normal_of(face);
   const Vector3d origin = face.mesh.nodes.col(face.facets.front().front());
-  for (const SolidFacet& facet : face.facets) {
+  return std::all_of(face.facets.begin(), face.facets.end(), [&](const SolidFacet& facet) {
     const Matrix x = nodes_of(face.mesh, facet);
-    const double allowed = tolerance * (x.col(1) - x.col(0)).norm();
-    if ((normal.transpose() * (x.colwise() - origin)).cwiseAbs().maxCoeff() > allowed) return false;
-    if (area_of(face, facet).dot(normal) <= 0.0) return false;
+    const double allowed = plane_tolerance * (x.col(1) - x.col(0)).norm();
+    return (normal.transpose() * (x.colwise() - origin)).cwiseAbs().maxCoeff() <= allowed &&
+           area_of(face, facet).dot(normal) > 0.0;
+  });
+}
+
+bool has_straight_edges(const Face& face) {
+  return std::all_of(face.facets.begin(), face.facets.end(), [&](const SolidFacet& facet) {
+    const Matrix x = nodes_of(face.mesh, facet);
+    const double allowed = plane_tolerance * (x.col(1) - x.col(0)).norm();
     for (Eigen::Index k = 3; k < x.cols(); ++k)
       if ((x.col(k) - 0.5 * (x.col(k - 3) + x.col((k - 2) % 3))).norm() > allowed) return false;
-  }
-  return true;
+    return true;
+  });
 }
 
 }  // namespace
@@ -332,7 +368,8 @@ std::optional<std::string> why_no_pairs(const Face& a, const Face& b) {
   constexpr double most_angle = 1e-3;
   if (a.facets.empty() || b.facets.empty())
     return fmt::format("the {} face has no facets", a.facets.empty() ? "first" : "second");
-  if (is_plane(a) && is_plane(b) && (normal_of(a) + normal_of(b)).norm() > most_angle)
+  if (is_plane(a) && is_plane(b) && has_straight_edges(a) && has_straight_edges(b) &&
+      (normal_of(a) + normal_of(b)).norm() > most_angle)
     return "the faces do not face each other";
   return {};
 }
@@ -358,9 +395,10 @@ bool has_pairs_on_second(const Face& a, const Face& b) {
   return !differ(of_a.squares, of_b.squares) || of_b.squares > of_a.squares;
 }
 
-std::vector<FacetPair> facet_pairs(const Face& a, const Face& b) {
+std::vector<FacetPair> facet_pairs(const Face& a, const Face& b, bool tied) {
   ensure(!why_no_pairs(a, b), "faces of pairs face each other");
-  std::map<int, Sums> sums = is_plane(a) && is_plane(b) ? plane_integrals(a, b) : curved_integrals(a, b);
+  const bool plane = is_plane(a) && is_plane(b), straight = has_straight_edges(a) && has_straight_edges(b);
+  std::map<int, Sums> sums = plane && straight ? plane_integrals(a, b) : curved_integrals(a, b, !plane && !tied);
   unite_small(sums, b);
   // Coordinates have rounding errors; faces that lie on each other have gaps of exactly 0, also if they are turned.
   const double rounding =

@@ -1,12 +1,20 @@
 // Contact pairs of two faces in space whose facets do not match.
 //
-// A pair stands for a corner i of the facets of side B. With psi_i, linear on the facets, 1 at corner i and 0 at the
-// others, integrated over what the sides have in common, seen along a normal:
+// A pair stands for a corner i of the facets of side B. Integrated over what the sides have in common, seen along a
+// normal,
 //
-//     A_i = int psi_i dA,   motion of the pair = (1 / A_i) int psi_i (u_B - u_A) dA,   gap = (1 / A_i) int psi_i g dA
+//     A_i = int phi_i dA,   motion of the pair = (1 / A_i) int phi_i (u_B - u_A) dA,   gap = (1 / A_i) int phi_i g dA
 //
-// so that its force over A_i is a pressure (mortar method with multipliers on side B). Both sides are divided into the
-// triangles that they have in common. The motion of either side is a mean over nodes whose weights add up to 1.
+// so that its force over A_i is a pressure (mortar method with multipliers on side B). With psi_i, linear on the
+// facets, 1 at corner i and 0 at the others,
+//
+//     phi_i = psi_i                 of ties, of plane faces, and on facets that side A covers in part
+//     phi_i = (5 psi_i - 1) / 2     on all others
+//
+// Both have the same integral and the sum 1. The former give the forces of a linear pressure exactly. The latter are
+// orthogonal to the shape function of the middle node opposite corner i: a force acts beside its corner, and pressures
+// do not oscillate next to the edge of a contact. Both sides are divided into the triangles that they have in common.
+// The motion of either side is a mean over nodes whose weights add up to 1.
 //
 // Plane faces with straight edges are seen along their common normal. There displacements are polynomials, the
 // integrals are exact, and forces of the pairs have the same resultant and moment on both sides if the faces lie on
@@ -32,7 +40,7 @@ struct FacetPair {
   int corner = -1;                                  ///< node of side B
   std::vector<WeightedNode> a, b;                   ///< nodes of either side, ascending; the weights add up to 1
   double area = 0.0, gap = 0.0;                     ///< A_i > 0; gap > 0: open
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< (1 / A_i) int psi_i x dA, on side B
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< (1 / A_i) int phi_i x dA, on side B
   /// Orthonormal: the normal, out of A towards B, and two tangents.
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
 };
@@ -52,6 +60,6 @@ bool has_pairs_on_second(const Face& a, const Face& b);
 
 /// Gaps within the rounding of the coordinates are 0. A pair with less than 1e-6 of the area that its corner has on
 /// side B is united with the largest one beside it. None where the sides have nothing in common.
-std::vector<FacetPair> facet_pairs(const Face& a, const Face& b);
+std::vector<FacetPair> facet_pairs(const Face& a, const Face& b, bool tied = false);
 
 }  // namespace scabo::mesh

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scabo/base/error.hpp"
 #include "scabo/geometry/frame.hpp"
 #include "scabo/geometry/simplex_basis.hpp"
 
@@ -18,17 +19,14 @@ namespace {
 using Eigen::Vector3d;
 using Lines = std::vector<double>;  // values of a parameter, ascending
 
-/// Where a size is wanted along a parameter, whose unit is that of length.
-struct SizeAt {
-  double at, size, growth;
-};
-
 double wanted_size(double at, double size, const std::vector<SizeAt>& near) {
   for (const SizeAt& of : near) size = std::min(size, of.size + of.growth * std::abs(at - of.at));
   return size;
 }
 
-/// Lines from `first` to `last`, between which as many sizes lie everywhere.
+}  // namespace
+
+/// As many sizes lie between any two neighbours.
 Lines divided(double first, double last, double size, const std::vector<SizeAt>& near, int least) {
   // The number of sizes up to a place, by the trapezoidal rule on steps that resolve the smallest size.
   double smallest = std::min(size, last - first);
@@ -54,6 +52,8 @@ Lines divided(double first, double last, double size, const std::vector<SizeAt>&
   lines.push_back(last);
   return lines;
 }
+
+namespace {
 
 /// Both halves of a parameter, or one of them.
 Lines divided_halves(double half, int kept, double size, const std::vector<SizeAt>& near) {
@@ -187,6 +187,10 @@ Bricks bricks_of(const model::SolidSphere& sphere, const model::SolidSizes& size
   };
   bricks.onto_face = [=](const Vector3d& x) { return Vector3d(centre + r * (x - centre).normalized()); };
   return bricks;
+}
+
+Bricks bricks_of(const model::SolidExtrusion&, const model::SolidSizes&) {
+  throw BrokenInvariant("an extrusion is no map of bricks");
 }
 
 Bricks bricks_of(const model::SolidShape& shape, const model::SolidSizes& sizes) {

@@ -2,7 +2,7 @@
 //
 // A shape is a map of a grid of bricks in three parameters, each of which is divided into six tetrahedra along its
 // diagonal away from the middle of the grid (Kuhn). Lines of the grid lie along the parameters at the wanted distances.
-// Nodes of curved faces lie on them, those in the middle of edges too.
+// Nodes of curved faces lie on them, those in the middle of edges too. Extrusions: mesh/extruded_solid.hpp.
 #pragma once
 
 #include <map>
@@ -23,5 +23,11 @@ struct ShapedSolid {
 double count_nodes(const model::SolidShape& shape, const model::SolidSizes& sizes);
 
 ShapedSolid solid_of_shape(const model::SolidShape& shape, const model::SolidSizes& sizes);
+
+/// Values of a parameter from `first` to `last` at distances of at most `size`, or less near some of its values.
+struct SizeAt {
+  double at, size, growth;
+};
+std::vector<double> divided(double first, double last, double size, const std::vector<SizeAt>& near, int least);
 
 }  // namespace scabo::mesh

@@ -24,18 +24,28 @@ Matrix places_of_nodes(std::size_t nodes) {
   return places;
 }
 
+/// A cut of a body, and by how much its parts are pulled together.
+using PulledTogether = std::pair<const system::SolidCut*, double>;
+
 /// 6 x N: xx, yy, zz, xy, yz, zx; 0 of a rigid body. `heated`: change of temperature of the nodes, or empty.
-Matrix stresses_at_nodes(const analysis::SolidBody& body, const Vector& u, const Vector& heated) {
+Matrix stresses_at_nodes(const analysis::SolidBody& body, const Vector& u, const Vector& heated,
+                         const PulledTogether& pulled) {
   const mesh::SolidMesh& mesh = body.mesh;
   const element::Mat6 D = element::elasticity_in_space(body.young, body.poisson);
   Matrix sum = Matrix::Zero(6, mesh.nodes.cols());
   if (body.rigid_at) return sum;
   Vector count = Vector::Zero(mesh.nodes.cols());
-  for (const std::vector<int>& cell : mesh.cells) {
+  const auto& [cut, shortening] = pulled;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const std::vector<int>& cell = mesh.cells[c];
     const Matrix nodes = mesh::nodes_of(mesh, cell), places = places_of_nodes(cell.size());
     Vector of_cell(3 * nodes.cols());
-    for (std::size_t i = 0; i < cell.size(); ++i)
-      of_cell.segment<3>(3 * static_cast<Eigen::Index>(i)) = u.segment<3>(3 * cell[i]);
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      auto of_node = of_cell.segment<3>(3 * static_cast<Eigen::Index>(i));
+      of_node = u.segment<3>(3 * cell[i]);
+      if (cut != nullptr && cut->above[c] && cut->on[static_cast<std::size_t>(cell[i])])
+        of_node -= shortening * cut->normal;
+    }
     for (std::size_t i = 0; i < cell.size(); ++i) {
       const Vector lambda = places.col(static_cast<Eigen::Index>(i));
       sum.col(cell[i]) += D * element::strain_at(nodes, of_cell, lambda);
@@ -71,7 +81,11 @@ SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidI
     cells.points.insert(cells.points.end(), mesh.nodes.data(), mesh.nodes.data() + mesh.nodes.size());
     cells.displacement.insert(cells.displacement.end(), u[b].data(), u[b].data() + u[b].size());
     cells.point_body.insert(cells.point_body.end(), static_cast<std::size_t>(mesh.nodes.cols()), number);
-    const Matrix stresses = stresses_at_nodes(model.bodies[b], u[b], increment.heated[b]);
+    PulledTogether pulled{nullptr, 0.0};
+    for (std::size_t i = 0; i < model.preloads.size(); ++i)
+      if (model.preloads[i].body == static_cast<int>(b))
+        pulled = {&model.preloads[i].cut, increment.tensions[i].shortening};
+    const Matrix stresses = stresses_at_nodes(model.bodies[b], u[b], increment.heated[b], pulled);
     for (Eigen::Index i = 0; i < stresses.cols(); ++i) add_stress(stresses.col(i), cells);
     for (const std::vector<int>& cell : mesh.cells) {
       for (const int node : cell) cells.connectivity.push_back(first + node);

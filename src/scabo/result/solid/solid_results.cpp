@@ -118,6 +118,7 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   json["contacts"] = Json::object();
   json["reactions"] = Json::object();
   json["moments"] = Json::object();
+  if (!posed.model.preloads.empty()) json["preloads"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
   if (!solved) return json;
@@ -128,6 +129,9 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
     json["reactions"][model.supports[i].name] = json_of(reactions[i].force);
     json["moments"][model.supports[i].name] = json_of(reactions[i].moment);
   }
+  for (std::size_t i = 0; i < posed.model.preloads.size(); ++i)
+    json["preloads"][model.bodies[static_cast<std::size_t>(posed.model.preloads[i].body)].name] = {
+        {"force", increment.tensions[i].force}, {"shortening", increment.tensions[i].shortening}};
   const analysis::Energy& energy = increment.energy;
   json["energy"] = {{"external", energy.external},
                     {"elastic", energy.elastic},
@@ -238,7 +242,12 @@ std::string totals_of(const Json& increment) {
     add(name + ", tangential", contact["tangential_force"]);
   }
   for (const auto& [name, force] : increment["reactions"].items()) add(name, force);
-  return table(rows);
+  std::string text = table(rows);
+  if (increment.contains("preloads"))
+    for (const auto& [name, preload] : increment["preloads"].items())
+      text += fmt::format("  preload of {}: tension {:.6g}, shortened by {:.6g}\n", name,
+                          preload["force"].get<double>(), preload["shortening"].get<double>());
+  return text;
 }
 
 std::string which_increment(const Json& summary, const Json& increment) {
