@@ -11,6 +11,9 @@ namespace scabo::analysis {
 std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& factors,
                                    const std::vector<Vector>& released);
 
+/// What acts of gravity on a body, an acceleration.
+Vec2 gravity_on(const Prepared& prepared, const Factors& factors, int body);
+
 /// What acts of the preload of a bar, a force.
 double preload_of(const Prepared& prepared, const Factors& factors, std::size_t bar);
 
