@@ -97,7 +97,8 @@ void solve(UnfinishedStep& making) {
   const contact::SolverOptions options = options_of(making);
   made.force_scale = options.force_scale;
   const ActingPairs pairs = acting_pairs(making.in, making.from, to.factors);
-  contact::Problem posed = pose(pairs, prepared, making.as_at_rest);
+  std::vector<system::BegunSolve> begun;
+  contact::Problem posed = pose(pairs, prepared, making.as_at_rest, begun);
   if (posed.q.size() > 0) making.work_of_loads = options.force_scale * posed.q.lpNorm<Eigen::Infinity>();
   const contact::History history = at_places(making.from.history, pairs.places);
   made.start = {entries_of(making.from.p, pairs.places), Vector::Zero(posed.G.cols()),
@@ -109,7 +110,7 @@ void solve(UnfinishedStep& making) {
   State& t = making.as_at_rest;
   t.p = to.p;
   t.rigid_motion = made.solution.a;
-  making.balances = add_displacements(prepared, nullptr, t);
+  making.balances = add_displacements(prepared, nullptr, t, begun);
   to.reactions = t.reactions;
 }
 
