@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Time and memory of steps in time.
 
-    benchmarks/dynamics/run.py [joint|flight|wall ...] [--dofs 1e5] [--pairs 300] [--steps 40] [--repeat 3]
+    benchmarks/dynamics/run.py [joint|part|flight|wall|elastic_wall ...] [--dofs 1e5] [--pairs 300] [--steps 40] [--repeat 3]
 
     joint    a block on ground, finite elements of order 2, --dofs degrees of freedom and --pairs pairs, all of which act while the ground shakes
+    part     the same, but a sixth of the pairs act: the others are a gap away from each other
     flight   the same, the block above the ground: no pair acts
     wall     400 rigid blocks in running bond, friction 0.6, that slide on their ground under 0.8 g
+    elastic_wall  the same of elastic blocks, each one super-element of order 1 with sides of 0.25 m; no step is halved
 
 Each model runs with --steps time steps and with three times as many; what the further ones take, divided by their number, is the time of a
 step. Processor seconds of one thread, medians of --repeat pairs of runs, and resident memory after both.
@@ -32,6 +34,10 @@ curves: {{quake: {{table: [[0, 2], [100, 2]]}}}}
 output: {{fields: []}}
 steps:
 """
+PART = BODIES.replace("shape: {{rectangle: {{corner: [0, {gap!r}], size: [{length!r}, {height!r}]}}}}",
+                      "shape: {{polygon: {{vertices: [[0, 0.5], [{left!r}, 0], [{right!r}, 0], [{length!r}, 0.5], [{length!r}, {height!r}], [0, {height!r}]]}}}}").replace(
+    "block.bottom], friction: 0.5}}}}", "block.edge_2], friction: 0.5}}, left: {{between: [ground.top, block.edge_1], friction: 0.5}}, "
+    "right: {{between: [ground.top, block.edge_3], friction: 0.5}}}}")
 WALL = """scabo: 1
 analysis: {plane: stress, thickness: 0.25}
 bodies:
@@ -48,16 +54,23 @@ output: {fields: []}
 steps:
   - {name: rest}
 """
-STEP = {"joint": 1e-5, "flight": 1e-5, "wall": 2e-3}  # s; of elastic bodies that in which a wave passes an element
+STONE = "{young: 20e9, poisson: 0.2, density: 2300, damping: {ratio: 0.05, between: [20, 500]}}"
+STEP = {"joint": 1e-5, "part": 1e-5, "flight": 1e-5, "wall": 2e-3, "elastic_wall": 2e-3}  # s; of elastic bodies that in which a wave passes an element
 
 
 def model_of(kind, dofs, pairs, steps):
     shake = f"  - {{name: shake, dynamic: {{duration: {STEP[kind] * steps!r}, step: {STEP[kind]!r}, ground: {{x: quake}}}}, increments: 2}}\n"
     if kind == "wall":
         return WALL + shake
+    if kind == "elastic_wall":
+        elastic = WALL.replace("rigid: true, density: 2300, shape", "material: stone, mesh: {size: 0.25, order: 1}, shape")
+        return elastic.replace("bodies:", f"materials: {{stone: {STONE}}}\nbodies:", 1) + shake + "solver: {halvings: 0}\n"
     elements = (pairs - 1) // 2
     rows = max(1, round(dofs / (2 * 6 * elements)))
     size = 1 / 16
+    if kind == "part":
+        head = PART.format(length=elements * size, height=rows * size, left=(elements // 2 - elements // 12) * size, right=(elements // 2 + elements // 12) * size, size=size)
+        return head + "  - {name: rest}\n" + shake
     head = BODIES.format(length=elements * size, height=rows * size, gap=0.0 if kind == "joint" else 100.0, size=size)
     return head + ("  - {name: rest}\n" if kind == "joint" else "") + shake
 

@@ -92,5 +92,21 @@ output:
         self.agree(one, first + self.history("second", duration=DURATION / 2, increments=10, since=DURATION / 2, restart="first"))
 
 
+class ElCentro(support.InTemporaryDirectory):
+    """The first three seconds of the table in examples/28_koyna/README.md, by the recorded motion."""
+
+    def test_the_dam_under_a_recorded_motion(self):
+        run = scabo("run", support.ROOT / "examples" / "28_koyna" / "model.yaml", "-o", self.directory / "results", "--quiet",
+                    "--set", "curves={pulse: {record: {file: elcentro.AT2, baseline: line}}}", "--set", "steps.1.dynamic.duration=3",
+                    "--set", "steps.1.increments=150")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.directory / "results" / "history.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertAlmostEqual(max(float(row["crest"]) for row in rows), 0.1173, delta=0.001)
+        self.assertAlmostEqual(min(float(row["crest"]) for row in rows), -0.0676, delta=0.001)
+        self.assertAlmostEqual(max(float(row["lift.uy"]) for row in rows), 0.0347, delta=0.001)
+        self.assertAlmostEqual(max(float(row["toe.uy"]) for row in rows), 0.0308, delta=0.001)
+
+
 if __name__ == "__main__":
     support.main()

@@ -198,6 +198,24 @@ def frequencies(width, clamped, p, layers):
     return np.sqrt(values[0 if clamped else 3 :]) / (2 * np.pi)
 
 
+def first_frequency(width, held, plane_of, p, layers):
+    """First elastic one of the same plate; `held`: components that the edges left, right, bottom, top hold."""
+    plane = Plane(elasticity(210e9, 0.3, plane_of), p)
+    along = graded(layers, "01") if width <= 2 else np.concatenate(
+        [graded(layers, "0"), np.arange(2, width), width - graded(layers, "0")[-2::-1]]) / width
+    plane.add([[0, 0], [width, 0], [width, 1], [0, 1]], along, graded(layers, "01"), lambda a, b: (a, b))
+    K, M = plane.matrices(7800.0)
+
+    def holds(x):
+        on = (x[0] == 0, x[0] == width, x[1] == 0, x[1] == 1)
+        return tuple(any(at and component in edge for at, edge in zip(on, held)) for component in "xy")
+
+    free = plane.free(holds)
+    K, M = K[free][:, free], M[free][:, free]
+    values = np.sort(spl.eigsh(K, 5, M, sigma=-(2 * np.pi * 20) ** 2, which="LM")[0])
+    return np.sqrt(values[values > 1e3][0]) / (2 * np.pi)
+
+
 def corner_exponent(sectors, near):
     """Exponent lambda of u = r^lambda f(theta) in a corner with free faces; `sectors`: (from, to, D), radians. Integrates
     f and the traction tau on the ray, tau = L_t' D (lambda L_r f + L_t f'), tau' = -lambda L_r' D (...), from face to face."""
@@ -237,3 +255,12 @@ if __name__ == "__main__":
         print("  elastic energy around a square hole  %.9g" % square_hole(p + 3, layers - 1))
         print("  frequencies of a free square        ", frequencies(1, False, p + 3, 0))
         print("  frequencies of a cantilever 5 x 1   ", frequencies(5, True, p - 1, 5), flush=True)
+    both, none, free = "xy", "", ("",) * 4
+    for width, held, plane in (
+        (5, (both, none, none, none), "stress"), (5, (both, both, none, none), "stress"), (2, (both, none, none, none), "stress"),
+        (2, ("x", "x", none, none), "stress"), (1, (both, none, none, none), "stress"), (2, free, "stress"),
+        (2, (both, both, none, none), "stress"), (2, (none, none, both, none), "stress"), (1, ("x", "x", none, none), "stress"),
+        (2, (none, none, "y", "y"), "stress"), (2, ("x", "x", "y", none), "stress"), (2, (none, none, both, both), "stress"),
+        (1, (both, "x", "y", "y"), "stress"), (1, (both, both, "y", "y"), "stress"),
+    ):
+        print("first frequency", width, held, *("%.4f" % first_frequency(width, held, plane, p, layers) for p, layers in ((5, 4), (7, 6))), flush=True)

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "scabo/base/components.hpp"
+#include "scabo/element/facet/mass.hpp"
 #include "scabo/element/plane/batch.hpp"
 #include "scabo/element/plane/conditioning.hpp"
 #include "scabo/element/plane/finite_element.hpp"
@@ -219,6 +220,24 @@ const ModalSolution& SolvedSuperElement::modes() const {
   std::call_once(modes_flag_,
                  [&] { modes_ = std::make_unique<const ModalSolution>(modal_solution(solution(), threads)); });
   return *modes_;
+}
+
+const InternalLevel& SolvedSuperElement::level(const std::vector<double>& density) const {
+  std::call_once(level_flag_, [&] {
+    const bool coupled = !is_uniform(density);
+    level_ = std::make_unique<const InternalLevel>(internal_level(
+        mass_matrix(ring, solution(), modes(), density, thickness, threads), solution(), modes(), coupled, threads));
+  });
+  return *level_;
+}
+
+const InternalModes& SolvedSuperElement::level_modes(const std::vector<double>& density) const {
+  std::call_once(level_modes_flag_, [&] {
+    level_modes_ = std::make_unique<const InternalModes>(
+        internal_modes(mass_matrix(ring, solution(), modes(), density, thickness, threads), solution(), modes(),
+                       !is_uniform(density)));
+  });
+  return *level_modes_;
 }
 
 const CornerAnalysis& SolvedSuperElement::corner() const {

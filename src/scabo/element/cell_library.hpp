@@ -8,7 +8,7 @@
 #include "scabo/element/plane/held_faces.hpp"
 #include "scabo/element/plane/sectors.hpp"
 #include "scabo/element/plane/stress_intensity.hpp"
-#include "scabo/element/sbfem/modal_solution.hpp"
+#include "scabo/element/sbfem/internal_level.hpp"
 
 namespace scabo::element {
 
@@ -38,7 +38,10 @@ struct SolvedSuperElement {
   double rounding() const { return is_set() ? rounding_ : solution().rounding; }  ///< SuperElementSolution::rounding
   // Computed when first needed; these may be called from several threads.
   const SuperElementSolution& solution() const;
-  const ModalSolution& modes() const;    ///< of the interior
+  const ModalSolution& modes() const;  ///< of the interior
+  /// One internal level, and its modes; `density`: of every material, always the same.
+  const InternalLevel& level(const std::vector<double>& density) const;
+  const InternalModes& level_modes(const std::vector<double>& density) const;
   const CornerAnalysis& corner() const;  ///< of its crack or corner; the ring must be open
   /// Of its crack or corner, which for a super-element on a line of symmetry is that of both halves together. Lengths
   /// that factors refer to are those of the body from which rings have left this cell.
@@ -50,10 +53,12 @@ struct SolvedSuperElement {
   Matrix K_;
   double rounding_ = 0.0;
   std::unique_ptr<const SuperElementSolution> whole_;  // null: K_ is from a batch
-  mutable std::once_flag solution_flag_, modes_flag_, corner_flag_;
+  mutable std::once_flag solution_flag_, modes_flag_, corner_flag_, level_flag_, level_modes_flag_;
   mutable std::unique_ptr<const SuperElementSolution> solution_;  // where K_ is from a batch
   mutable std::unique_ptr<const ModalSolution> modes_;
   mutable std::unique_ptr<const CornerAnalysis> corner_;
+  mutable std::unique_ptr<const InternalLevel> level_;
+  mutable std::unique_ptr<const InternalModes> level_modes_;
   mutable std::unique_ptr<const Mirrored> both_;  // halves: of held->mirror
   mutable std::unique_ptr<const SuperElementSolution> solution_of_both_;
 };

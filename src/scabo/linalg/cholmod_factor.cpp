@@ -130,10 +130,19 @@ class CholmodFactor final : public SparseFactor {
     return X;
   }
 
-  Vector solve_at(const Vector& b, const std::vector<int>& wanted) const override {
+  Vector begin(const Vector& b) const override {
     Vector ordered(b.size());
     for (std::size_t i = 0; i < position_.size(); ++i) ordered[position_[i]] = b[static_cast<Eigen::Index>(i)];
-    return linalg::solve_at(supernodes(), std::move(ordered), positions_of(wanted));
+    return forward(supernodes(), std::move(ordered));
+  }
+  Vector solve_at(const Vector& begun, const std::vector<int>& wanted) const override {
+    return backward_at(supernodes(), begun, positions_of(wanted));
+  }
+  Vector solve_from(const Vector& begun, const Vector& more) const override {
+    const Vector ordered = backward(supernodes(), begun + begin(more));
+    Vector x(ordered.size());
+    for (std::size_t i = 0; i < position_.size(); ++i) x[static_cast<Eigen::Index>(i)] = ordered[position_[i]];
+    return x;
   }
 
   Matrix inverse_block(const std::vector<int>& indices) const override {

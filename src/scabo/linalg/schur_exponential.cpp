@@ -147,7 +147,7 @@ void solve_shifted(const Matrix& transposed, double s, const Points& points, Mat
 
 }  // namespace
 
-SchurExponential::SchurExponential(const Matrix& S) : schur_(real_schur(S)) {
+SchurExponential::SchurExponential(RealSchur schur) : schur_(std::move(schur)) {
   const Matrix& T = schur_.T;
   for (Eigen::Index i = 0; i < T.rows(); ++i) {
     const bool pair = pair_begins(T, i);

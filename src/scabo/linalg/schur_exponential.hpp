@@ -32,7 +32,9 @@ class SchurExponential {
  public:
   SchurExponential() = default;
   /// S: n x n, with eigenvalues that all have positive or all have negative real part.
-  explicit SchurExponential(const Matrix& S);
+  explicit SchurExponential(const Matrix& S) : SchurExponential(real_schur(S)) {}
+  /// Of S in its real Schur form; T as LAPACK gives it.
+  explicit SchurExponential(RealSchur schur);
 
   const Matrix& U() const { return schur_.U; }  // n x n, orthogonal
   const Matrix& T() const { return schur_.T; }  // n x n, upper quasi-triangular

@@ -157,50 +157,67 @@ std::int64_t row_above(const SupernodalFactor& L, std::int64_t s) {
   return L.rows_of(s) > columns ? L.rows[L.first_row[s] + columns] : L.size;
 }
 
+std::int64_t most_rows(const SupernodalFactor& L) {
+  std::int64_t most = 0;
+  for (std::int64_t s = 0; s < L.supernodes; ++s) most = std::max(most, L.rows_of(s));
+  return most;
+}
+
+/// L'x = y in the columns of one supernode, those above it being known. `below`: room.
+void solve_transposed(const SupernodalFactor& L, std::int64_t s, Vector& y, Vector& below) {
+  const std::int64_t first = L.first_column[s];
+  const int own = static_cast<int>(L.columns_of(s)), stride = static_cast<int>(L.rows_of(s)), under = stride - own;
+  const double* const L11 = L.values + L.first_value[s];
+  if (under > 0) {
+    const std::int64_t* const rows = L.rows + L.first_row[s] + own;
+    for (int i = 0; i < under; ++i) below[i] = y[rows[i]];
+    cblas_dgemv(CblasColMajor, CblasTrans, under, own, -1.0, L11 + own, stride, below.data(), 1, 1.0, y.data() + first,
+                1);
+  }
+  cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, own, L11, stride, y.data() + first, 1);
+}
+
 }  // namespace
 
-Vector solve_at(const SupernodalFactor& L, Vector b, const std::vector<std::int64_t>& wanted) {
-  const auto index = [](std::int64_t i) { return static_cast<std::size_t>(i); };
-  std::vector<char> reached(index(L.supernodes), 0), needed(index(L.supernodes), 0);
-  std::vector<std::int64_t> above(index(L.supernodes), L.supernodes);
-  for (std::int64_t s = 0; s < L.supernodes; ++s)
-    if (const std::int64_t row = row_above(L, s); row < L.size) above[index(s)] = supernode_of(L, row);
-  for (const std::int64_t row : wanted)
-    for (std::int64_t s = supernode_of(L, row); s < L.supernodes && !needed[index(s)]; s = above[index(s)])
-      needed[index(s)] = 1;
-
-  std::int64_t most_rows = 0;
-  for (std::int64_t s = 0; s < L.supernodes; ++s) most_rows = std::max(most_rows, L.rows_of(s));
-  Vector below(most_rows);  // entries of b in the rows below a supernode
+Vector forward(const SupernodalFactor& L, Vector b) {
+  std::vector<char> reached(static_cast<std::size_t>(L.supernodes), 0);
+  Vector below(most_rows(L));  // entries of b in the rows below a supernode
   for (std::int64_t s = 0; s < L.supernodes; ++s) {
     const std::int64_t first = L.first_column[s];
     const int own = static_cast<int>(L.columns_of(s)), stride = static_cast<int>(L.rows_of(s)), under = stride - own;
-    const auto part = b.segment(first, own);
-    if (!reached[index(s)] && part.isZero(0.0)) continue;
+    if (!reached[static_cast<std::size_t>(s)] && b.segment(first, own).isZero(0.0)) continue;
     const double* const L11 = L.values + L.first_value[s];
     cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, own, L11, stride, b.data() + first, 1);
     if (under == 0) continue;
-    if (above[index(s)] < L.supernodes) reached[index(above[index(s)])] = 1;
+    reached[static_cast<std::size_t>(supernode_of(L, row_above(L, s)))] = 1;
     cblas_dgemv(CblasColMajor, CblasNoTrans, under, own, 1.0, L11 + own, stride, b.data() + first, 1, 0.0, below.data(),
                 1);
     const std::int64_t* const rows = L.rows + L.first_row[s] + own;
     for (int i = 0; i < under; ++i) b[rows[i]] -= below[i];
   }
-  for (std::int64_t s = L.supernodes - 1; s >= 0; --s) {
-    if (!needed[index(s)]) continue;
-    const std::int64_t first = L.first_column[s];
-    const int own = static_cast<int>(L.columns_of(s)), stride = static_cast<int>(L.rows_of(s)), under = stride - own;
-    const double* const L11 = L.values + L.first_value[s];
-    if (under > 0) {
-      const std::int64_t* const rows = L.rows + L.first_row[s] + own;
-      for (int i = 0; i < under; ++i) below[i] = b[rows[i]];
-      cblas_dgemv(CblasColMajor, CblasTrans, under, own, -1.0, L11 + own, stride, below.data(), 1, 1.0,
-                  b.data() + first, 1);
+  return b;
+}
+
+Vector backward(const SupernodalFactor& L, Vector y) {
+  Vector below(most_rows(L));
+  for (std::int64_t s = L.supernodes - 1; s >= 0; --s) solve_transposed(L, s, y, below);
+  return y;
+}
+
+Vector backward_at(const SupernodalFactor& L, Vector y, const std::vector<std::int64_t>& wanted) {
+  std::vector<char> needed(static_cast<std::size_t>(L.supernodes), 0);
+  for (const std::int64_t row : wanted)
+    for (std::int64_t s = supernode_of(L, row); !needed[static_cast<std::size_t>(s)];) {
+      needed[static_cast<std::size_t>(s)] = 1;
+      const std::int64_t above = row_above(L, s);
+      if (above == L.size) break;
+      s = supernode_of(L, above);
     }
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, own, L11, stride, b.data() + first, 1);
-  }
+  Vector below(most_rows(L));
+  for (std::int64_t s = L.supernodes - 1; s >= 0; --s)
+    if (needed[static_cast<std::size_t>(s)]) solve_transposed(L, s, y, below);
   Vector x(static_cast<Eigen::Index>(wanted.size()));
-  for (std::size_t i = 0; i < wanted.size(); ++i) x[static_cast<Eigen::Index>(i)] = b[wanted[i]];
+  for (std::size_t i = 0; i < wanted.size(); ++i) x[static_cast<Eigen::Index>(i)] = y[wanted[i]];
   return x;
 }
 

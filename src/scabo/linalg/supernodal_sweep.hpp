@@ -36,9 +36,13 @@ struct SupernodalFactor {
 /// (1), symmetric; `positions`: rows of L of the unit entries of E.
 Matrix inverse_block(const SupernodalFactor& L, const std::vector<std::int64_t>& positions);
 
-/// Entries of A^-1 b at the rows `wanted` of L; `b` in the order of these rows. L y = b visits only supernodes that
-/// nonzero entries of b reach, L'x = y only those on the paths from the wanted rows to the root, since rows of a
+/// L^-1 b, in the order of the rows of L: visits only supernodes that nonzero entries of b reach.
+Vector forward(const SupernodalFactor& L, Vector b);
+
+/// L'^-1 y.
+Vector backward(const SupernodalFactor& L, Vector y);
+/// Its entries at the rows `wanted` of L: visits only supernodes on the paths from these to the root, since rows of a
 /// supernode belong to it or to those above it on its path.
-Vector solve_at(const SupernodalFactor& L, Vector b, const std::vector<std::int64_t>& wanted);
+Vector backward_at(const SupernodalFactor& L, Vector y, const std::vector<std::int64_t>& wanted);
 
 }  // namespace scabo::linalg

@@ -54,10 +54,20 @@ Matrix SymmetricPositiveSolver::solve(const Matrix& B) const {
   return X.transpose();
 }
 
-Vector SymmetricPositiveSolver::solve_at(const Vector& b, const std::vector<int>& wanted) const {
-  ensure(b.size() == factor_->n, "SymmetricPositiveSolver::solve_at: sizes differ");
+Vector SymmetricPositiveSolver::begin(const Vector& b) const {
+  ensure(b.size() == factor_->n, "SymmetricPositiveSolver::begin: sizes differ");
+  return factor_->sparse ? factor_->sparse->begin(b) : b;
+}
+
+Vector SymmetricPositiveSolver::solve_at(const Vector& begun, const std::vector<int>& wanted) const {
+  ensure(begun.size() == factor_->n, "SymmetricPositiveSolver::solve_at: sizes differ");
   if (wanted.empty()) return Vector();
-  return factor_->sparse ? factor_->sparse->solve_at(b, wanted) : Vector(solve(b)(wanted, 0));
+  return factor_->sparse ? factor_->sparse->solve_at(begun, wanted) : Vector(solve(begun)(wanted, 0));
+}
+
+Vector SymmetricPositiveSolver::solve_from(const Vector& begun, const Vector& more) const {
+  ensure(begun.size() == factor_->n && more.size() == factor_->n, "SymmetricPositiveSolver::solve_from: sizes differ");
+  return factor_->sparse ? factor_->sparse->solve_from(begun, more) : Vector(solve(begun + more));
 }
 
 Matrix SymmetricPositiveSolver::inverse_block(const std::vector<int>& indices) const {

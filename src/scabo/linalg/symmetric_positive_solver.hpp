@@ -50,9 +50,13 @@ class SymmetricPositiveSolver {
 
   /// A^-1 B, B n x m.
   Matrix solve(const Matrix& B) const;
-  /// Some entries of A^-1 b: those at `wanted`, in this order. Where few are wanted and few entries of b are not zero,
-  /// CHOLMOD's factor needs much less time for them than for all.
-  Vector solve_at(const Vector& b, const std::vector<int>& wanted) const;
+  /// What solve_at() and solve_from() need of b: with CHOLMOD's factor half of a solve, less where few entries of b are
+  /// not zero.
+  Vector begin(const Vector& b) const;
+  /// Some entries of A^-1 b: those at `wanted`, in this order. Where they are few, CHOLMOD's factor needs little time.
+  Vector solve_at(const Vector& begun, const std::vector<int>& wanted) const;
+  /// A^-1 (b + more): with CHOLMOD's factor half of a solve where few entries of `more` are not zero.
+  Vector solve_from(const Vector& begun, const Vector& more) const;
 
   /// E' A^-1 E, symmetric, where the columns of E are those columns of the identity given by `indices`.
   Matrix inverse_block(const std::vector<int>& indices) const;

@@ -40,8 +40,8 @@ element::PointValues FiniteElementState::at(const Vec2& natural) const {
 }
 
 struct Probe::CellField {
-  CellField(const element::SolvedSuperElement& cell, Vector displacement, const std::vector<element::RadialLoad>& loads)
-      : u(std::move(displacement)), radial(cell.solution(), cell.modes(), u, loads) {}
+  CellField(const element::SolvedSuperElement& cell, Vector displacement, const element::InteriorLoads& interior)
+      : u(std::move(displacement)), radial(cell.solution(), cell.modes(), u, interior.loads, interior.motion) {}
   Vector u;
   element::RadialField radial;
   std::optional<element::RadialTable> table;
@@ -70,7 +70,7 @@ Probe::CellField& Probe::field_of(std::size_t cell) const {
     const element::InteriorLoads& loads = element::loads_in(interior_, cell);
     const Vec2& centre = discretisation_.mesh.bodies[body_].cells[cell].centre;
     field = std::make_unique<CellField>(super_element, loads.without_particular(super_element.ring, centre, u_(dofs)),
-                                        loads.loads);
+                                        loads);
     if (many_) field->table.emplace(field->radial, element::fastest_of(super_element.modes()));
   }
   return *field;

@@ -45,7 +45,8 @@ void recover_super_element(Fields& fields, std::size_t point, const analysis::Di
   const Vector& boundary = state.displacements[body];
   const element::InteriorLoads& interior = element::loads_in(state.interior[body], 0);
   const element::RadialField field(super_element.solution(), super_element.modes(),
-                                   interior.without_particular(super_element.ring, centre, boundary), interior.loads);
+                                   interior.without_particular(super_element.ring, centre, boundary), interior.loads,
+                                   interior.motion);
   const std::size_t first = point;
   recover_inside(fields, first, discretisation, super_element, centre, sampling, field, interior,
                  state.initial_of(body), 0);
@@ -109,7 +110,7 @@ SharedValues recover_cell(Fields& fields, std::size_t first, const analysis::Dis
         [](Eigen::Index) { return 0.0; });
   const element::RadialField field(super_element->solution(), super_element->modes(),
                                    interior.without_particular(super_element->ring, cell.centre, std::move(own)),
-                                   interior.loads);
+                                   interior.loads, interior.motion);
   recover_inside(fields, inner, discretisation, *super_element, cell.centre, *of_cell.sampling, field, interior,
                  state.initial_of(body), 1);
   return with_temperatures(

@@ -16,16 +16,6 @@ namespace scabo::system {
 
 namespace {
 
-/// Whether the body is one super-element with the same node numbers.
-bool is_whole(const mesh::BodyMesh& mesh) {
-  if (mesh.cells.size() != 1 || mesh.cells.front().kind != mesh::CellKind::superelement) return false;
-  const std::vector<int> nodes = mesh.cells.front().nodes();
-  if (nodes.size() != mesh.nodes.size()) return false;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes[i] != static_cast<int>(i)) return false;
-  return true;
-}
-
 const model::Material& material_of(const model::Model& model, const mesh::Cell& cell) {
   return model.materials[static_cast<std::size_t>(cell.materials.front())];
 }
@@ -313,6 +303,15 @@ void add_water(const model::Model& model, const mesh::Mesh& mesh, const Dofs& do
 }
 
 }  // namespace
+
+bool is_whole(const mesh::BodyMesh& mesh) {
+  if (mesh.cells.size() != 1 || mesh.cells.front().kind != mesh::CellKind::superelement) return false;
+  const std::vector<int> nodes = mesh.cells.front().nodes();
+  if (nodes.size() != mesh.nodes.size()) return false;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i] != static_cast<int>(i)) return false;
+  return true;
+}
 
 Stiffness body_stiffness(const model::Model& model, const Extent& extent, const mesh::BodyMesh& mesh,
                          const element::SolvedCells& cells, int threads) {

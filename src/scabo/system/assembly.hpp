@@ -13,6 +13,9 @@
 
 namespace scabo::system {
 
+/// Whether a body is one super-element with the same node numbers.
+bool is_whole(const mesh::BodyMesh& mesh);
+
 /// Stiffness of a body: that of its super-element, shared with it, if it is one; otherwise sparse. The same bits on any
 /// number of threads. `extent`: of the body, across the plane.
 Stiffness body_stiffness(const model::Model& model, const Extent& extent, const mesh::BodyMesh& mesh,

@@ -66,6 +66,12 @@ struct Balanced {
   double at_least = 0.0;  ///< force
 };
 
+/// A solve that displacement_at() has begun, for displaced() under forces that differ at few degrees of freedom.
+struct BegunSolve {
+  Vector f;      ///< its forces
+  Vector begun;  ///< SymmetricPositiveSolver::begin(); empty: none
+};
+
 class BodySystem {
  public:
   virtual ~BodySystem() = default;
@@ -77,11 +83,13 @@ class BodySystem {
   const Matrix& rigid_coordinates() const { return rigid_coordinates_; }
 
   /// u_p for the applied forces f and the prescribed values of all constraints.
-  virtual Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted) const = 0;
+  virtual Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted,
+                              const BegunSolve* begun = nullptr) const = 0;
   Vector displacement(const Vector& f, const Vector& prescribed) const { return displaced(f, prescribed, {}).u; }
   /// The same on the given degrees of freedom, and anything on others: in much less time, where the body is large and
   /// they are few, but without the refinement that equilibrium at every node needs.
-  virtual Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const = 0;
+  virtual Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs,
+                                 BegunSolve* begun = nullptr) const = 0;
   /// A on the given degrees of freedom.
   virtual Matrix flexibility(const std::vector<int>& dofs) const = 0;
   /// The same from the factor alone, without the refinement that slender bodies get: for estimates.

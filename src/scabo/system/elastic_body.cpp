@@ -51,7 +51,8 @@ void ElasticBody::find_rigid_motions(const Positions& nodes) {
     find_rigid_motions_in_space(nodes.columns());
   } else {
     const std::vector<Vec2> in_plane = nodes.in_plane();
-    rigid_coordinates_ = free_motions(in_plane, constraints_, stiffness().springs.directions, reference_, lever_, is_revolved());
+    rigid_coordinates_ =
+        free_motions(in_plane, constraints_, stiffness().springs.directions, reference_, lever_, is_revolved());
     if (stiffness().resists_rigid_motions) rigid_coordinates_ = Matrix::Zero(3, 0);
     rigid_motions_.resize(size(), rigid_coordinates_.cols());
     for (std::size_t i = 0; i < in_plane.size(); ++i)
@@ -108,11 +109,13 @@ void ElasticBody::factorise(linalg::SparseOptions options, const Positions& node
   }
 }
 
-Displaced ElasticBody::displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted) const {
+Displaced ElasticBody::displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted,
+                                 const BegunSolve* begun) const {
   Displaced to{held_displacement(prescribed), {}};
   const bool at_rest = to.u.isZero(0.0);
   if (at_rest && f.isZero(0.0)) return {std::move(to.u), Vector::Zero(size())};
-  to.u += solved(at_rest ? f : Vector(f - internal_forces(to.u)));
+  to.u += begun && begun->begun.size() > 0 ? solved_from(*begun, f)
+                                           : solved(at_rest ? f : Vector(f - internal_forces(to.u)));
   Left left = left_by(to.u, f);
   const double acting = largest_acting(left.forces, f);
   if (is_large()) {
@@ -128,7 +131,8 @@ Displaced ElasticBody::displaced(const Vector& f, const Vector& prescribed, cons
   return {linalg::rounded(exact.u), std::move(exact.left)};
 }
 
-Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const {
+Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs,
+                                    BegunSolve* begun) const {
   Vector u = held_displacement(prescribed);
   const bool at_rest = u.isZero(0.0);
   if (dofs.empty() || (at_rest && f.isZero(0.0))) return u;
@@ -148,7 +152,9 @@ Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, c
   std::vector<int> places;
   for (const int dof : wanted) places.push_back(place_[static_cast<std::size_t>(dof)]);
   Vector v = Vector::Zero(size());
-  v(wanted) = solver().solve_at(inclined_.components(f)(dofs_), places);
+  Vector half = solver().begin(inclined_.components(f)(dofs_));
+  v(wanted) = solver().solve_at(half, places);
+  if (begun) *begun = {f, std::move(half)};
   u = inclined_.displacements(std::move(v));
   double acting = f.lpNorm<Eigen::Infinity>();  // and what holds a body without supports against its loads
   if (rigid_motions_.cols() > 0) acting = std::max(acting, (rigid_motions_.transpose() * f).lpNorm<Eigen::Infinity>());
@@ -226,7 +232,7 @@ Vector ElasticBody::flexed(const std::vector<int>& dofs, const Vector& forces) c
       if (const int place = place_[static_cast<std::size_t>(component)]; place >= 0)
         wanted.push_back(component), places.push_back(place);
   Vector v = Vector::Zero(size());
-  v(wanted) = solver().solve_at(load(dofs_), places);
+  v(wanted) = solver().solve_at(solver().begin(load(dofs_)), places);
   return inclined_.displacements(std::move(v))(dofs);
 }
 
@@ -358,6 +364,13 @@ Vector ElasticBody::solved(const Vector& f) const {
   const Vector load = inclined_.components(f);
   Vector v = Vector::Zero(size());
   v(dofs_) = solver().solve(load(dofs_)).col(0);
+  return inclined_.displacements(std::move(v));
+}
+
+Vector ElasticBody::solved_from(const BegunSolve& begun, const Vector& f) const {
+  const Vector more = inclined_.components(f - begun.f);
+  Vector v = Vector::Zero(size());
+  v(dofs_) = solver().solve_from(begun.begun, more(dofs_));
   return inclined_.displacements(std::move(v));
 }
 

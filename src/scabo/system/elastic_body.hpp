@@ -37,8 +37,10 @@ class ElasticBody final : public BodySystem {
   Eigen::Index size() const override { return stiffness().size(); }
   double operations() const override;
 
-  Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted) const override;
-  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs) const override;
+  Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted,
+                      const BegunSolve* begun) const override;
+  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs,
+                         BegunSolve* begun) const override;
   Matrix flexibility(const std::vector<int>& dofs) const override { return flexibility(dofs, true); }
   Matrix flexibility_by_factor(const std::vector<int>& dofs) const override { return flexibility(dofs, false); }
   Vector flexed(const std::vector<int>& dofs, const Vector& forces) const override;
@@ -73,6 +75,7 @@ class ElasticBody final : public BodySystem {
   Vector held_displacement(const Vector& prescribed) const;
   /// The displacement under f, by the factor alone.
   Vector solved(const Vector& f) const;
+  Vector solved_from(const BegunSolve& begun, const Vector& f) const;
 
   Vector internal_forces(const Vector& u) const { return system::internal_forces(stiffness(), motions_, u); }
   Vector forces_left(const linalg::TwofoldVector& u, const Vector& f, Product product = Product::twofold,

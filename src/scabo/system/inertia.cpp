@@ -87,6 +87,7 @@ std::vector<PartInertia> inertia_of(const Structure& structure, const model::Mod
         part.M = part_mass(model, mesh, cells, structure.dofs, p, masses);
       if (!part.K.dense && part.M.sparse.rows() == 0) part.M.sparse.resize(part.K.size(), part.K.size());
       if (!structure.dofs.is_unbounded(p)) part.C = part_damping(model, mesh, cells, structure.dofs, p, masses);
+      part.levels = levels_of(model, mesh, cells, structure.dofs, p);
     }
     part.K.springs = structure.springs.of_part[p];
     if (is_zero(part.M)) part.theta = 1.0;
@@ -96,8 +97,16 @@ std::vector<PartInertia> inertia_of(const Structure& structure, const model::Mod
   return inertia;
 }
 
+std::vector<std::vector<LevelInTime>> levels_in_time(const std::vector<PartInertia>& inertia, double h) {
+  std::vector<std::vector<LevelInTime>> made(inertia.size());
+  for (std::size_t p = 0; p < inertia.size(); ++p)
+    for (const BodyLevel& level : inertia[p].levels) made[p].push_back(level_in_time(level, inertia[p].theta, h));
+  return made;
+}
+
 Structure structure_in_time(const Structure& structure, const model::Model& model,
                             const std::vector<PartInertia>& inertia,
+                            const std::vector<std::vector<LevelInTime>>& levels,
                             const std::vector<Eigen::SparseMatrix<double>>& motion, double h, int threads) {
   Structure made;
   made.dofs = structure.dofs;
@@ -110,8 +119,10 @@ Structure structure_in_time(const Structure& structure, const model::Model& mode
       continue;
     }
     elastic.push_back(p);
-    parts.push_back({stiffness_in_time(inertia[p], h), structure.dofs.nodes(p), structure.parts[p]->constraints(),
-                     touched_part(motion[p]).dofs});
+    Stiffness A = stiffness_in_time(inertia[p], h);
+    eliminate(inertia[p].levels, levels[p], A);
+    parts.push_back(
+        {std::move(A), structure.dofs.nodes(p), structure.parts[p]->constraints(), touched_part(motion[p]).dofs});
     // Without mass and supports it is as free as it is at rest.
     if (inertia[p].theta == 1.0) parts.back().stiffness.resists_rigid_motions = structure.dofs.is_unbounded(p);
   }

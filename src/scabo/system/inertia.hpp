@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "scabo/system/internal_levels.hpp"
 #include "scabo/system/structure.hpp"
 
 namespace scabo::system {
@@ -23,6 +24,7 @@ struct PartInertia {
   Stiffness K;  ///< with springs
   Stiffness M;
   std::optional<Stiffness> C;  ///< empty: no damping
+  std::vector<BodyLevel> levels;
   double theta = 0.5;
   bool moves = true;  ///< false: supports hold all of a rigid part, so that its mass says nothing
 
@@ -37,10 +39,14 @@ struct PartInertia {
 std::vector<PartInertia> inertia_of(const Structure& structure, const model::Model& model, const mesh::Mesh& mesh,
                                     const std::vector<element::SolvedCells>& cells, int threads);
 
-/// Parts and degrees of freedom of eq. (1) for time steps of size `h`; `motion`: of the pairs, per part
-/// (ContactSystem::motion). It has no loads.
+/// The levels of all parts in time steps of size `h`.
+std::vector<std::vector<LevelInTime>> levels_in_time(const std::vector<PartInertia>& inertia, double h);
+
+/// Parts and degrees of freedom of eq. (1) for time steps of size `h`, without the internal levels; `motion`: of the
+/// pairs, per part (ContactSystem::motion). It has no loads.
 Structure structure_in_time(const Structure& structure, const model::Model& model,
                             const std::vector<PartInertia>& inertia,
+                            const std::vector<std::vector<LevelInTime>>& levels,
                             const std::vector<Eigen::SparseMatrix<double>>& motion, double h, int threads);
 
 }  // namespace scabo::system

@@ -82,15 +82,23 @@ bool none_missed(const Sparse& K, const Sparse& M, const Vector& inverses, int c
   return linalg::eigenvalues_below(K, M, shift) == widest + rigid;
 }
 
-/// Eq. (2); `body` gives the displacement under forces in equilibrium.
+/// Eq. (2); `body` gives the displacement under forces in equilibrium, and the levels, which the stiffness does not
+/// couple with it, theirs.
 linalg::EigenPairs elastic_modes(const Sparse& K, const Sparse& M, const Matrix& N, int count, const BodySystem& body,
-                                 const std::vector<int>& dofs) {
+                                 const std::vector<int>& dofs, const std::vector<BodyLevel>& levels) {
   const Matrix MN = M * N;
   const Vector held = Vector::Zero(static_cast<Eigen::Index>(body.constraints().size()));
+  std::vector<Eigen::LLT<Matrix>> of_levels;
+  for (const BodyLevel& level : levels) of_levels.emplace_back(level.Z());
   const linalg::Operator inverse = [&](const Vector& y) {
-    Vector forces = Vector::Zero(body.size());
+    Vector forces = Vector::Zero(body.size() + size_of(levels));
     forces(dofs) = y - MN * (N.transpose() * y);
-    Vector u = body.displacement(forces, held)(dofs);
+    Vector moved(forces.size());
+    moved.head(body.size()) = body.displacement(forces.head(body.size()), held);
+    for (std::size_t k = 0; k < levels.size(); ++k)
+      moved.segment(body.size() + levels[k].first, levels[k].size()) =
+          of_levels[k].solve(forces.segment(body.size() + levels[k].first, levels[k].size()));
+    Vector u = moved(dofs);
     return Vector(u - N * (MN.transpose() * u));
   };
   int more = 6;  // to find a gap behind the requested ones: a body of many equal parts has as many equal frequencies
@@ -129,14 +137,16 @@ NaturalModes finish(const Symmetric& K, const Symmetric& M, const Matrix& N, con
 
 }  // namespace
 
-NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::vector<Vec2>& nodes,
-                           const std::vector<Constraint>& constraints, int count) {
+NaturalModes natural_modes(const Stiffness& of_boundary, const Stiffness& mass_of_boundary,
+                           const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints, int count,
+                           const std::vector<BodyLevel>& levels) {
+  const auto [K, M] = with_levels(of_boundary, mass_of_boundary, levels);
   const std::vector<int> dofs = free_dofs(K.size(), constraints);
   if (dofs.empty()) return {Vector(0), Matrix(K.size(), 0), 0, Vector(0)};
   Vec2 reference;
   double lever = 0.0;
   const Matrix motions = free_motions(nodes, constraints, K.springs.directions, reference, lever);
-  Matrix N(K.size(), motions.cols());
+  Matrix N = Matrix::Zero(K.size(), motions.cols());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     N.middleRows<2>(place_of(i)) = rigid_point(nodes[i], reference, lever) * motions;
   const Matrix N_free = N(dofs, Eigen::all);
@@ -154,7 +164,8 @@ NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::ve
                M_free = part_of(M.sparse, dofs);
   const Matrix rigid = orthonormal(N_free, M_free);
   linalg::EigenPairs pairs{Vector(0), Matrix(static_cast<Eigen::Index>(dofs.size()), 0)};
-  if (wanted > 0) pairs = elastic_modes(K_free, M_free, rigid, wanted, *elastic_body(K, nodes, constraints), dofs);
+  if (wanted > 0)
+    pairs = elastic_modes(K_free, M_free, rigid, wanted, *elastic_body(of_boundary, nodes, constraints), dofs, levels);
   return finish(K_free, M_free, rigid, pairs, count, dofs, K.size());
 }
 

@@ -15,21 +15,23 @@
 // miss one of two equal frequencies; the number found is therefore checked by Sylvester's law of inertia.
 #pragma once
 
-#include "scabo/system/body_system.hpp"
+#include "scabo/system/internal_levels.hpp"
 
 namespace scabo::system {
 
 struct NaturalModes {
   Vector eigenvalues;  // omega^2, ascending; 0 exactly for the rigid motions, which come first
-  Matrix shapes;       // size x count, phi'M phi = 1; 0 on supports
+  Matrix shapes;       // size x count, phi'M phi = 1; 0 on supports; below, the unknowns of the internal levels
   int rigid = 0;       // number of rigid motions among them
   Vector residuals;    // |K phi - omega^2 M phi| / ((|K| + omega^2 |M|) |phi|), largest norms
 };
 
 /// The lowest `count` modes, or fewer if there are not as many degrees of freedom. `M`: mass, stored like the
-/// stiffness, positive definite. The rigid motions of a free body are both translations and the rotation about its
-/// centre of mass. Throws BrokenInvariant if modes were missed.
+/// stiffness, positive definite. Internal levels are further unknowns (internal_levels.hpp). The rigid motions of a
+/// free body are both translations and the rotation about its centre of mass. Throws BrokenInvariant if modes were
+/// missed.
 NaturalModes natural_modes(const Stiffness& K, const Stiffness& M, const std::vector<Vec2>& nodes,
-                           const std::vector<Constraint>& constraints, int count);
+                           const std::vector<Constraint>& constraints, int count,
+                           const std::vector<BodyLevel>& levels = {});
 
 }  // namespace scabo::system

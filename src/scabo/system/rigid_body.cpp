@@ -37,7 +37,7 @@ class RigidBody final : public BodySystem {
   Eigen::Index size() const override { return 3; }
   bool is_revolved() const override { return revolved_; }
 
-  Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced&) const override {
+  Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced&, const BegunSolve*) const override {
     Vector u = Vector::Zero(3);
     if (held_.rows() > 0) u = constrained_.solve(prescribed);
     if (is_flexible())
@@ -46,8 +46,9 @@ class RigidBody final : public BodySystem {
     return {std::move(u), {}};
   }
 
-  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&) const override {
-    return displaced(f, prescribed, {}).u;
+  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&,
+                         BegunSolve*) const override {
+    return displacement(f, prescribed);
   }
 
   Matrix flexibility(const std::vector<int>& dofs) const override {

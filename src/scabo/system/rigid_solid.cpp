@@ -35,15 +35,16 @@ class RigidSolid final : public BodySystem {
 
   Eigen::Index size() const override { return motions_.rows(); }
   bool is_revolved() const override { return false; }
-  Displaced displaced(const Vector&, const Vector& prescribed, const Balanced&) const override {
+  Displaced displaced(const Vector&, const Vector& prescribed, const Balanced&, const BegunSolve*) const override {
     Vector u = Vector::Zero(size());
     for (std::size_t c = 0; c < constraints_.size(); ++c)
       u += prescribed[static_cast<Eigen::Index>(c)] * unit_of(constraints_[c]) *
            motions_.col(held_motion(constraints_[c]));
     return {std::move(u), {}};
   }
-  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&) const override {
-    return displaced(f, prescribed, {}).u;
+  Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&,
+                         BegunSolve*) const override {
+    return displacement(f, prescribed);
   }
   Matrix flexibility(const std::vector<int>& dofs) const override {
     const auto n = static_cast<Eigen::Index>(dofs.size());

@@ -27,6 +27,8 @@ State full_state() {
   state.time = 12.0;
   state.largest_energy = 13.0;
   state.velocity = {Vector::LinSpaced(2, 1.0, 2.0), Vector::LinSpaced(4, 3.0, 5.0)};
+  state.internal = {Vector(), Vector::LinSpaced(4, -3.0, -5.0)};
+  state.internal_velocity = {Vector(), Vector::LinSpaced(4, 6.0, 8.0)};
   state.u = {Vector::LinSpaced(2, 0.1, 0.2), Vector::LinSpaced(4, 0.3, 0.5)};
   state.reactions = {Vector(), Vector::LinSpaced(1, 4.0, 4.0)};
   state.replaced = {{{Vec2(1.0, 2.0), Vec2(3.0, 4.0)}, {Vec2(5.0, 6.0), Vec2(7.0, 8.0)}},
@@ -56,6 +58,8 @@ TEST(FieldsOfAState, AreReadBackAsTheyWere) {
   EXPECT_EQ(other.energy.friction_error, 4.0);
   EXPECT_EQ(other.energy.massless, 9.0);
   EXPECT_EQ(other.velocity, state.velocity);
+  EXPECT_EQ(other.internal, state.internal);
+  EXPECT_EQ(other.internal_velocity, state.internal_velocity);
   EXPECT_EQ(other.u, state.u);
   for (const Field& field : fields_of_state()) EXPECT_EQ(field.get(other), field.get(state)) << field.name;
 }

@@ -79,9 +79,10 @@ ActingPairs acting_pairs(const InTime& in, const State& from, const Factors& at_
   return acting;
 }
 
-contact::Problem pose(const ActingPairs& pairs, const Prepared& prepared, const State& t) {
+contact::Problem pose(const ActingPairs& pairs, const Prepared& prepared, const State& t,
+                      std::vector<system::BegunSolve>& begun) {
   contact::Problem problem = problem_of(prepared, pairs.places);
-  problem.q = entries_of(free_motion(prepared, t).pairs, pairs.places);
+  if (!pairs.places.empty()) problem.q = entries_of(free_motion(prepared, t, &begun).pairs, pairs.places);
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p)
     if (const Matrix& rigid = prepared.structure.parts[p]->rigid_motions(); rigid.cols() > 0 && !prepared.is_absent(p))
       problem.f.segment(prepared.contact.first_rigid[p], rigid.cols()) = rigid.transpose() * t.forces[p];

@@ -33,7 +33,9 @@ Vector entries_of(const Vector& of_pairs, const std::vector<int>& places);
 contact::Problem problem_of(const Prepared& prepared, const std::vector<int>& places);
 
 /// The problem of acting pairs in a structure in time: motions are h V+, under the forces and prescribed values of `t`.
-contact::Problem pose(const ActingPairs& pairs, const Prepared& prepared, const State& t);
+/// `begun`: per part, the solves by which the velocities of the bodies are found at a lower price.
+contact::Problem pose(const ActingPairs& pairs, const Prepared& prepared, const State& t,
+                      std::vector<system::BegunSolve>& begun);
 
 /// Forces, histories and states of all pairs.
 void give_to_all(const ActingPairs& pairs, const contact::Solution& solution, const contact::History& history,

@@ -183,7 +183,8 @@ State Dynamics::in_motion(State at_rest, double step) const {
   }
   for (std::size_t p = 0; p < of_supports.size(); ++p)
     hold(*at_rest_->structure.parts[p], of_supports[p], at_rest.velocity[p]);
-  at_rest.energy.kinetic = kinetic_energy(*at_rest_, inertia_, at_rest.velocity);
+  add_internal(*at_rest_, inertia_, at_rest);
+  at_rest.energy.kinetic = kinetic_energy(*at_rest_, inertia_, at_rest);
   at_rest.energy.external += at_rest.energy.kinetic;
   at_rest.largest_energy = at_rest.energy.kinetic + std::abs(at_rest.energy.elastic);
   return at_rest;
@@ -193,7 +194,7 @@ Acting Dynamics::acting(double from, double to, const StepSystem& system) const 
   const model::Model& model = solution_.model;
   const std::size_t step = increment_.step;
   const model::DynamicStep& dynamic = *model.steps[step].dynamic;
-  Acting acting{mean_factors(model, step, from, to), factors_at_time(model, step, to), {}, {}};
+  Acting acting{mean_factors(model, step, from, to), factors_at_time(model, step, to), {}, Vec2::Zero(), {}};
   acting.mean.time = increment_.before + 0.5 * (from + to);
   acting.end.time = increment_.before + to;
   acting.support = support_velocities(to, system.size);
@@ -201,6 +202,7 @@ Acting Dynamics::acting(double from, double to, const StepSystem& system) const 
     if (dynamic.ground[k] < 0) continue;
     const double acceleration =
         model::mean_between(model.curves[static_cast<std::size_t>(dynamic.ground[k])], from, to, dynamic.duration);
+    acting.acceleration[static_cast<Eigen::Index>(k)] = acceleration;
     acting.ground.resize(inertia_.size());
     for (std::size_t p = 0; p < inertia_.size(); ++p) {
       if (acting.ground[p].size() == 0) acting.ground[p] = Vector::Zero(at_rest_->structure.parts[p]->size());

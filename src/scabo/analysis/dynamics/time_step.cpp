@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scabo/analysis/dynamics/acting_pairs.hpp"
+#include "scabo/analysis/dynamics/internal_motion.hpp"
 #include "scabo/analysis/dynamics/projection.hpp"
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/loads.hpp"
@@ -45,6 +46,7 @@ struct UnfinishedStep {
   State as_at_rest = {};
   std::vector<Balance> balances = {};
   std::vector<Vector> applied = {};  // mean of the step, with the inertia of a moving ground
+  InternalSteps inside = {};
   std::vector<Vector> mean_velocity = {};
   Vector motion = {};  // 2N, mean velocities of the pairs
   Projection projected = {};
@@ -73,6 +75,7 @@ void begin(UnfinishedStep& making) {
   to.prescribed = prescribed_values(at_rest, to.factors.supports, to.replaced.moved);
   State& t = making.as_at_rest;
   t.forces = forces_in_time(making.in, from, making.applied);
+  making.inside = eliminate_levels(making.in, from, making.acting, t.forces);
   for (const Vector& velocity : making.acting.support) t.prescribed.push_back(making.size() * velocity);
 }
 
@@ -94,7 +97,8 @@ void solve(UnfinishedStep& making) {
   const contact::SolverOptions options = options_of(making);
   made.force_scale = options.force_scale;
   const ActingPairs pairs = acting_pairs(making.in, making.from, to.factors);
-  contact::Problem posed = pose(pairs, prepared, making.as_at_rest);
+  std::vector<system::BegunSolve> begun;
+  contact::Problem posed = pose(pairs, prepared, making.as_at_rest, begun);
   if (posed.q.size() > 0) making.work_of_loads = options.force_scale * posed.q.lpNorm<Eigen::Infinity>();
   const contact::History history = at_places(making.from.history, pairs.places);
   made.start = {entries_of(making.from.p, pairs.places), Vector::Zero(posed.G.cols()),
@@ -106,7 +110,7 @@ void solve(UnfinishedStep& making) {
   State& t = making.as_at_rest;
   t.p = to.p;
   t.rigid_motion = made.solution.a;
-  making.balances = add_displacements(prepared, nullptr, t);
+  making.balances = add_displacements(prepared, nullptr, t, begun);
   to.reactions = t.reactions;
 }
 
@@ -122,6 +126,7 @@ void advance(UnfinishedStep& making) {
     making.mean_velocity.push_back(theta * to.velocity[p] + (1.0 - theta) * from.velocity[p]);
     to.u.push_back(from.u[p] + h * making.mean_velocity[p]);
   }
+  recover_levels(making.in, from, making.inside, making.as_at_rest.u, to);
   making.motion = motion_under(at_rest.contact.motion, making.mean_velocity, to.p.size());
   to.slip = from.slip;
   for (Eigen::Index i = 0; i < to.slip.size(); ++i) to.slip[i] += h * making.motion[2 * i + 1];
@@ -138,7 +143,7 @@ double add_energy(UnfinishedStep& making) {
   State& to = making.to();
   const State& from = making.from;
   Energy& energy = to.energy = from.energy;
-  energy.kinetic = kinetic_energy(at_rest, making.in.inertia, to.velocity);
+  energy.kinetic = kinetic_energy(at_rest, making.in.inertia, to);
   energy.elastic = 0.0;
   for (std::size_t p = 0; p < to.u.size(); ++p) {
     if (at_rest.is_absent(p)) continue;
@@ -149,6 +154,10 @@ double add_energy(UnfinishedStep& making) {
     energy.external += to.reactions[p].dot(support_values(body, by_velocity));
     energy.damping += h * making.mean_velocity[p].dot(part.damping_times(making.mean_velocity[p]));
     if (part.theta == 1.0) energy.massless += 0.5 * by_velocity.dot(part.stiffness_times(by_velocity));
+    const InternalWork inside = internal_work(making.in, making.inside, from, to, making.mean_velocity[p], p);
+    energy.external += inside.external;
+    energy.damping += inside.damping;
+    energy.elastic += internal_elastic(part, to, p);
     const double thermal = thermal_energy(at_rest, to.factors, p, to.u[p]);
     energy.elastic += 0.5 * to.u[p].dot(part.stiffness_times(to.u[p])) + thermal;
     energy.external += thermal - thermal_energy(at_rest, from.factors, p, from.u[p]);
@@ -199,16 +208,19 @@ double total(const Energy& energy) {
 
 StepSystem::StepSystem(const Prepared& at_rest, const std::vector<system::PartInertia>& inertia, double h, int threads)
     : size(h),
-      structure(
-          system::structure_in_time(at_rest.structure, at_rest.model, inertia, at_rest.contact.motion, h, threads)),
+      levels(system::levels_in_time(inertia, h)),
+      structure(system::structure_in_time(at_rest.structure, at_rest.model, inertia, levels, at_rest.contact.motion, h,
+                                          threads)),
       contact(condensed(at_rest, structure, threads)),
       prepared(at_rest, structure, contact) {}
 
-double kinetic_energy(const Prepared& prepared, const std::vector<system::PartInertia>& inertia,
-                      const std::vector<Vector>& velocity) {
+double kinetic_energy(const Prepared& prepared, const std::vector<system::PartInertia>& inertia, const State& state) {
   double energy = 0.0;
-  for (std::size_t p = 0; p < velocity.size(); ++p)
-    if (!prepared.is_absent(p)) energy += 0.5 * velocity[p].dot(inertia[p].M.times(velocity[p]));
+  for (std::size_t p = 0; p < state.velocity.size(); ++p) {
+    if (prepared.is_absent(p)) continue;
+    const Vector& v = state.velocity[p];
+    energy += 0.5 * v.dot(inertia[p].M.times(v)) + internal_kinetic(inertia[p], state, p);
+  }
   return energy;
 }
 

@@ -28,6 +28,7 @@ struct StepSystem {
   StepSystem& operator=(const StepSystem&) = delete;
 
   const double size;
+  const std::vector<std::vector<system::LevelInTime>> levels;
   const system::Structure structure;
   const system::ContactSystem contact;
   const Prepared prepared;
@@ -37,6 +38,7 @@ struct StepSystem {
 struct Acting {
   Factors mean, end;            ///< factors over the step, and at its end
   std::vector<Vector> ground;   ///< per part: mean force of the inertia of the moving ground; empty: it is at rest
+  Vec2 acceleration;            ///< mean of the ground
   std::vector<Vector> support;  ///< per part: velocity of each constraint at the end of the step
 };
 
@@ -56,8 +58,10 @@ struct StepBounds {
 /// From a state with velocities.
 Attempt time_step(const InTime& in, const State& from, const Acting& acting, const StepBounds& bounds);
 
-/// 1/2 v'M v of all parts that are there.
-double kinetic_energy(const Prepared& prepared, const std::vector<system::PartInertia>& inertia,
-                      const std::vector<Vector>& velocity);
+/// Of all parts that are there, with their internal levels.
+double kinetic_energy(const Prepared& prepared, const std::vector<system::PartInertia>& inertia, const State& state);
+
+/// A state at rest gets the internal levels that gravity gives it, and their elastic energy.
+void add_internal(const Prepared& at_rest, const std::vector<system::PartInertia>& inertia, State& state);
 
 }  // namespace scabo::analysis

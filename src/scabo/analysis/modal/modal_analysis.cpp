@@ -21,15 +21,18 @@ namespace scabo::analysis {
 namespace {
 
 NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, const system::Dofs& dofs, std::size_t part,
-                          const std::array<Vector, 2>& mass_of_translation) {
+                          const std::array<Vector, 2>& mass_of_translation,
+                          const std::vector<system::BodyLevel>& levels) {
   NaturalMode mode;
   mode.bodies = dofs.bodies_of(part);
   mode.rigid = k < modes.rigid;
   mode.frequency = std::sqrt(modes.eigenvalues[k]) / (2.0 * std::numbers::pi);
   mode.residual = modes.residuals[k];
-  const Vector phi = modes.shapes.col(k);
+  const Vector all = modes.shapes.col(k);
+  const Eigen::Index inner = system::size_of(levels);
+  const Vector phi = all.head(all.size() - inner), w = all.tail(inner);
   for (std::size_t c = 0; c < 2; ++c) {
-    const double participation = phi.dot(mass_of_translation[c]);
+    const double participation = all.dot(mass_of_translation[c]);
     mode.effective_mass[static_cast<Eigen::Index>(c)] = participation * participation;  // phi' M phi = 1
   }
   // Nodes of a symmetric body move equally far but for rounding, which must not choose among them.
@@ -41,7 +44,12 @@ NaturalMode describe_mode(const system::NaturalModes& modes, Eigen::Index k, con
   const Vec2 motion = phi.segment<2>(place_of(node));
   const double leading = std::abs(motion.x()) >= (1.0 - 1e-6) * std::abs(motion.y()) ? motion.x() : motion.y();
   const double scale = (leading < 0.0 ? -1.0 : 1.0) / largest;
-  for (const int body : mode.bodies) mode.shape.push_back(dofs.of_body(body, scale * phi));
+  for (const int body : mode.bodies) {
+    mode.shape.push_back(dofs.of_body(body, scale * phi));
+    mode.internal.emplace_back();
+    for (const system::BodyLevel& level : levels)
+      if (level.body == body) mode.internal.back() = scale * level.own(w);
+  }
   mode.modal_mass = scale * scale;
   return mode;
 }
@@ -77,22 +85,31 @@ void add_modes(const Parts& parts, std::size_t part, system::MassLibrary& masses
                ModalResult& result) {
   const Discretisation& on = result.structure;
   system::Stiffness K, M;
+  std::vector<system::BodyLevel> levels;
   stage("mass of " + parts.dofs.name_of(part, on.model));
   {
     const Stopwatch stopwatch(result.timing.mass);
     K = system::part_stiffness(on.model, on.mesh, on.cells, parts.dofs, part);
     K.springs = parts.springs.of_part[part];
     M = system::part_mass(on.model, on.mesh, on.cells, parts.dofs, part, masses);
+    levels = system::levels_of(on.model, on.mesh, on.cells, parts.dofs, part);
   }
   stage("modes of " + parts.dofs.name_of(part, on.model));
   const Stopwatch stopwatch(result.timing.eigenvalues);
-  const std::array<Vector, 2> translations = {M.times(parts.dofs.translation(part, 0)),
-                                              M.times(parts.dofs.translation(part, 1))};
-  for (Eigen::Index i = 0; i < translations[0].size(); i += 2) result.total_mass += translations[0][i];
+  std::array<Vector, 2> translations;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vector r = parts.dofs.translation(part, axis);
+    Vector& translation = translations[static_cast<std::size_t>(axis)];
+    translation.resize(M.size() + system::size_of(levels));
+    translation.head(M.size()) = M.times(r);
+    for (const system::BodyLevel& level : levels)
+      translation.segment(M.size() + level.first, level.size()) = -level.Z() * r(level.dofs);
+  }
+  for (Eigen::Index i = 0; i < M.size(); i += 2) result.total_mass += translations[0][i];
   const system::NaturalModes modes =
-      system::natural_modes(K, M, parts.dofs.nodes(part), parts.constraints[part], on.model.analysis.modes);
+      system::natural_modes(K, M, parts.dofs.nodes(part), parts.constraints[part], on.model.analysis.modes, levels);
   for (Eigen::Index k = 0; k < modes.eigenvalues.size(); ++k)
-    result.modes.push_back(describe_mode(modes, k, parts.dofs, part, translations));
+    result.modes.push_back(describe_mode(modes, k, parts.dofs, part, translations, levels));
 }
 
 /// The lowest modes of all parts.
@@ -136,8 +153,15 @@ FieldState state_of(const ModalResult& result, const NaturalMode& mode) {
     state.displacements.push_back(Vector::Zero(size));
     state.interior.emplace_back();
   }
-  for (std::size_t k = 0; k < mode.bodies.size(); ++k)
-    state.displacements[static_cast<std::size_t>(mode.bodies[k])] = mode.shape[k];
+  const Discretisation& on = result.structure;
+  for (std::size_t k = 0; k < mode.bodies.size(); ++k) {
+    const auto body = static_cast<std::size_t>(mode.bodies[k]);
+    state.displacements[body] = mode.shape[k];
+    if (mode.internal[k].size() == 0) continue;
+    state.interior[body].resize(1);
+    state.interior[body].front().motion =
+        system::internal_motion(model, on.mesh, on.cells, mode.bodies[k], mode.internal[k]);
+  }
   return state;
 }
 

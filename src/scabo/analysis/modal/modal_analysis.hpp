@@ -8,10 +8,12 @@
 namespace scabo::analysis {
 
 struct NaturalMode {
-  std::vector<int> bodies;             ///< indices of the bodies that vibrate: one, or several that are tied
-  bool rigid = false;                  ///< rigid-body mode: its frequency is exactly 0
-  double frequency = 0.0;              ///< 1 / time (SI: Hz)
-  std::vector<Vector> shape;           ///< of these bodies, 2 per node; the largest displacement of a node is 1
+  std::vector<int> bodies;    ///< indices of the bodies that vibrate: one, or several that are tied
+  bool rigid = false;         ///< rigid-body mode: its frequency is exactly 0
+  double frequency = 0.0;     ///< 1 / time (SI: Hz)
+  std::vector<Vector> shape;  ///< of these bodies, 2 per node; the largest displacement of a node is 1
+  /// Of these bodies: motion of the internal level of one that is one super-element, else empty.
+  std::vector<Vector> internal;
   double modal_mass = 0.0;             ///< shape' M shape, mass
   Vec2 effective_mass = Vec2::Zero();  ///< of motions of the supports along x and y, mass: (shape' M r)^2 / modal mass
   double residual = 0.0;               ///< of K phi = omega^2 M phi, free of units (system/natural_modes.hpp)

@@ -54,7 +54,8 @@ Vector normal_forces(const State& state) { return state.p(Eigen::seqN(0, state.p
 
 }  // namespace
 
-std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to) {
+std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to,
+                                       const std::vector<system::BegunSolve>& begun) {
   const auto& parts = prepared.structure.parts;
   const system::Balanced wanted = wanted_balance(prepared, to);
   std::vector<Balance> balances(parts.size());
@@ -74,7 +75,8 @@ std::vector<Balance> add_displacements(const Prepared& prepared, const std::vect
     Vector forces = balance.forces;
     if (rigid.cols() > 0 && !prepared.structure.dofs.is_rigid(p)) take_out_rounding(rigid, forces.lpNorm<1>(), forces);
     system::Displaced reached =
-        known ? system::Displaced{(*known)[p], {}} : parts[p]->displaced(forces, to.prescribed[p], wanted);
+        known ? system::Displaced{(*known)[p], {}}
+              : parts[p]->displaced(forces, to.prescribed[p], wanted, begun.empty() ? nullptr : &begun[p]);
     if (rigid.cols() > 0) reached.u += rigid * to.rigid_motion.segment(prepared.contact.first_rigid[p], rigid.cols());
     balance.unbalanced = reached.unbalanced.size() > 0 ? std::move(reached.unbalanced)  // K resists no rigid motion
                                                        : parts[p]->unbalanced(reached.u, forces);

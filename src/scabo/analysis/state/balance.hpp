@@ -17,7 +17,8 @@ struct Balance {
 
 /// Displacements and reactions under the loads and contact forces of a state; `known`: the displacements without rigid
 /// motions.
-std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to);
+std::vector<Balance> add_displacements(const Prepared& prepared, const std::vector<Vector>* known, State& to,
+                                       const std::vector<system::BegunSolve>& begun = {});
 
 /// Of a part, what its stored energy is beyond 1/2 u'K u because its temperature has changed
 /// (system/thermal_energy.hpp).

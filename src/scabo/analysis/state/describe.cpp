@@ -8,6 +8,7 @@
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/state.hpp"
 #include "scabo/base/components.hpp"
+#include "scabo/system/internal_levels.hpp"
 #include "scabo/system/tributary_lengths.hpp"
 
 namespace scabo::analysis {
@@ -197,6 +198,23 @@ Vector velocities_of(const Prepared& prepared, const State& state, int body) {
   return v;
 }
 
+/// What moves inside bodies that are one super-element each, beyond what their loads do at rest.
+void add_internal(const Prepared& prepared, const State& state, FieldState& fields) {
+  const Discretisation& on = prepared.discretisation;
+  const system::Dofs& dofs = prepared.structure.dofs;
+  for (std::size_t p = 0; p < state.internal.size(); ++p) {
+    if (state.internal[p].size() == 0 || prepared.is_absent(p)) continue;
+    for (const system::BodyLevel& level : system::levels_of(on.model, on.mesh, on.cells, dofs, p)) {
+      const auto b = static_cast<std::size_t>(level.body);
+      fields.interior[b].resize(1);
+      const Vector at_rest = system::translation_of(level, -gravity_on(prepared, state.factors, level.body));
+      element::InternalMotion& motion = fields.interior[b].front().motion;
+      motion = system::internal_motion(on.model, on.mesh, on.cells, level.body, level.own(state.internal[p]) - at_rest);
+      motion.velocity = level.own(state.internal_velocity[p]);
+    }
+  }
+}
+
 /// What the fields of all bodies follow from.
 FieldState fields_of(const Prepared& prepared, const State& state) {
   FieldState fields;
@@ -214,6 +232,7 @@ FieldState fields_of(const Prepared& prepared, const State& state) {
       fields.initial[b].add(prepared.structure.initial[load][b], factor);
     }
   }
+  add_internal(prepared, state, fields);
   return fields;
 }
 

@@ -184,6 +184,10 @@ struct Table {
           "largest_energy", whole, 1, lasts, [](auto& state) -> auto& { return state.largest_energy; }),
       optional_field(
           "velocity", vector_of_part, 0, lasts, [](auto& state) -> auto& { return state.velocity; }),
+      optional_field(
+          "internal", vector_of_part, 0, lasts, [](auto& state) -> auto& { return state.internal; }),
+      optional_field(
+          "internal_velocity", vector_of_part, 0, lasts, [](auto& state) -> auto& { return state.internal_velocity; }),
       in_time(
           "displacement", [](auto& state) -> auto& { return state.u; }),
       in_time(

@@ -62,6 +62,16 @@ Vector entered_forces(const Prepared& prepared, const Factors& factors) {
   return forces;
 }
 
+Vec2 gravity_on(const Prepared& prepared, const Factors& factors, int body) {
+  Vec2 acceleration = Vec2::Zero();
+  for (std::size_t load = 0; load < factors.loads.size(); ++load) {
+    const model::Load& of = prepared.model.loads[load];
+    const auto* gravity = std::get_if<model::Gravity>(&of.kind);
+    if (gravity && (!of.on || of.on->body == body)) acceleration += factors.loads[load] * gravity->value;
+  }
+  return presence_of(prepared, factors, prepared.structure.dofs.part_of(body)) * acceleration;
+}
+
 double preload_of(const Prepared& prepared, const Factors& factors, std::size_t bar) {
   return factors.preloads.empty() ? 0.0 : factors.preloads[bar] * prepared.model.bars[bar].preload;
 }

@@ -15,6 +15,10 @@ std::vector<Vector> applied_forces(const Prepared& prepared, const Factors& fact
 Vector entered_forces(const Prepared& prepared, const Factors& factors);
 /// Whether some fluid may enter a contact.
 bool may_enter(const Prepared& prepared);
+
+/// What acts of gravity on a body, an acceleration.
+Vec2 gravity_on(const Prepared& prepared, const Factors& factors, int body);
+
 /// What acts of the preload of a bar, a force.
 double preload_of(const Prepared& prepared, const Factors& factors, std::size_t bar);
 

@@ -30,15 +30,16 @@ Vector motion_under(const std::vector<Eigen::SparseMatrix<double>>& motion, cons
   return sum;
 }
 
-FreeMotion free_motion(const Prepared& prepared, const State& state) {
+FreeMotion free_motion(const Prepared& prepared, const State& state, std::vector<system::BegunSolve>* begun) {
   const system::ContactSystem& contact = prepared.contact;
   FreeMotion free{Vector::Zero(static_cast<Eigen::Index>(2 * contact.pairs.size())),
                   Vector::Zero(static_cast<Eigen::Index>(2 * contact.held.size()))};
+  if (begun) begun->resize(prepared.structure.parts.size());
   if (contact.pairs.empty() && contact.held.empty()) return free;
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     if (prepared.is_absent(p)) continue;
-    const Vector u =
-        prepared.structure.parts[p]->displacement_at(state.forces[p], state.prescribed[p], touched_dofs(contact, p));
+    const Vector u = prepared.structure.parts[p]->displacement_at(
+        state.forces[p], state.prescribed[p], touched_dofs(contact, p), begun ? &(*begun)[p] : nullptr);
     free.pairs.noalias() += contact.motion[p] * u;
     if (!contact.held.empty()) free.held.noalias() += contact.held_motion[p] * u;
   }

@@ -14,7 +14,7 @@ struct FreeMotion {
   Vector pairs, held;  ///< 2N; of pairs that supports hold
 };
 /// Under the forces and prescribed values of a state.
-FreeMotion free_motion(const Prepared& prepared, const State& state);
+FreeMotion free_motion(const Prepared& prepared, const State& state, std::vector<system::BegunSolve>* begun = nullptr);
 
 /// Supports on both sides may hold a pair; they must not press its points into each other, or InputError is thrown.
 /// `motion`: of these pairs, without the offsets of `state`.

@@ -42,7 +42,8 @@ Vec2 displacement_at(const Discretisation& discretisation, std::size_t b, const 
   if (const auto& cell = discretisation.cells[b][place.cell]) {
     const Vec2& centre = mesh.cells[place.cell].centre;
     const element::RadialField field(cell->solution(), cell->modes(),
-                                     interior.without_particular(cell->ring, centre, u), interior.loads);
+                                     interior.without_particular(cell->ring, centre, u), interior.loads,
+                                     interior.motion);
     const Vec2 relative = element::point_values(cell->ring, field.at(place.scaled.xi), cell->sectors.D,
                                                 place.scaled.element, place.scaled.eta)
                               .displacement;

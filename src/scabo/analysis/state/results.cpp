@@ -16,6 +16,12 @@ IncrementResult with_velocities(const IncrementResult& increment) {
   IncrementResult moving;
   moving.absent = increment.absent;
   moving.fields.interior.resize(increment.fields.displacements.size());
+  for (std::size_t b = 0; b < increment.fields.interior.size(); ++b)
+    if (const element::CellLoads& inside = increment.fields.interior[b];
+        inside.size() == 1 && inside.front().motion.modes) {
+      element::InteriorLoads& moves = moving.fields.interior[b].emplace_back();
+      moves.motion = {inside.front().motion.modes, inside.front().motion.velocity};
+    }
   moving.fields.displacements = increment.fields.velocities;
   if (increment.fields.velocities.empty())
     for (const Vector& u : increment.fields.displacements)

@@ -111,7 +111,10 @@ struct State {
   // In time (dynamics/scheme.hpp); no velocities before the first time step:
   double time = 0.0;             ///< since the begin of the first step in time
   std::vector<Vector> velocity;  ///< per part, as u
-  double largest_energy = 0.0;   ///< largest kinetic and elastic energy so far, against which errors are judged
+  /// Per part: w of the internal levels of its bodies, one after another, and its velocity
+  /// (system/internal_levels.hpp).
+  std::vector<Vector> internal, internal_velocity;
+  double largest_energy = 0.0;  ///< largest kinetic and elastic energy so far, against which errors are judged
 };
 State initial_state(const Prepared& prepared);
 

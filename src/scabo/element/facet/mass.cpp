@@ -42,10 +42,13 @@ Eigen::SparseMatrix<double> boundary_mass(const Ring& ring, const std::vector<do
   return M0;
 }
 
+bool is_uniform(const std::vector<double>& density) {
+  return std::all_of(density.begin(), density.end(), [&](double rho) { return rho == density.front(); });
+}
+
 Matrix mass_matrix(const Ring& ring, const SuperElementSolution& solution, const ModalSolution& modal,
                    const std::vector<double>& density, double thickness, int threads) {
-  const bool uniform = std::all_of(density.begin(), density.end(), [&](double rho) { return rho == density.front(); });
-  return mass_matrix(boundary_mass(ring, density, thickness), solution, modal, !uniform, threads);
+  return mass_matrix(boundary_mass(ring, density, thickness), solution, modal, !is_uniform(density), threads);
 }
 
 }  // namespace scabo::element

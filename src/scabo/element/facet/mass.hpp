@@ -13,6 +13,9 @@ namespace scabo::element {
 /// for each. The integration is exact, also on curved elements.
 Eigen::SparseMatrix<double> boundary_mass(const Ring& ring, const std::vector<double>& density, double thickness);
 
+/// Whether all densities are equal.
+bool is_uniform(const std::vector<double>& density);
+
 /// M, n x n, mass: symmetric, positive definite where the density is positive. `solution` and `modal` are those of the
 /// ring. If all densities are equal, symmetry blocks do not interact and only k = l is solved.
 Matrix mass_matrix(const Ring& ring, const SuperElementSolution& solution, const ModalSolution& modal,

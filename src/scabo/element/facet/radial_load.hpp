@@ -13,7 +13,7 @@
 
 #include "scabo/element/facet/coefficient_matrices.hpp"
 #include "scabo/element/facet/temperature_table.hpp"
-#include "scabo/element/sbfem/super_element.hpp"
+#include "scabo/element/sbfem/modal_solution.hpp"
 
 namespace scabo::element {
 
@@ -46,6 +46,7 @@ struct InteriorLoads {
   std::vector<RadialLoad> loads;                 ///< of a super-element
   LinearField temperature;                       ///< change of temperature as a function of absolute (x, y)
   std::vector<TemperatureRemainder> remainders;  ///< what tables add to it in a super-element of one material
+  InternalMotion motion;                         ///< in time and in natural modes, of a body that is one super-element
 
   /// The whole change of temperature.
   double temperature_at(const Vec2& x) const;
@@ -56,7 +57,7 @@ struct InteriorLoads {
   Vector without_particular(const Ring& ring, const Vec2& centre, Vector u) const;
 
   /// Whether loads act inside of which its displacements at the boundary do not know.
-  bool acts() const { return !loads.empty() || !remainders.empty(); }
+  bool acts() const { return !loads.empty() || !remainders.empty() || motion.modes; }
   bool is_zero() const { return !acts() && temperature.is_zero(); }
 };
 

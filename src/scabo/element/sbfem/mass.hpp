@@ -9,21 +9,11 @@
 //
 //     (S' + I) M + M (S + I) = M0                                                                            (2)
 //
-// The integration over xi is exact. (2) is solved in the real Schur form of S, so that equal and defective exponents
-// cause no difficulty; its eigenvalues are 2 + lambda_i + lambda_j, which are never zero. In symmetry blocks k, l the
-// translations are separate (super_element.hpp: u = E v + R a, xi v,xi = S v, xi a,xi = A v), and with z = [v; a] and
-// M0 in these coordinates (2) decouples into, in this order,
-//
-//     2 X_aa = M0_aa                                                                                         (3)
-//     (S_k' + 2) X_va = M0_va - A_k' X_aa,     X_av (S_l + 2) = M0_av - X_aa A_l                             (4)
-//     (S_k' + I) X_vv + X_vv (S_l + I) = M0_vv - A_k' X_av - X_va A_l                                        (5)
-//
-// (3) is half of R'M0R: for translations M gives the mass of the body, to rounding.
+// The integration over xi is exact. (2) is solved as in lyapunov.hpp with k = 1; its eigenvalues are 2 + lambda_i +
+// lambda_j, which are never zero. Of translations it is half of R'M0R: M gives the mass of the body, to rounding.
 //
 // Restricted to exponents with Re lambda > 0 besides the translations: bounded super-elements, closed or open.
 #pragma once
-
-#include <vector>
 
 #include "scabo/element/sbfem/modal_solution.hpp"
 

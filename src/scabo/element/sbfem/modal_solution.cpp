@@ -115,8 +115,8 @@ void RadialField::set_loads(const Block& block, const ModalBlock& modes, const s
 }
 
 RadialField::RadialField(const SuperElementSolution& solution, const ModalSolution& modal, const Vector& u,
-                         const std::vector<RadialLoad>& loads)
-    : solution_(solution), modal_(modal), slowest_(modal.slowest) {
+                         const std::vector<RadialLoad>& loads, const InternalMotion& inside)
+    : solution_(solution), inside_(inside.modes), slowest_(modal.slowest) {
   for (const RadialLoad& load : loads) slowest_ = std::min(slowest_, load.power);
   ensure(loads.empty() || !solution.domain.unbounded, "loads act inside bounded super-elements");
   for (std::size_t k = 0; k < solution.blocks.size(); ++k) {
@@ -125,7 +125,7 @@ RadialField::RadialField(const SuperElementSolution& solution, const ModalSoluti
     const Vector u_k = block.T.transpose() * u;
     const Vector a = block.a_of(u_k);
     Vector v = block.v_of(u_k);
-    Part part;
+    Part part{&block.T, &block.R, &modal_block, {}, {}, {}, {}, {}, {}};
     const Matrix a_of_psi = block.a_of(modal_block.Phi);  // A U T^-1, since R_J = 1
     if (solution.domain.unbounded && a.size() > 0) {
       // F from f = K u: plane/stiffness.hpp, R'q = F.
@@ -139,6 +139,11 @@ RadialField::RadialField(const SuperElementSolution& solution, const ModalSoluti
     set_loads(block, modal_block, loads, part);
     parts_.push_back(std::move(part));
   }
+  if (!inside_) return;
+  for (const InternalModes::Group& group : inside_->groups) {
+    const Vector w = group.T.transpose() * inside.w;
+    parts_.push_back({&group.T, &group.R, &group.modal, group.start * w, {}, group.still * w, {}, {}, {}});
+  }
 }
 
 RadialField::Values RadialField::at(double xi) const {
@@ -147,8 +152,7 @@ RadialField::Values RadialField::at(double xi) const {
   Values values{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
   xi = unbounded ? std::max(xi, 1.0) : std::clamp(xi, 0.0, 1.0);
   if (xi == 0.0 && !finite) {
-    for (std::size_t b = 0; b < parts_.size(); ++b)
-      values.u += solution_.blocks[b].T * (solution_.blocks[b].R * parts_[b].a0);
+    for (const Part& part : parts_) values.u += *part.T * (*part.R * part.a0);
     values.u_xi.setConstant(std::nan(""));
     values.u_part.setConstant(std::nan(""));
     return values;
@@ -160,12 +164,11 @@ RadialField::Values RadialField::at(double xi) const {
   const double scale = std::pow(xi, shift), strain_scale = std::pow(xi, shift - 1.0);
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const Part& part = parts_[b];
-    const Block& block = solution_.blocks[b];
-    const auto& modes = modal_.blocks[b].modes;
+    const auto& modes = part.modal->modes;
     const Vector psi = modes.propagate(part.c, part.w, s, shift);
     Vector slope = modes.T() * psi;
     for (const linalg::Forcing& forcing : part.w) slope += std::pow(xi, forcing.power - shift) * forcing.w;
-    const Vector moving = modal_.blocks[b].Phi * psi;
+    const Vector moving = part.modal->Phi * psi;
     Vector a = part.a0, a_xi = Vector::Zero(part.a0.size());
     for (const Translation& translation : part.translations) {
       a += std::pow(xi, translation.power) * translation.b;
@@ -175,14 +178,15 @@ RadialField::Values RadialField::at(double xi) const {
       a += part.growth * s;
       a_xi += part.growth / xi;
     }
-    Vector u = scale * moving + block.R * a, u_part = strain_scale * moving;
+    Vector u = scale * moving + *part.R * a, u_part = strain_scale * moving;
     if (part.constant.size() > 0) {
-      u(block.I) += part.constant;
-      u_part(block.I) += part.constant / xi;
+      const std::vector<int>& I = solution_.blocks[b].I;
+      u(I) += part.constant;
+      u_part(I) += part.constant / xi;
     }
-    values.u += block.T * u;  // eq. (2)
-    values.u_part += block.T * u_part;
-    values.u_xi += block.T * (strain_scale * (modal_.blocks[b].Phi * slope) + block.R * a_xi);  // eq. (3)
+    values.u += *part.T * u;  // eq. (2)
+    values.u_part += *part.T * u_part;
+    values.u_xi += *part.T * (strain_scale * (part.modal->Phi * slope) + *part.R * a_xi);  // eq. (3)
   }
   return values;
 }

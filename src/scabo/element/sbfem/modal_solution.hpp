@@ -19,6 +19,7 @@
 #pragma once
 
 #include <complex>
+#include <memory>
 #include <vector>
 
 #include "scabo/element/sbfem/super_element.hpp"
@@ -39,6 +40,25 @@ struct ModalSolution {
   double slowest = 1.0;
 };
 
+/// Modes of the internal level of a super-element (internal_level.hpp).
+struct InternalModes {
+  struct Group {
+    Eigen::SparseMatrix<double> T;  ///< n x n_k
+    Matrix R;                       ///< n_k x m
+    ModalBlock modal;
+    Matrix start;  ///< their coordinates at xi = 1 by T'w
+    Matrix still;  ///< m x n_k: translation of the whole inside by T'w
+  };
+  std::vector<Group> groups;
+};
+
+/// What the inside of a super-element moves besides following its boundary: - phi(xi) w.
+struct InternalMotion {
+  std::shared_ptr<const InternalModes> modes;  ///< null: nothing
+  Vector w;
+  Vector velocity = {};  ///< of w; empty: not in time
+};
+
 /// Symmetry blocks are distributed over `threads` threads.
 ModalSolution modal_solution(const SuperElementSolution& solution, int threads = 1);
 
@@ -55,7 +75,7 @@ class RadialField {
  public:
   /// `u`: boundary displacements (n) under `loads`. Keeps references to both solutions.
   RadialField(const SuperElementSolution& solution, const ModalSolution& modal, const Vector& u,
-              const std::vector<RadialLoad>& loads = {});
+              const std::vector<RadialLoad>& loads = {}, const InternalMotion& inside = {});
 
   struct Values {
     Vector u;       ///< displacement of the ring at xi (n)
@@ -72,6 +92,9 @@ class RadialField {
     Vector b;  // eq. (2)
   };
   struct Part {
+    const Eigen::SparseMatrix<double>* T = nullptr;
+    const Matrix* R = nullptr;
+    const ModalBlock* modal = nullptr;
     Vector c;                               // modal coordinates at xi = 1
     std::vector<linalg::Forcing> w;         // eq. (1)
     Vector a0;                              // eq. (2)
@@ -80,9 +103,9 @@ class RadialField {
   };
   void set_loads(const Block& block, const ModalBlock& modes, const std::vector<RadialLoad>& loads, Part& part) const;
   const SuperElementSolution& solution_;
-  const ModalSolution& modal_;
-  std::vector<Part> parts_;
-  double slowest_ = 1.0;  // of modes and loads
+  std::shared_ptr<const InternalModes> inside_;
+  std::vector<Part> parts_;  // one for each block, then for each group of the inside
+  double slowest_ = 1.0;     // of modes and loads
 };
 
 }  // namespace scabo::element
