@@ -18,7 +18,7 @@ Matrix by_E0(const SuperElementSolution& solution, const Matrix& X) {
 }
 
 /// Blocks that one mass couples, as one.
-struct Group {
+struct CoupledBlocks {
   Eigen::SparseMatrix<double> T;
   std::vector<int> I, J;
   Matrix R, E0, A, modes_T, modes_U;
@@ -32,7 +32,7 @@ void append(Matrix& to, const Matrix& block) {  // along the diagonal
   to = std::move(made);
 }
 
-void append(Group& to, const Block& block, const ModalBlock& modes) {
+void append(CoupledBlocks& to, const Block& block, const ModalBlock& modes) {
   const auto before = static_cast<int>(to.R.rows());
   for (const int i : block.I) to.I.push_back(before + i);
   for (const int j : block.J) to.J.push_back(before + j);
@@ -51,7 +51,7 @@ void append(Group& to, const Block& block, const ModalBlock& modes) {
 }
 
 /// Of the system of [v; a_y; y_v] with y = xi^2 xi^S w = E y_v + R a_y, whose matrix is quasi-triangular.
-InternalModes::Group modes_of(const Group& of, const Matrix& M) {
+InternalModes::CoupledBlocks modes_of(const CoupledBlocks& of, const Matrix& M) {
   const Matrix by_w = of.E0.llt().solve(Matrix(of.T.transpose() * M * of.T));  // xi u,xi = S u + by_w y
   Matrix by_y(by_w.rows(), by_w.cols());                                       // on a_y, then on y_v
   const auto all = by_w.cols(), m = static_cast<Eigen::Index>(of.J.size()), n = all - m;
@@ -73,7 +73,7 @@ InternalModes::Group modes_of(const Group& of, const Matrix& M) {
   Matrix A(m, n + all);  // xi a,xi
   A << of.A, by_y(of.J, Eigen::all);
   const Matrix moving = schur.T.transpose().partialPivLu().solve((A * schur.U).transpose()).transpose();
-  InternalModes::Group made;
+  InternalModes::CoupledBlocks made;
   made.T = of.T;
   made.R = of.R;
   made.modal.Phi = of.R * moving;
@@ -108,7 +108,7 @@ InternalLevel internal_level(const Matrix& M, const SuperElementSolution& soluti
 InternalModes internal_modes(const Matrix& M, const SuperElementSolution& solution, const ModalSolution& modal,
                              bool coupled) {
   InternalModes made;
-  Group together;
+  CoupledBlocks together;
   for (std::size_t k = 0; k < solution.blocks.size(); ++k) {
     append(together, solution.blocks[k], modal.blocks[k]);
     if (coupled && k + 1 < solution.blocks.size()) continue;
