@@ -51,7 +51,7 @@ void append(CoupledBlocks& to, const Block& block, const ModalBlock& modes) {
 }
 
 /// Of the system of [v; a_y; y_v] with y = xi^2 xi^S w = E y_v + R a_y, whose matrix is quasi-triangular.
-InternalModes::CoupledBlocks modes_of(const CoupledBlocks& of, const Matrix& M) {
+InternalModes::Group modes_of(const CoupledBlocks& of, const Matrix& M) {
   const Matrix by_w = of.E0.llt().solve(Matrix(of.T.transpose() * M * of.T));  // xi u,xi = S u + by_w y
   Matrix by_y(by_w.rows(), by_w.cols());                                       // on a_y, then on y_v
   const auto all = by_w.cols(), m = static_cast<Eigen::Index>(of.J.size()), n = all - m;
@@ -73,7 +73,7 @@ InternalModes::CoupledBlocks modes_of(const CoupledBlocks& of, const Matrix& M) 
   Matrix A(m, n + all);  // xi a,xi
   A << of.A, by_y(of.J, Eigen::all);
   const Matrix moving = schur.T.transpose().partialPivLu().solve((A * schur.U).transpose()).transpose();
-  InternalModes::CoupledBlocks made;
+  InternalModes::Group made;
   made.T = of.T;
   made.R = of.R;
   made.modal.Phi = of.R * moving;
