@@ -67,7 +67,7 @@ struct Turned {
   bool straight = false;
   double rotation = 0.0;  ///< rad
 };
-Turned turned(const Prepared& prepared, const State& state, const model::Place& side) {
+Turned turned_at(const Prepared& prepared, const State& state, const model::Place& side) {
   const model::Body& body = prepared.model.bodies[static_cast<std::size_t>(side.body)];
   return {&body, geometry::runs_straight(body.outline.edges[static_cast<std::size_t>(side.index)]),
           rotation_of(prepared, state, side.body)};
@@ -143,7 +143,7 @@ std::vector<Warning> rotations_at_large_slip(const Prepared& prepared, const Sta
   std::vector<Warning> warnings;
   for (const model::Contact& contact : prepared.model.contacts) {
     if (!contact.large_slip) continue;
-    const Turned a = turned(prepared, state, contact.a), b = turned(prepared, state, contact.b);
+    const Turned a = turned_at(prepared, state, contact.a), b = turned_at(prepared, state, contact.b);
     const double tilt = wrong_by(a, b);
     if (tilt <= largest_tilt) continue;
     const Turned& most = std::abs(a.rotation) > std::abs(b.rotation) ? a : b;
