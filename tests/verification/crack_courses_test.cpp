@@ -106,7 +106,7 @@ steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: 0.1, until: {{length: 1.4}}}
 }
 
 // Single-edge notched beam in four-point shear (Arrea and Ingraffea 1982; 1322 x 306 mm, notch 82 deep): the crack
-// kinks by 70 degrees out of the notch, bends round the near load and ends beyond it, as published. The numbers are
+// kinks by 70 degrees out of the notch, bends round the near load and ends beyond it. The numbers are
 // those of half the step.
 TEST(Growth, ANotchedBeamInShear) {
   const auto solution = run(R"(scabo: 1
