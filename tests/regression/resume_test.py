@@ -266,7 +266,7 @@ class Resume(unittest.TestCase):
             run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
             self.assertEqual(run.returncode, 0, run.stderr)
             whole = content(self.directory / "whole")
-            for checkpoints in (4,) if SANITIZED else (4, 3, 5):  # two of them of increments before growth
+            for checkpoints in (4,) if SANITIZED else (4, 3, 2):  # two of them of increments before growth
                 shutil.rmtree(self.results, ignore_errors=True)
                 self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
                 run = scabo("resume", self.results, "--quiet")
