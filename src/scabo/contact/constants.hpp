@@ -125,29 +125,28 @@ inline constexpr InteriorConstants interior_constants;
 
 /// Rounds with slips held (interior/held_slips.hpp).
 struct HeldConstants {
-  int rounds = 60;            ///< most since the slips' distance was halved: they wander
-  double first_aim = 1e-5;    ///< natural map after which the point is first crossed over
-  double next_aim = 0.1;      ///< how much it falls between two crossings
-  double aim = 1e-3;          ///< of the square of the slips' change: m at which a round ends
-  double least = 1e-22;       ///< of the mean square of the loads: m that rounding leaves
-  double met = 1e-2;          ///< of the slips' change: distance at which a round ends
-  double start = 1e2;         ///< of the square of the slips' change: m at which a round starts
-  double sticking = 3.0;      ///< times sqrt(m), to which slips are known: those below it are 0
-  int most = 60;              ///< steps of a round, which is a convex problem
-  int remembered = 3;         ///< changes of the extrapolation: more are nearly dependent
-  double independent = 1e-8;  ///< on the diagonal of their products, in case they are
-  double fall = 0.7;          ///< of the slips' distance in `rounds_of_way` rounds; otherwise another way
-  int rounds_of_way = 30;     ///< after which another way is tried
+  int rounds = 60;             ///< most since the slips' distance was halved: they wander
+  double first_aim = 1e-5;     ///< natural map after which the point is first crossed over
+  double next_aim = 0.1;       ///< how much it falls between two crossings
+  double aim = 1e-3;           ///< of the square of the slips' change: m at which a round ends
+  double least = 1e-22;        ///< of the mean square of the loads: m that rounding leaves
+  double met = 1e-2;           ///< of the slips' change: distance at which a round ends
+  double start = 1e2;          ///< of the square of the slips' change: m at which a round starts
+  double sticking = 3.0;       ///< times sqrt(m), to which slips are known: those below it are 0
+  int most = 60;               ///< steps of a round, which is a convex problem
+  std::size_t remembered = 3;  ///< changes of the extrapolation: more are nearly dependent
+  double fall = 0.7;           ///< of the slips' distance in `rounds_of_way` rounds; otherwise another way
+  int rounds_of_way = 30;      ///< after which another way is tried
 };
 inline constexpr HeldConstants held_constants;
 
 struct SweepConstants {
-  int most = 25000;                 ///< sweeps: what converges takes fewer, or gains (long_sweeps.hpp)
+  int most = 80000;                 ///< sweeps of either kind, with or without extrapolation
   Eigen::Index most_formed = 5000;  ///< rows of a W that would have to be formed
   int round = 20;                   ///< sweeps between two extrapolations: what they do not damp are few slow modes
-  int depth = 8;                    ///< changes remembered
-  int least_patience = 500;         ///< sweeps in which the natural map is halved: they gain
+  std::size_t depth = 8;            ///< changes remembered
   double part_of_joints = 0.1;      ///< work of a sweep over joints, of one over pairs
+  int patience = 10000;             ///< sweeps without halving the natural map: they go around
 };
 inline constexpr SweepConstants sweep_constants;
 

@@ -131,17 +131,44 @@ TEST(LongSweeps, ReachTheLawWithAThirdOfThePlainOnes) {
   }
 }
 
-TEST(LongSweeps, GoOnWhereTheyEndedWithoutLosingABit) {
-  const Problem problem = tower_of_blocks(3, 12, 3, 0.4);
-  LongSweeps once(problem, Vector::Zero(problem.q.size())), twice = once;
-  EXPECT_FALSE(once.run(4000, {}));
-  EXPECT_FALSE(twice.run(1000, {}));
-  const double before = twice.natural_map();
-  EXPECT_FALSE(twice.run(4000, {}));
-  EXPECT_GE(once.sweeps(), 4000);
-  EXPECT_EQ(twice.sweeps(), once.sweeps());
-  EXPECT_EQ(twice.p(), once.p());
-  EXPECT_LE(twice.natural_map(), before);
+/// Three pairs in space with a W of rank 4, from a known solution: one open, sticking or sliding pair after the other.
+Problem three_pairs(int seed) {
+  constexpr Eigen::Index n = 9;
+  std::mt19937 random(static_cast<unsigned>(seed));
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> part;
+  const Matrix B = Matrix::NullaryExpr(n, 4, [&] { return normal(random); });
+  Problem problem;
+  problem.mu = Vector::Constant(3, 0.8);
+  problem.W = Delassus(Matrix(B * B.transpose()));
+  Vector p = Vector::Zero(n), u = Vector::Zero(n);
+  for (Eigen::Index first = 0; first < n; first += 3) {
+    const auto state = random() % 3;
+    const double angle = 6.28 * part(random), force = 0.1 + part(random), share = part(random);
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    if (state == 0) {
+      u.segment<3>(first) = Eigen::Vector3d(share, along[0], along[1]);
+      continue;
+    }
+    p[first] = force;
+    p.segment<2>(first + 1) = (state == 1 ? 0.5 * share : 1.0) * 0.8 * force * along;
+    if (state == 2) u.segment<2>(first + 1) = -share * along;
+  }
+  problem.q = u - problem.W * p;
+  return problem;
+}
+
+// In one order three pairs may go around between their states for ever. For friction as high as here extrapolation ends
+// that in three of the problems, orders drawn anew in five.
+TEST(LongSweeps, SettleWhereSweepsInOneOrderGoAround) {
+  int settled = 0;
+  for (int seed = 0; seed < 400; ++seed) {
+    const Problem problem = three_pairs(seed);
+    if (natural_map_residual(problem, test::swept_forces(problem, 4000), Vector()) <= 1e-3) continue;
+    LongSweeps sweeps(problem, Vector::Zero(9));
+    settled += sweeps.run(80000, within_1e10(problem)) ? 1 : 0;
+  }
+  EXPECT_GE(settled, 5);
 }
 
 TEST(LongSweeps, EndWhereNothingIsGainedOrTheTimeIsOver) {
@@ -156,7 +183,7 @@ TEST(LongSweeps, EndWhereNothingIsGainedOrTheTimeIsOver) {
   problem.mu = Vector::Constant(2, 0.5);
   LongSweeps sweeps(problem, Vector::Zero(4));
   EXPECT_FALSE(sweeps.run(1000, within_1e10(problem)));
-  EXPECT_LE(sweeps.sweeps(), 4000);  // four times what was asked for, however much they seem to gain
+  EXPECT_LE(sweeps.sweeps(), 8000);  // four times what was asked for of either kind, however much they seem to gain
   EXPECT_TRUE(sweeps.p().allFinite());
   EXPECT_FALSE(LongSweeps(problem, Vector::Zero(4)).run(1000, {}, Deadline::in(0.0)));
 }

@@ -102,15 +102,10 @@ double violation(const contact::Problem& problem, const Vector& p, const Vector&
 
 Vector swept_forces(const contact::Problem& problem, int sweeps) {
   Vector p = Vector::Zero(problem.q.size());
-  const auto sweep_with = [&](auto pairs) {
-    pairs.start(p);
-    for (int sweep = 0; sweep < sweeps; ++sweep)
-      if (pairs.sweep(p) <= 1e-12 * p.lpNorm<Eigen::Infinity>()) break;
-  };
-  if (problem.dimension == 2)
-    sweep_with(contact::PairSweeps<2>(problem));
-  else
-    sweep_with(contact::PairSweeps<3>(problem));
+  const std::unique_ptr<contact::GaussSeidel> pairs = contact::gauss_seidel(problem, false);
+  pairs->start(p);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    if (pairs->sweep(p) <= 1e-12 * p.lpNorm<Eigen::Infinity>()) break;
   return p;
 }
 

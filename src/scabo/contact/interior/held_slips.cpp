@@ -1,6 +1,5 @@
 #include "scabo/contact/interior/held_slips.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,41 +7,13 @@
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/contact/constants.hpp"
+#include "scabo/contact/extrapolation.hpp"
 #include "scabo/contact/interior/judged_steps.hpp"
 #include "scabo/contact/work.hpp"
 
 namespace scabo::contact {
 
 namespace {
-
-/// Slips of the last rounds, and how far they were from those held.
-struct Remembered {
-  std::vector<Vector> offs, slips;
-
-  void add(const Vector& off, const Vector& slip) {
-    offs.push_back(off);
-    slips.push_back(slip);
-    if (static_cast<int>(offs.size()) <= held_constants.remembered + 1) return;
-    offs.erase(offs.begin());
-    slips.erase(slips.begin());
-  }
-
-  /// `next`, the last slips, less the combination of changes that takes most of the last distance away.
-  void extrapolate(Vector& next) const {
-    const auto count = static_cast<Eigen::Index>(offs.size()) - 1;
-    if (count < 1) return;
-    Matrix of_offs(next.size(), count), of_slips(next.size(), count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const auto k = static_cast<std::size_t>(j);
-      of_offs.col(j) = offs[k + 1] - offs[k];
-      of_slips.col(j) = slips[k + 1] - slips[k];
-    }
-    Matrix gram = of_offs.transpose() * of_offs;
-    gram.diagonal() *= 1.0 + held_constants.independent;  // in case the changes are nearly equal
-    const Vector gamma = gram.ldlt().solve(of_offs.transpose() * offs.back());
-    if (gamma.allFinite()) next -= of_slips * gamma;
-  }
-};
 
 template <int d>
 class FixedPoint {
@@ -110,8 +81,8 @@ class FixedPoint {
     change_ = off.template lpNorm<Eigen::Infinity>();
     choose_way(off.norm());
     Vector next = way_ == Way::halved ? Vector(0.5 * (slips + held_)) : slips;
-    remembered_.add(off, slips);
-    if (way_ == Way::extrapolated) remembered_.extrapolate(next);
+    remembered_.remember(off, slips);
+    if (way_ == Way::extrapolated) remembered_.apply(next);
     const double sticks = c.sticking * std::sqrt(steps_.gap());
     for (Eigen::Index i = 0; i < next.size(); ++i) next[i] = slips[i] <= sticks ? 0.0 : std::max(next[i], 0.0);
     const double moved = (next - held_).template lpNorm<Eigen::Infinity>();
@@ -139,7 +110,7 @@ class FixedPoint {
   double scale_, change_;
   Vector held_;                 // lifts
   std::vector<Passed> passed_;  // of this round and those before it, m falling from round to round
-  Remembered remembered_;
+  Extrapolation remembered_{held_constants.remembered};
   Way way_ = Way::plain;
   double fallen_ = HUGE_VAL, halved_ = HUGE_VAL;
   int since_fall_ = 0, since_halved_ = 0;

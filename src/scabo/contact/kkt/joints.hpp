@@ -7,7 +7,7 @@
 //
 //     W = A K A',   A = W_p W_pp^-1 within each joint, W_p its rows at the pivots, W_pp its own block of K
 //
-// Sweeps (sweeps/joint_sweeps.hpp) and linear systems (joint_system.hpp) become cheaper by 5 to 50.
+// Linear systems (joint_system.hpp) become cheaper by 5 to 50.
 //
 // Nothing but W is needed: pairs of one joint have the same neighbours in W, and what is found is compared with every
 // entry of W.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace scabo::contact {
@@ -10,7 +11,8 @@ using Index = Eigen::Index;
 
 template <int d>
 JointSweeps<d>::JointSweeps(const Problem& problem, Joints<d> joints)
-    : problem_(&problem), joints_(std::move(joints)), pairs_(pair_problems<d>(problem)) {
+    : problem_(&problem), joints_(std::move(joints)), pairs_(pair_problems<d>(problem)), order_(pairs_.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
   const auto count = static_cast<std::size_t>(joints_.count());
   own_.resize(count);
   motion_.assign(count, Components::Zero());
@@ -45,10 +47,23 @@ void JointSweeps<d>::leave(int joint) {
 }
 
 template <int d>
+void JointSweeps<d>::reorder(std::minstd_rand& random) {
+  std::shuffle(order_.begin(), order_.end(), random);
+  std::vector<int> place(own_.size());
+  std::iota(place.begin(), place.end(), 0);
+  std::shuffle(place.begin(), place.end(), random);
+  const auto place_of = [&](int i) {
+    return place[static_cast<std::size_t>(joints_.joint[static_cast<std::size_t>(i)])];
+  };
+  std::stable_sort(order_.begin(), order_.end(), [&](int i, int j) { return place_of(i) < place_of(j); });
+}
+
+template <int d>
 double JointSweeps<d>::sweep(Vector& p) {
   double largest = 0.0;
-  int joint = joints_.joint.empty() ? 0 : joints_.joint.front();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+  int joint = order_.empty() ? 0 : joints_.joint[static_cast<std::size_t>(order_.front())];
+  for (const int pair : order_) {
+    const auto i = static_cast<std::size_t>(pair);
     if (joints_.joint[i] != joint) {
       leave(joint);
       joint = joints_.joint[i];
@@ -64,15 +79,6 @@ double JointSweeps<d>::sweep(Vector& p) {
   }
   leave(joint);
   return largest;
-}
-
-template <int d>
-Vector JointSweeps<d>::motion() const {
-  Vector motion = problem_->q;
-  for (std::size_t i = 0; i < pairs_.size(); ++i)
-    motion.segment<d>(d * static_cast<Index>(i)).noalias() +=
-        joints_.A[i] * motion_[static_cast<std::size_t>(joints_.joint[i])];
-  return motion;
 }
 
 template class JointSweeps<2>;

@@ -1,26 +1,26 @@
 // Sweeps of Gauss-Seidel (gauss_seidel.hpp) over pairs of rigid bodies with W = A K A' of their joints (joints.hpp).
-// The same pairs in the same order with the same result; the motion of a joint is kept by its R components, those of
-// its own forces are added at once and those of other joints when the sweep leaves it.
+// The same result as pair by pair in the same order; the motion of a joint is kept by its R components, those of its
+// own forces are added at once and those of other joints when the sweep leaves it.
 #pragma once
 
 #include <vector>
 
+#include "scabo/contact/constants.hpp"
 #include "scabo/contact/kkt/joints.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "scabo/contact/sweeps/pair_problem.hpp"
 
 namespace scabo::contact {
 
 template <int d>
-class JointSweeps {
+class JointSweeps final : public GaussSeidel {
  public:
   /// The problem must outlive this object.
   JointSweeps(const Problem& problem, Joints<d> joints);
-  /// The motions of the joints anew: for a start, and when rounding has accumulated.
-  void start(const Vector& p);
-  /// One sweep; returns the largest change of a force component.
-  double sweep(Vector& p);
-  /// q + W p after the last sweep.
-  Vector motion() const;
+  void start(const Vector& p) override;
+  void reorder(std::minstd_rand& random) override;  ///< of the joints, and of the pairs of each
+  double sweep(Vector& p) override;
+  double part_of_work() const override { return sweep_constants.part_of_joints; }
 
  private:
   static constexpr int R = Joints<d>::R;
@@ -30,6 +30,7 @@ class JointSweeps {
   const Problem* problem_;
   Joints<d> joints_;
   std::vector<PairProblem<d>> pairs_;
+  std::vector<int> order_;                      // those of a joint side by side
   std::vector<typename Joints<d>::Block> own_;  // K of each joint with itself
   std::vector<Components> motion_;              // of the pivots of each joint, K A'p
   Components left_ = Components::Zero();        // A'dp of the joint that is swept, not yet added to others

@@ -2,18 +2,18 @@
 // deficient: stacks of rigid bodies, where forces travel from body to body and their states settle late.
 //
 // A round of twenty sweeps is the map p -> S(p) whose fixed point is sought: what it has not damped are few slow modes,
-// and with the last eight changes of p and of f = S(p) - p (Anderson, J. ACM 12 (1965) 547; type II)
-//
-//     p+ = S(p) - sum_j gamma_j dS_j,   gamma = argmin | f - sum_j gamma_j df_j |
-//
+// and with the last eight changes an extrapolation (extrapolation.hpp)
 // is tried. Where the natural map after the next round is larger than that of S(p), S(p) is taken back and the changes
-// are forgotten. Rigid bodies are swept by their joints (joint_sweeps.hpp).
+// are forgotten. Sweeps in one order may end in a cycle, in which a few pairs go around between their states; where
+// these do not settle, others follow in orders drawn anew for every sweep, without extrapolation. The draws are the
+// same in every run.
 #pragma once
 
 #include <cmath>
 #include <optional>
 
 #include "scabo/contact/deadline.hpp"
+#include "scabo/contact/extrapolation.hpp"
 #include "scabo/contact/judge.hpp"
 #include "scabo/contact/sweeps/gauss_seidel.hpp"
 
@@ -24,9 +24,8 @@ class LongSweeps {
   /// Keeps a reference to `problem`: as for GaussSeidel. From the forces `p`.
   LongSweeps(const Problem& problem, Vector p);
 
-  /// Goes on where it ended before, until `accepts` says yes to forces and motions (true), the deadline has passed, or
-  /// `most` sweeps are done in all; up to four times as many where the second half of them, or the last 500, halved the
-  /// least natural map.
+  /// Until `accepts` says yes to forces and motions (true), the deadline has passed, or `most` sweeps of either kind
+  /// are done; fewer where neither their second half nor the last `patience` halved the natural map.
   bool run(int most, const IsSolution& accepts, const Deadline& deadline = {});
 
   const Vector& p() const { return best_; }      ///< accepted, or of the least natural map
@@ -38,28 +37,19 @@ class LongSweeps {
     Vector p;
     double map;
   };
-  /// Changes of p and of f over the last rounds.
-  class Changes {
-   public:
-    explicit Changes(Eigen::Index n);
-    void remember(const Vector& before, const Vector& p);
-    bool extrapolate(Vector& p) const;
-    void forget() { count_ = next_ = 0, last_p_.resize(0); }
-
-   private:
-    Matrix f_, p_;
-    Vector last_f_, last_p_;  // empty after forget()
-    int count_ = 0, next_ = 0;
-  };
+  bool settles(int most, const IsSolution& accepts, const Deadline& deadline);
+  bool round(const Deadline& deadline);
 
   const Problem& problem_;
   const Measure measure_;
-  GaussSeidel iteration_;
-  Changes changes_;
+  std::unique_ptr<GaussSeidel> iteration_;
+  Extrapolation changes_;
   Vector p_, best_;
   std::optional<Round> round_;  // S(p) where p_ is extrapolated, to go back to
-  double least_ = HUGE_VAL, halved_ = HUGE_VAL;
-  int sweeps_ = 0, gained_ = 0;
+  double least_ = HUGE_VAL;
+  int sweeps_ = 0;
+  bool random_ = false;  // orders
+  std::minstd_rand engine_;
 };
 
 }  // namespace scabo::contact
