@@ -81,6 +81,33 @@ steps: [{{dynamic: {{duration: 1, step: 0.05}}, loads: {{moving: slowly}}, incre
   EXPECT_THROW(run(model(-0.01)), InputError);
 }
 
+// A slender rod that contact alone holds goes from rest into motion, though the gaps that follow from its displacements
+// have their rounding errors. An interference that no step at rest has resolved is refused.
+TEST(Dynamics, WhatContactAloneHoldsGoesFromRestIntoMotion) {
+  const auto model = [](double gap, const std::string& rest) {
+    return fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress, thickness: 0.5{}}}
+materials: {{rod: {{young: 100, poisson: 0, density: 1}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [8, 1]}}}}}}
+  rod: {{material: rod, shape: {{rectangle: {{corner: [0, 0], size: [6, 0.2]}}}}, mesh: {{kind: fem, size: 0.2, order: 1}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+loads: {{press: {{on: rod.top, pressure: 2}}}}
+contacts: {{base: {{between: [floor.top, rod.bottom], friction: 0.2, gap: {}}}}}
+steps:
+{}  - {{name: stay, dynamic: {{duration: 0.1, step: 0.02}}, increments: 1}}
+)",
+                       rest.empty() ? ", type: dynamic" : "", gap, rest);
+  };
+  for (const double gap : {0.0, -1e-3}) {
+    const StaticSolution solution = run(model(gap, "  - {name: press}\n"));
+    ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+    EXPECT_NEAR(last(solution).contacts[0].normal_force, 6.0, 1e-6);
+  }
+  EXPECT_THROW(run(model(-1e-3, "")), InputError);
+}
+
 // A rigid block on a bed without mass, stiff enough to be rigid too, under a ground acceleration.
 std::string block_on_ground(const std::string& curve, double shaken, double step) {
   return fmt::format(R"(
