@@ -30,7 +30,7 @@ BEYOND_SCHEMA = re.compile(
     r"|revolution_|load_spin_|stage_|fit_|restart_|symmetry_(?!of_nothing)"
     r"|body_thickness_(in_plane|of_rev)|image_|tie_(all_|with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named|too_)|regions?_(of_unknown|of_the_same|outside|overlap|in_a_hole|too_)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
-    r"|dynamic_(?!damping)|added_mass_|growth_(?!toughness|nothing|law|criterion|distance_zero|break)|limit_(?!of_nothing|too_wide)|initial_without_time|space_"
+    r"|dynamic_(?!damping)|added_mass_|point_mass_|growth_(?!toughness|nothing|law|criterion|distance_zero|break)|limit_(?!of_nothing|too_wide)|initial_without_time|space_"
     r"|cad_runs_|solver_tolerance_below_"
     r"|imported_(no_|folded|cut_off|empty|apart|unknown_(region|material|edge)|material_of|region_without|polygon_as|cell_without)"
     r"|forces_per_radian_|support_(conflict|name_|formula_(of_a_point|unknown|without))|load_(on_unknown|moving_|force_on|pressure_on|traction_on|gravity_|none|section_empty)"
@@ -40,7 +40,7 @@ BEYOND_SCHEMA = re.compile(
     r"|quantity_|sectors?_|output_(body_unknown|line_without|name_twice)|place_two_dots|outside_(gravity|temperature|in_finite|face_)|reference_|anisotropic_not|orthotropic_(nu12|third|and_young)"
     r"|edge_load_(not_asc|off_|on_a_body|third|values_missing)|water_(on_a_corner|up_zero)"
     r"|support_(normal_of|normal_and_|along_zero)|temperature_(on_an|without|radial_(negative|in_one|with_a_bar)|table_(bends|goes_back|in_finite|not_ascending|of_a_point|off_its))|body_force_on_a|law_(dynamic_(backward_)?above|along_not_ascending)|number_underflow|modal_|step_(unknown|name_twice|never|names|increments_(smallest_above|first_above))|later_|imported_crack|parameter_(?!of_)"
-    r"|history_(contact_unknown|broken_|factor_of_|moment_of_|pore_|section_of|section_outside|axes_(of_an_|word|not_finite)|displacement_unknown|edge_(is_|of_|unknown))|slip_large_(curved|with_tol|in_stages)|size_auto_|property_(unknown$)|curve_(unknown|jumps|not_asc|ramp_back|over_(?!no_length))|step_(cycles|factor_is|friction_(unknown|of_a))")
+    r"|history_(contact_unknown|stress_of_a_rigid_body|broken_|factor_of_|moment_of_|pore_|section_of|section_outside|axes_(of_an_|word|not_finite)|displacement_unknown|edge_(is_|of_|unknown))|slip_large_(curved|with_tol|in_stages)|size_auto_|property_(unknown$)|curve_(unknown|jumps|not_asc|ramp_back|over_(?!no_length))|step_(cycles|factor_is|friction_(unknown|of_a))")
 
 
 class Loader(yaml.SafeLoader):

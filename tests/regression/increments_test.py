@@ -1,4 +1,5 @@
 """Automatic increments: few where nothing depends on the path, more where states change, the same in every unit."""
+import csv
 import json
 import subprocess
 import sys
@@ -96,6 +97,28 @@ steps: [{dynamic: {duration: 0.02, step: 1e-3}, increments: 4}]
             self.assertEqual(abs(velocity[body == 3]).max(), 0.0)
         self.solve(model(1))
         self.assertNotIn("velocity", vtu.read_grid(results / "fields_0001.vtu").point_data)
+
+    def test_stresses_of_a_history_are_those_of_the_point_and_their_extremes_have_times(self):
+        kinds = ("stress_xx", "stress_yy", "stress_xy", "stress_zz", "principal_1", "principal_2", "principal_3", "von_mises")
+        self.solve("""scabo: 1
+analysis: {plane: strain}
+materials: {rubber: {young: 1e6, poisson: 0.3, density: 1000}}
+bodies: {block: {material: rubber, shape: {rectangle: {corner: [0, 0], size: [1, 1]}}, mesh: {size: 0.25}}}
+supports: [{on: block.bottom, fix: [x, y]}]
+curves: {quake: {sine: {amplitude: 5, periods: 2}}}
+steps: [{name: shake, dynamic: {duration: 0.4, step: 2e-3, ground: {x: quake}}, increments: 20}]
+output: {fields: [], points: [{at: [0.1, 0.2], name: foot}], history: {%s, corner: block.top_left.von_mises}}
+""" % ", ".join(f"{kind}: foot.{kind}" for kind in kinds))
+        results = self.directory / "model.results"
+        points, history = (list(csv.DictReader((results / name).read_text(encoding="utf-8").splitlines())) for name in ("points.csv", "history.csv"))
+        extremes = summary_of(results)["history"]
+        for kind in kinds:
+            values = [float(row[kind]) for row in history]
+            self.assertEqual(values, [float(row[kind]) for row in points])
+            self.assertGreater(max(map(abs, values)), 0.0)
+            self.assertEqual(extremes[kind]["max"], max(values))
+            self.assertAlmostEqual(extremes[kind]["max_time"], float(history[values.index(max(values))]["time"]))
+        self.assertGreater(float(history[-1]["corner"]), 0.0)
 
     def test_where_states_change_there_are_more(self):
         increments = self.solve(model("auto"))

@@ -163,6 +163,14 @@ class Practice(support.InTemporaryDirectory):
         self.assertLess(max(abs(row["base.ux"] - rows[-1]["base.ux"]) for row in rows[160:]), 1e-4)
         self.assertLess(abs(rows[-1]["lift.uy"]), 1e-9)
 
+    def test_bar_impact(self):
+        """Before and after the impact the wall takes nothing; until the front comes back the force is within 1 %."""
+        self.check("29_bar_impact", page=ROOT / "examples" / "29_bar_impact" / "README.md")
+        hand = hand_of("29_bar_impact")
+        for row in self.history("29_bar_impact", []):
+            if row["time"] < hand.TOUCHES or hand.TOUCHES + 1e-5 < row["time"] < 4.2e-4 or row["time"] > hand.LEAVES:
+                self.assertAlmostEqual(row["force"], hand.force(row["time"]), delta=0.01 * hand.calculate()["force"])
+
     def test_cracked_plate_under_a_wave(self):
         """Before the wave comes the tip is at rest."""
         self.check("39_cracked_plate_under_a_wave", page=ROOT / "examples" / "39_cracked_plate_under_a_wave" / "README.md")

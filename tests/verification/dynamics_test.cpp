@@ -15,35 +15,27 @@ using analysis::IncrementResult;
 using analysis::StaticSolution;
 
 // A bar of length 10 (E = 900, density 1: waves of 30) flies against a wall, gap 5, at a speed of 10 (Doyen, Ern,
-// Piperno 2011): contact from .5 to 1.16667, force E v / c = 300; it leaves at the speed at which it came. `unit`: of
-// length; `angle`: of the whole model.
-std::string bar_on_a_wall(double unit, double angle, int parts) {
-  const auto at = [&](double x, double y) {
-    return fmt::format("[{}, {}]", unit * (x * std::cos(angle) - y * std::sin(angle)),
-                       unit * (x * std::sin(angle) + y * std::cos(angle)));
-  };
+// Piperno 2011): contact from .5 to 1.16667, force E v / c = 300; it leaves at the speed at which it came.
+std::string bar_on_a_wall(int parts) {
   return fmt::format(R"(
 scabo: 1
-analysis: {{type: dynamic, plane: stress, thickness: {0}}}
-materials: {{bar: {{young: {1}, poisson: 0, density: {2}}}}}
+analysis: {{type: dynamic, plane: stress}}
+materials: {{bar: {{young: 900, poisson: 0, density: 1}}}}
 bodies:
-  wall: {{rigid: true, shape: {{polygon: {{vertices: [{3}, {4}, {5}, {6}]}}}}}}
-  bar: {{material: bar, shape: {{polygon: {{vertices: [{7}, {8}, {9}, {10}]}}}}, mesh: {{kind: fem, size: {11}, order: 1}}}}
+  wall: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [1, 3]}}}}}}
+  bar: {{material: bar, shape: {{rectangle: {{corner: [5, 0], size: [10, 1]}}}}, mesh: {{kind: fem, size: {}, order: 1}}}}
 supports: [{{on: wall, fix: [x, y]}}]
-initial: [{{on: bar, velocity: {12}}}]
-contacts: {{hit: {{between: [wall.edge_2, bar.edge_4], friction: 0}}}}
-steps: [{{dynamic: {{duration: 1.5, step: {13}}}, increments: 90}}]
+initial: [{{on: bar, velocity: [-10, 0]}}]
+contacts: {{hit: {{between: [wall.right, bar.left], friction: 0}}}}
+steps: [{{dynamic: {{duration: 1.5, step: {}}}, increments: 90}}]
 )",
-                     unit, 900.0 / unit, 1.0 / unit / unit / unit, at(-1, -1), at(0, -1), at(0, 2), at(-1, 2), at(5, 0),
-                     at(15, 0), at(15, 1), at(5, 1), 10.0 * unit / parts,
-                     fmt::format("[{}, {}]", -10.0 * unit * std::cos(angle), -10.0 * unit * std::sin(angle)),
-                     0.5 * (10.0 / parts) / 30.0);
+                     10.0 / parts, 0.5 * (10.0 / parts) / 30.0);
 }
 
 TEST(Dynamics, ABarHitsAWall) {
   double error_before = 0.0;
   for (const int parts : {20, 40}) {
-    const StaticSolution solution = run(bar_on_a_wall(1.0, 0.0, parts));
+    const StaticSolution solution = run(bar_on_a_wall(parts));
     expect_balanced(solution);
     double impulse = 0.0, in_middle = 0.0;
     int count = 0;
@@ -62,63 +54,6 @@ TEST(Dynamics, ABarHitsAWall) {
     EXPECT_LT(error, 0.02 * 500.0);
     if (error_before > 0.0) EXPECT_LT(error, 0.75 * error_before);
     error_before = error;
-  }
-}
-
-TEST(Dynamics, IsTheSameInOtherUnitsAndTurned) {
-  const StaticSolution one = run(bar_on_a_wall(1.0, 0.0, 20)), other = run(bar_on_a_wall(1000.0, 0.6, 20));
-  ASSERT_EQ(one.increments.size(), other.increments.size());
-  for (std::size_t i = 0; i < one.increments.size(); ++i) {
-    EXPECT_NEAR(other.increments[i].contacts[0].normal_force / 1000.0, one.increments[i].contacts[0].normal_force,
-                3e-6);
-    EXPECT_NEAR(other.increments[i].energy.kinetic / 1e6, one.increments[i].energy.kinetic, 5e-6);
-  }
-}
-
-// A block that slides on rock under a push of the ground along x and y: sides of the contact swapped, bodies and loads
-// in another order, and mirrored, x to -x.
-TEST(Dynamics, IsTheSameSwappedMirroredAndInAnotherOrder) {
-  const auto model = [](bool swapped, bool mirrored, bool in_another_order) {
-    const std::string
-        block = fmt::format(
-            "  block: {{material: stone, shape: {{rectangle: {{corner: [{}, 0], size: [2, 1.5]}}}}, mesh: "
-            "{{kind: fem, size: 0.5, order: 2}}}}\n",
-            mirrored ? -2 : 0),
-        rock = fmt::format(
-            "  rock: {{material: stone, shape: {{rectangle: {{corner: [{}, -1], size: [4, 1]}}}}, mesh: "
-            "{{kind: fem, size: 0.5, order: 2}}}}\n",
-            mirrored ? -3 : -1);
-    return fmt::format(R"(
-scabo: 1
-analysis: {{plane: strain}}
-materials: {{stone: {{young: 2e9, poisson: 0.2, density: 2400, damping: {{ratio: 0.05, between: [20, 200]}}}}}}
-bodies:
-{}{}
-supports: [{{on: rock.bottom, fix: [x, y]}}]
-loads: {{weight: {{gravity: [0, -9.81], on: block}}}}
-contacts: {{base: {{between: {}, friction: 0.4}}}}
-curves: {{along: {{sine: {{amplitude: {}, periods: 2}}}}, up: {{sine: {{amplitude: 2, periods: 3}}}}}}
-steps:
-  - {{name: rest}}
-  - {{name: shake, dynamic: {{duration: 0.3, step: 1e-3, ground: {{x: along, y: up}}}}, increments: 15}}
-solver: {{halvings: 1}}
-)",
-                       in_another_order ? rock : block, in_another_order ? block : rock,
-                       swapped ? "[block.bottom, rock.top]" : "[rock.top, block.bottom]", mirrored ? -8 : 8);
-  };
-  const StaticSolution one = run(model(false, false, false));
-  expect_balanced(one);
-  ASSERT_GT(one.increments.back().energy.friction, 100.0);
-  for (int twin = 0; twin < 3; ++twin) {
-    const StaticSolution other = run(model(twin == 0, twin == 1, twin == 2));
-    ASSERT_EQ(other.increments.size(), one.increments.size()) << other.reason;
-    const double scale = one.increments[0].contacts[0].normal_force, sign = twin == 1 ? -1.0 : 1.0;
-    for (std::size_t i = 0; i < one.increments.size(); ++i) {
-      const IncrementResult &a = one.increments[i], &b = other.increments[i];
-      EXPECT_NEAR(b.contacts[0].normal_force, a.contacts[0].normal_force, 1e-8 * scale) << twin;
-      EXPECT_NEAR(sign * b.reactions[0].x(), a.reactions[0].x(), 1e-8 * scale) << twin;
-      EXPECT_NEAR(b.energy.friction, a.energy.friction, 1e-8 * scale) << twin;
-    }
   }
 }
 
@@ -144,6 +79,33 @@ steps: [{{dynamic: {{duration: 1, step: 0.05}}, loads: {{moving: slowly}}, incre
   };
   EXPECT_EQ(run(model(0.01)).outcome, analysis::Outcome::solved);
   EXPECT_THROW(run(model(-0.01)), InputError);
+}
+
+// A slender rod that contact alone holds goes from rest into motion, though the gaps that follow from its displacements
+// have their rounding errors. An interference that no step at rest has resolved is refused.
+TEST(Dynamics, WhatContactAloneHoldsGoesFromRestIntoMotion) {
+  const auto model = [](double gap, const std::string& rest) {
+    return fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress, thickness: 0.5{}}}
+materials: {{rod: {{young: 100, poisson: 0, density: 1}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [8, 1]}}}}}}
+  rod: {{material: rod, shape: {{rectangle: {{corner: [0, 0], size: [6, 0.2]}}}}, mesh: {{kind: fem, size: 0.2, order: 1}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+loads: {{press: {{on: rod.top, pressure: 2}}}}
+contacts: {{base: {{between: [floor.top, rod.bottom], friction: 0.2, gap: {}}}}}
+steps:
+{}  - {{name: stay, dynamic: {{duration: 0.1, step: 0.02}}, increments: 1}}
+)",
+                       rest.empty() ? ", type: dynamic" : "", gap, rest);
+  };
+  for (const double gap : {0.0, -1e-3}) {
+    const StaticSolution solution = run(model(gap, "  - {name: press}\n"));
+    ASSERT_EQ(solution.outcome, analysis::Outcome::solved) << solution.reason;
+    EXPECT_NEAR(last(solution).contacts[0].normal_force, 6.0, 1e-6);
+  }
+  EXPECT_THROW(run(model(-1e-3, "")), InputError);
 }
 
 // A rigid block on a bed without mass, stiff enough to be rigid too, under a ground acceleration.
@@ -283,6 +245,23 @@ TEST(Dynamics, AWallOfRigidBlocksSlidesOnItsGround) {
   EXPECT_NEAR(force[1], 0.6 * force[0], 1e-9 * force[0]);
 }
 
+// Impulse and momentum: what the wall gives to the bar changes the velocity of its centroid, and nothing else does.
+// Forces are means of time steps, here of all.
+TEST(Dynamics, TheImpulseOfTheWallIsTheMomentumOfTheBar) {
+  const StaticSolution solution = run(bar_on_a_wall(20), {"solver={halvings: 0}", "steps.0.increments=180"});
+  expect_balanced(solution);
+  double impulse = 0.0;
+  for (const IncrementResult& at : solution.increments) {
+    impulse += at.contacts[0].normal_force * 1.5 / 180.0;
+    double momentum = 0.0;
+    for (const mesh::Cell& cell : solution.mesh.bodies[1].cells)
+      for (const mesh::LineElement& side : cell.boundary)
+        momentum += at.fields.velocities[1][2 * side.nodes.front()] / (4.0 * 40.0) * 10.0;
+    EXPECT_NEAR(momentum, -100.0 + impulse, 1e-9 * 100.0) << *at.time;
+  }
+  EXPECT_GT(impulse, 190.0);
+}
+
 // GetFEM's bar: u = (1 - x)/2 at first, E = density = length = 1, fixed at x = 1, wall at x = 0: the period is 3 and
 // the pressure 1/2 for 1 < t < 2.
 TEST(Dynamics, ABarThatIsLetGoHitsAgainAndAgain) {
@@ -316,9 +295,10 @@ steps:
   EXPECT_NEAR(end.kinetic + end.elastic, 0.0125, 0.015 * 0.0125);
 }
 
-// An elastic block on an elastic bed without mass, 3 g for 1 s: the energy does not grow afterwards.
+// An elastic block on an elastic bed without mass, 3 g for 1 s: its energy above that at rest, motion, strain and
+// height, is never more than 1.001 times that at the end of the shaking.
 TEST(Dynamics, ABedWithoutMassGivesNoEnergy) {
-  for (const double step : {5e-4, 2e-3}) {
+  for (const double step : {5e-4, 1e-3, 2e-3}) {
     const StaticSolution solution = run(fmt::format(R"(
 scabo: 1
 analysis: {{plane: strain}}
@@ -335,18 +315,21 @@ curves: {{quake: {{sine: {{amplitude: 29.43, periods: 5}}}}}}
 steps:
   - {{name: rest}}
   - {{name: shake, dynamic: {{duration: 1, step: {0}, ground: {{x: quake}}}}, increments: 4}}
-  - {{name: after, dynamic: {{duration: 1, step: {0}}}, increments: 40}}
+  - {{name: after, dynamic: {{duration: 1, step: {0}}}, increments: 100}}
 )",
                                                     step));
     expect_balanced(solution);
-    const auto energy = [](const IncrementResult& at) {
-      return at.energy.kinetic + at.energy.elastic - at.energy.external;
+    const auto energy = [&](const IncrementResult& at) {
+      double height = 0.0;  // of the centroid
+      for (const mesh::Cell& cell : solution.mesh.bodies[0].cells)
+        for (const mesh::LineElement& side : cell.boundary)
+          height += at.fields.displacements[0][2 * side.nodes.front() + 1] / (4.0 * 16.0);
+      return at.energy.kinetic + at.energy.elastic + 4.0 * 2400.0 * 9.81 * height;
     };
-    double before = energy(solution.increments[4]);
-    for (std::size_t i = 5; i < solution.increments.size(); ++i) {
-      EXPECT_LT(energy(solution.increments[i]), before + 1e-3 * std::abs(before));
-      before = energy(solution.increments[i]);
-    }
+    const double rest = energy(solution.increments[0]), shaken = energy(increment_at(solution, 4)) - rest;
+    EXPECT_GT(shaken, 1e3);
+    for (std::size_t i = 5; i < solution.increments.size(); ++i)
+      EXPECT_LT(energy(solution.increments[i]) - rest, 1.001 * shaken) << step << ' ' << i;
   }
 }
 
@@ -378,7 +361,10 @@ steps:
   const ContactResult &moved = in_time.increments.back().contacts[0], &rested = at_rest.increments.back().contacts[0];
   EXPECT_NEAR(moved.normal_force, rested.normal_force, 1e-4 * rested.normal_force);
   EXPECT_NEAR(moved.tangential_force, rested.tangential_force, 1e-4 * rested.normal_force);
-  EXPECT_NEAR(moved.max_pressure, rested.max_pressure, 1e-3 * rested.max_pressure);
+  EXPECT_NEAR(moved.max_pressure, rested.max_pressure, 1e-4 * rested.max_pressure);
+  const Vector &u = in_time.increments.back().fields.displacements[1],
+               &v = at_rest.increments.back().fields.displacements[1];
+  EXPECT_LT((u - v).lpNorm<Eigen::Infinity>(), 1e-4 * v.lpNorm<Eigen::Infinity>());
 }
 
 // Bodies that fly and turn: velocity of the centroid, and rotation times the arm of the point.

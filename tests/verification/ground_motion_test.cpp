@@ -92,6 +92,28 @@ steps: [{{dynamic: {{duration: 0.5, step: 1e-3, ground: {{x: quake}}}}, incremen
   }
 }
 
+// A record in g that is said to be in m/s2 is warned of: it may be a weak one.
+TEST(GroundMotion, AWeakRecordMayHaveAnotherUnit) {
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "in_g.csv";
+  std::ofstream(file) << "0, 0\n0.01, 0.3\n0.02, -0.2\n0.03, 0\n";
+  const model::Model model = input::parse_model(fmt::format(R"(
+scabo: 1
+analysis: {{type: dynamic, plane: stress}}
+materials: {{stone: {{young: 1e8, poisson: 0.2, density: 2000}}}}
+bodies: {{column: {{material: stone, shape: {{rectangle: {{corner: [0, 0], size: [1, 4]}}}}, mesh: {{kind: fem, size: 1}}}}}}
+supports: [{{on: column.bottom, fix: [x, y]}}]
+curves: {{quake: {{record: {{file: {}, unit: m/s2}}}}}}
+steps: [{{dynamic: {{duration: 0.03, step: 1e-3, ground: {{x: quake}}}}, increments: 1}}]
+)",
+                                                            file.string()),
+                                                "test.yaml");
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(
+      model.warnings[0].text,
+      "the largest acceleration of record 'quake' is 0.0306 g, which is little for an earthquake: are its values in "
+      "m/s2 and not in g?");
+}
+
 // A bar between two supports, of which a record moves one: until the wave comes back from the other, the force on the
 // moved end is E A/c times its velocity.
 TEST(GroundMotion, ARecordMovesOneSupport) {

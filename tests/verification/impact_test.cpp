@@ -180,6 +180,28 @@ output: {{fields: []}}
   }
 }
 
+// A block that turns over is followed by the theory of small rotations, and a warning says by how much it is beyond it.
+TEST(Impact, ABlockThatTurnsFarIsWarnedOf) {
+  const StaticSolution solution = run(R"(
+scabo: 1
+analysis: {type: dynamic, plane: stress}
+bodies:
+  ground: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [3, 1]}}}
+  block: {rigid: true, density: 1000, shape: {rectangle: {corner: [0, 0], size: [0.5, 2]}}}
+supports: [{on: ground, fix: [x, y]}]
+initial: [{on: block, velocity: [2, 0.5], rotation: -2}]
+loads: {weight: {gravity: [0, -9.81], on: block}}
+contacts: {base: {between: [ground.top, block.bottom], friction: 5}}
+steps: [{dynamic: {duration: 0.2, step: 5e-3}, increments: 2}]
+)");
+  expect_balanced(solution);
+  ASSERT_FALSE(solution.warnings.empty());
+  EXPECT_TRUE(solution.warnings.front().text.starts_with(
+      "step step_1, increment 1: body 'block' turns by -0.191 rad, "
+      "held by contact alone: the theory is valid for rotations of up to 0.1 rad"))
+      << solution.warnings.front().text;
+}
+
 // What a rigid block does, a stiff one does too where nothing hits: it slides on its ground under one cycle. Without
 // damping an elastic block chatters and slides with less friction.
 TEST(Impact, AStiffBlockSlidesAsARigidOne) {

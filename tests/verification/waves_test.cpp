@@ -87,6 +87,37 @@ steps:
   }
 }
 
+// The same with a damping of the stiffness that falls with the elements: the error of the end falls with them.
+// Undamped, the rod chatters behind the front: its end is within 1 to 2 % with any elements.
+TEST(Waves, InARodOnARoughFloorConvergeWithDamping) {
+  const double P = 0.4, q = 0.2, EA = 10.0, c = 10.0;
+  double before = 0.0;
+  for (const double size : {0.1, 0.05, 0.025}) {
+    const StaticSolution solution = run(fmt::format(R"(
+scabo: 1
+analysis: {{plane: stress}}
+materials: {{rod: {{young: 100, poisson: 0, density: 1, damping: {{ratio: 0.5, between: [0.001, {2}]}}}}}}
+bodies:
+  floor: {{rigid: true, shape: {{rectangle: {{corner: [-1, -1], size: [8, 1]}}}}}}
+  rod: {{material: rod, shape: {{rectangle: {{corner: [0, 0], size: [6, 0.1]}}}}, mesh: {{kind: fem, size: {0}, order: 1}}}}
+supports: [{{on: floor, fix: [x, y]}}]
+loads:
+  press: {{on: rod.top, pressure: 1}}
+  push: {{on: rod.left, traction: [4, 0]}}
+contacts: {{base: {{between: [floor.top, rod.bottom], friction: 0.2}}}}
+steps:
+  - {{name: press, loads: {{press: 1}}}}
+  - {{name: push, dynamic: {{duration: 0.6, step: {1}}}, loads: {{push: 1}}, increments: 1}}
+)",
+                                                    size, size / c, 40.0 * c / size / (2.0 * std::numbers::pi)));
+    const double farthest = P * P / (EA * q),
+                 error = std::abs(displacement_at(solution, last(solution), 1, {0.0, 0.05}).x() / farthest - 1.0);
+    EXPECT_LT(error, 0.35 * size);
+    if (before > 0.0) EXPECT_LT(error, 0.7 * before);
+    before = error;
+  }
+}
+
 // A cylindrical cavity of radius 1 in the plane, plane strain, nu = 0.3, under a pressure p from t = 0 on: mu u/(p a)
 // and hoop stress over p of its wall at c_p t/a = 1, 2, 4, 10. The outer edge at 6.5 sends its reflection back at 11.
 // The front would leave vibrations of the elements behind, 10 % of the stress: a little damping takes them away.

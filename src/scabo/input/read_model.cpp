@@ -145,12 +145,28 @@ void read_added_masses(Reading& reading, const Value& value) {
   }
 }
 
+/// `point_masses: [{on: tower.top_left, mass: 2000}]`.
+void read_point_masses(Reading& reading, const Value& value) {
+  constexpr const char* example = "{on: tower.top_left, mass: 2000}";
+  const auto items = read_list(reading.report, value, fmt::format("[{}]", example));
+  for (const Value& item : items.value_or(std::vector<Value>{})) {
+    const std::size_t before = reading.report.count();
+    const MapReader map(reading.report, item, {"on", "mass"}, example);
+    PointMass point;
+    point.source = item.source();
+    if (const auto on = map.need("on")) point.on = read_place(reading, *on).place;
+    point.mass = number_or_unread(reading, map.need("mass"));
+    if (point.on && reading.report.count() == before) reading.model.point_masses.push_back(std::move(point));
+  }
+}
+
 /// Reads all sections; each may use those before it.
 void read_sections(Reading& reading, const Value& root) {
   const MapReader map(reading.report, root,
-                      {"scabo",   "title",  "parameters",         "analysis", "materials", "bodies",     "supports",
-                       "springs", "loads",  "contact_properties", "contacts", "ties",      "curves",     "steps",
-                       "solver",  "output", "tolerance",          "restart",  "initial",   "added_mass", "bars"},
+                      {"scabo",       "title",  "parameters",         "analysis", "materials", "bodies",     "supports",
+                       "springs",     "loads",  "contact_properties", "contacts", "ties",      "curves",     "steps",
+                       "solver",      "output", "tolerance",          "restart",  "initial",   "added_mass", "bars",
+                       "point_masses"},
                       "'scabo: 1' and sections",
                       {{"units", about_units}, {"unit", about_units}, {"unit_system", about_units}});
   if (!map.is_map()) {
@@ -189,6 +205,7 @@ void read_sections(Reading& reading, const Value& root) {
   find_named_steps(reading);
   if (const auto initial = map.get("initial")) read_initial(reading, *initial);
   if (const auto water = map.get("added_mass")) read_added_masses(reading, *water);
+  if (const auto masses = map.get("point_masses")) read_point_masses(reading, *masses);
   if (const auto output = map.get("output")) read_output(reading, *output);
   if (const auto tolerance = map.get("tolerance"))
     read_tolerance(reading, *tolerance);

@@ -34,6 +34,14 @@ constexpr QuantityWord history_words[] = {{"force_x", Quantity::Kind::contact_fo
                                           {"moment", Quantity::Kind::contact_moment, 0},
                                           {"vx", Quantity::Kind::velocity, 0},
                                           {"vy", Quantity::Kind::velocity, 1},
+                                          {"stress_xx", Quantity::Kind::stress, 0},
+                                          {"stress_yy", Quantity::Kind::stress, 1},
+                                          {"stress_xy", Quantity::Kind::stress, 2},
+                                          {"stress_zz", Quantity::Kind::stress, 3},
+                                          {"principal_1", Quantity::Kind::stress, 4},
+                                          {"principal_2", Quantity::Kind::stress, 5},
+                                          {"principal_3", Quantity::Kind::stress, 6},
+                                          {"von_mises", Quantity::Kind::stress, 7},
                                           {"max_pressure", Quantity::Kind::max_pressure, 0},
                                           {"centre_x", Quantity::Kind::centre_of_pressure, 0},
                                           {"centre_y", Quantity::Kind::centre_of_pressure, 1},
@@ -108,6 +116,7 @@ class QuantityReader {
         return of_support(name);
       case Quantity::Kind::displacement:
       case Quantity::Kind::velocity:
+      case Quantity::Kind::stress:
         return name.find('.') == std::string::npos ? of_point(name) : of_corner(name);
       case Quantity::Kind::stress_intensity:
       case Quantity::Kind::t_stress:

@@ -106,13 +106,17 @@ void check_energy(Checking& checking, const std::string& path) {
                              load->name, body->name));
 }
 
-void check_point_of(Checking& checking, const std::string& path, const Quantity& quantity) {
-  if (quantity.index != -1) check_number_of(checking, path, "body", quantity.index, checking.model.bodies.size());
-  checking.vector(path, "at", quantity.at);
-}
-
 void check_time(Checking& checking, const std::string& path) {
   if (!is_dynamic(checking.model)) checking.error(path, "", "belongs to steps in time, and the model has none");
+}
+
+void check_point_of(Checking& checking, const std::string& path, const Quantity& quantity) {
+  if (quantity.kind == Quantity::Kind::velocity) check_time(checking, path);
+  checking.vector(path, "at", quantity.at);
+  if (quantity.index == -1 || !check_number_of(checking, path, "body", quantity.index, checking.model.bodies.size()) ||
+      quantity.kind != Quantity::Kind::stress || !checking.body(quantity.index).rigid)
+    return;
+  checking.error(path, "", fmt::format("body '{}' is rigid and has no stress", checking.body(quantity.index).name));
 }
 
 void check_quantity(Checking& checking, const std::string& path, const Quantity& quantity, bool with_bar) {
@@ -139,10 +143,8 @@ void check_quantity(Checking& checking, const std::string& path, const Quantity&
       check_number_of(checking, path, "bar", quantity.index, model.bars.size());
       break;
     case Quantity::Kind::displacement:
-      check_point_of(checking, path, quantity);
-      break;
     case Quantity::Kind::velocity:
-      check_time(checking, path);
+    case Quantity::Kind::stress:
       check_point_of(checking, path, quantity);
       break;
     case Quantity::Kind::stress_intensity:

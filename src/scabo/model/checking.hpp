@@ -93,6 +93,7 @@ void check_density(Checking& checking);
 void check_initial(Checking& checking);
 /// Water that moves with edges.
 void check_added_masses(Checking& checking);
+void check_point_masses(Checking& checking);
 void check_expansion(Checking& checking);
 void check_bodies_held(Checking& checking);
 void check_something_loads(Checking& checking);

@@ -143,6 +143,14 @@ struct AddedMass {
   Source source;
 };
 
+/// A machine, a bell, a deck: a mass at a corner of a body, without extent. It moves with the corner, and gravity acts
+/// on it as on its body.
+struct PointMass {
+  std::optional<Place> on;
+  double mass = 0.0;  ///< > 0; in a plane model of the thickness of the body
+  Source source;
+};
+
 /// A load that travels along an edge: it acts at `from` + `velocity` t from the start of the edge, t being the time
 /// since the begin of the first step in time.
 struct Moving {

@@ -105,7 +105,15 @@ struct Model {
   Output output;
   std::optional<QuantityTolerance> tolerance;  ///< meshes are refined until the bar of a number is that small
   std::vector<AddedMass> added_masses;         ///< water that moves with edges, in time and in modes
+  std::vector<PointMass> point_masses;
 };
+
+inline std::vector<PointMass> point_masses_on(const Model& model, int body) {
+  std::vector<PointMass> found;
+  for (const PointMass& point : model.point_masses)
+    if (point.on->body == body) found.push_back(point);
+  return found;
+}
 
 /// Length of a body across the plane; not used by bodies of revolution.
 inline double thickness_of(const Model& model, int body) {

@@ -28,6 +28,7 @@ struct Quantity {
     friction_energy,     ///< dissipated, force times length
     energy_in_time,      ///< kinetic (component 0), damping (1), impact (2), projection (3), massless (4)
     velocity,            ///< of a point, relative to the ground, length / time
+    stress,              ///< of a point: xx, yy, xy, zz, principal_1, 2, 3, von_mises (components 0 to 7)
     ground_velocity,     ///< of the ground, which was at rest before the first step in time, length / time
     spring_force,        ///< of springs on their body, force
     bar_tension,         ///< of a bar, force
@@ -43,9 +44,9 @@ struct Quantity {
   };
   Kind kind = Kind::elastic_energy;
   std::string name;   ///< as given by the user
-  int index = -1;     ///< contact, support, spring, bar or body; displacement, velocity: -1 for the body with the point
+  int index = -1;     ///< contact, support, spring, bar or body; displacement, velocity, stress: -1: with the point
   int component = 0;  ///< 0: x or K_I, 1: y or K_II; others as above
-  Vec2 at = Vec2::Zero();  ///< displacement, velocity: the point
+  Vec2 at = Vec2::Zero();  ///< displacement, velocity, stress: the point
   std::string crack;  ///< `flaw`; `flaw.start` or `flaw.end` if both ends are tips; the corner at the scaling centre
   Source source;
 

@@ -251,6 +251,7 @@ std::vector<Mistake> validate(const Model& model, const Gaps& gaps) {
     check_initial(checking);
   }
   check_added_masses(checking);
+  check_point_masses(checking);
   if (!checking.gaps.steps) {
     if (!modal) check_never_applied(checking);
     if (!modal) check_fits(checking);

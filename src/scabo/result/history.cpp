@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -11,6 +12,7 @@
 
 #include "scabo/analysis/state/quantities.hpp"
 #include "scabo/result/contact_table.hpp"
+#include "scabo/result/stress.hpp"
 
 namespace scabo::result {
 
@@ -29,13 +31,32 @@ std::pair<std::string, std::string> names_along(const model::ResultAxes& axes, c
   return {".normal", ".tangential"};
 }
 
-/// The point whose displacement or velocity is wanted, if one is.
+/// The point whose displacement, velocity or stress is wanted, if one is.
 const model::Quantity* point_of(const model::HistoryItem& item) {
   if (const auto* place = std::get_if<model::PlaceDisplacement>(&item.of)) return &place->of;
   const auto* quantity = std::get_if<model::Quantity>(&item.of);
   const bool moves = quantity && (quantity->kind == model::Quantity::Kind::displacement ||
-                                  quantity->kind == model::Quantity::Kind::velocity);
+                                  quantity->kind == model::Quantity::Kind::velocity ||
+                                  quantity->kind == model::Quantity::Kind::stress);
   return moves ? quantity : nullptr;
+}
+
+/// What is wanted of a point.
+std::optional<double> value_at(const PointResult& point, const model::Quantity& quantity) {
+  if (point.absent) return std::nullopt;
+  const auto component = static_cast<std::size_t>(quantity.component);
+  if (quantity.kind != model::Quantity::Kind::stress) return point.values.displacement[quantity.component];
+  if (!point.has_stress) return std::nullopt;
+  const element::Vec3& stress = point.values.stress;
+  const StressMeasures measures = stress_measures(stress, point.stress_zz);
+  return std::array{stress[0],
+                    stress[1],
+                    stress[2],
+                    point.stress_zz,
+                    measures.principal[0],
+                    measures.principal[1],
+                    measures.principal[2],
+                    measures.von_mises}[component];
 }
 
 std::vector<std::string> columns_of(const model::HistoryItem& item) {
@@ -51,7 +72,7 @@ std::vector<std::string> columns_of(const model::HistoryItem& item) {
   return {item.name + ".normal", item.name + ".shear", item.name + ".moment"};
 }
 
-/// Body and position of a displacement or velocity.
+/// Body and position of a displacement, velocity or stress.
 mesh::OutputPoint point_of(const model::Model& model, const model::Quantity& quantity) {
   mesh::OutputPoint point;
   point.at = quantity.at;
@@ -170,9 +191,7 @@ std::string History::row(const analysis::StaticSolution& solution, const analysi
     if (const auto* quantity = std::get_if<model::Quantity>(&items_[i].of)) {
       const bool by_velocity = quantity->kind == model::Quantity::Kind::velocity;
       const PointResult* at = point_of(items_[i]) ? &(by_velocity ? moving : values)[place_[i]] : nullptr;
-      add(!at          ? analysis::value_of(solution, increment, *quantity)
-          : at->absent ? std::nullopt
-                       : std::optional(at->values.displacement[quantity->component]));
+      add(at ? value_at(*at, *quantity) : analysis::value_of(solution, increment, *quantity));
       continue;
     }
     const SectionPoints& section = sections_[i];

@@ -179,6 +179,9 @@ std::string report_increment(const model::Model& model, const analysis::Incremen
   if (increment.error) text += fmt::format(", estimated error {:.2g}", increment.error->relative);
   if (increment.converged) {
     text += fmt::format(", certificate {:.2g}", increment.certificate.worst());
+    if (increment.time)
+      text += fmt::format("; impact took {:.4g}, projection {:.4g} so far", increment.energy.impact,
+                          increment.energy.projection);
     if (increment.uniqueness) {
       text += fmt::format(", unique: {}", increment.uniqueness->verdict);
       if (increment.uniqueness->others > 0)
@@ -328,14 +331,25 @@ std::string report_quantities(const analysis::IncrementResult& increment) {
   return text;
 }
 
+std::string report_energies(const analysis::IncrementResult& increment) {
+  if (!increment.time) return {};
+  const analysis::Energy& energy = increment.energy;
+  std::vector<std::vector<std::string>> rows = {
+      {"energy", "work", "kinetic", "elastic", "friction", "damping", "impact", "projection", "massless"}, {"in sum"}};
+  for (const double term : {energy.external, energy.kinetic, energy.elastic, energy.friction, energy.damping,
+                            energy.impact, energy.projection, energy.massless})
+    rows.back().push_back(fmt::format("{:.4g}", term));
+  return table(rows);
+}
+
 std::string report_totals(const model::Model& model, const analysis::IncrementResult& increment) {
   const std::string heading =
       fmt::format("After step {}, increment {}{}:\n", increment.step_name, increment.increment,
                   model.analysis.revolved() ? fmt::format(", forces of {}", model.analysis.forces_of()) : "");
   std::string text;
-  for (const std::string& part :
-       {report_contacts(model, increment), report_reactions(model, increment), report_springs(model, increment),
-        report_bars(model, increment), report_cracks(increment), report_quantities(increment)})
+  for (const std::string& part : {report_contacts(model, increment), report_reactions(model, increment),
+                                  report_springs(model, increment), report_bars(model, increment),
+                                  report_cracks(increment), report_energies(increment), report_quantities(increment)})
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   return heading + text;
 }

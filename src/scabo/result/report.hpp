@@ -23,7 +23,7 @@ std::string report_header(const model::Model& model, const ModelSizes& sizes);
 std::string report_passes(const analysis::StaticSolution& solution);
 
 /// `step press, increment 2 of 10: tip = 0.2; 4 iterations, residual 3.1e-15, certificate 2.2e-14`, or the reason if it
-/// did not converge. One line.
+/// did not converge; in time also what contact and projection have taken so far (below 0: given). One line.
 std::string report_increment(const model::Model& model, const analysis::IncrementResult& increment);
 
 /// The law of a contact, as in `friction 0.5, cohesion 3e+05 until failure`.
@@ -33,6 +33,9 @@ std::string describe_law(const model::Contact& contact);
 // residual of equilibrium in the certificate, or below what the rounding of coordinates makes of it; a gap below 1e-12
 // of the largest displacement, or below the rounding of coordinates; one of the two factors of a crack below 1e-12 of
 // the other; an effective mass below 1e-12 of the total. Files for programs contain the computed values.
+
+/// Terms of the balance of energy since the begin; empty for an increment at rest.
+std::string report_energies(const analysis::IncrementResult& increment);
 
 /// Totals of every contact; empty if there is none.
 std::string report_contacts(const model::Model& model, const analysis::IncrementResult& increment);

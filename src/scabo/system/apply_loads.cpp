@@ -47,11 +47,10 @@ class Applied {
     const mesh::PlaceNodes at = mesh::nodes_of(*place_, mesh_);
     if (!at.elements.empty()) {
       const Vec2 traction = force.value / area_of(at.elements, body_mesh_.nodes, extent());
-      apply_traction(at, [&](const Vec2&, const Vec2&) { return traction; });
-    } else {
-      nodal = Vector::Zero(size());
-      nodal.segment<2>(place_of(at.nodes.front())) = force.value;
+      return apply_traction(at, [&](const Vec2&, const Vec2&) { return traction; });
     }
+    nodal = Vector::Zero(size());
+    nodal.segment<2>(place_of(at.nodes.front())) = force.value;
   }
 
   void operator()(const model::Traction& traction) {
@@ -70,7 +69,6 @@ class Applied {
   void operator()(const model::EdgeTable& table) { apply(varying_traction(table, edge())); }
 
   void operator()(const model::Water& water) { apply(varying_traction(water)); }
-
   /// A load that moves, at a place along its edge.
   void at_place(const model::Load& load, double place) {
     if (const auto* force = std::get_if<model::Force>(&load.kind)) {
@@ -99,7 +97,10 @@ class Applied {
       nodal = Vector::Zero(3);
       const double mass =
           body_.density.value_or(0.0) * body_.outline.area() * extent().at(body_.outline.centroid().x());
-      return add_to_rigid(body_.outline.centroid(), mass * gravity.value);
+      add_to_rigid(body_.outline.centroid(), mass * gravity.value);
+      for (const model::PointMass& point : model::point_masses_on(model_, number_))
+        add_to_rigid(rigid_points(*point.on, body_).front(), point.mass * gravity.value);
+      return;
     }
     const auto density_of = [&](int material) {
       return model_.materials[static_cast<std::size_t>(material)].density.value_or(0.0);
@@ -112,9 +113,11 @@ class Applied {
               element::body_force_loads(cell.ring, {gravity.value.x()}, {gravity.value.y()}, thickness(), density);
         },
         [&](const element::FiniteElement& cell, const model::Material& material, element::InteriorLoads&) {
-          const Vec2 force = material.density.value_or(0.0) * gravity.value;
-          return element::finite_element_body_force(cell, {force.x()}, {force.y()}, extent());
+          const Vec2 f = material.density.value_or(0.0) * gravity.value;
+          return element::finite_element_body_force(cell, {f.x()}, {f.y()}, extent());
         });
+    for (const model::PointMass& point : model::point_masses_on(model_, number_))
+      nodal.segment<2>(place_of(mesh::nodes_of(*point.on, mesh_).nodes.front())) += point.mass * gravity.value;
   }
 
   void operator()(const model::Spin& spin) {
@@ -467,8 +470,7 @@ void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh
       Applied applied(model, mesh, cells, *structure.parts[part], b, load.on ? &*load.on : nullptr);
       applied(load);
       if (const auto* at_rest = std::get_if<model::AtRest>(&load.kind)) {
-        const Vector& of_part = structure.springs.at_rest[static_cast<std::size_t>(at_rest->spring)];
-        forces[part] = of_part;
+        const Vector& of_part = forces[part] = structure.springs.at_rest[static_cast<std::size_t>(at_rest->spring)];
         if (of_bodies) structure.of_bodies.back()[b] = structure.dofs.of_body(body, of_part);
         continue;
       }

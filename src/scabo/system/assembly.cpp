@@ -280,8 +280,22 @@ std::vector<Eigen::Triplet<double>> entries_of(const model::AddedMass& water, co
   return mass_along_normals(edge.elements, nodes, model::extent_of(model, water.on->body), layer, {depth, {0.0}});
 }
 
-/// The water that moves with the edges of a part.
-void add_water(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs, std::size_t part, Stiffness& mass) {
+/// Adds entries in the numbering of a part.
+void add(const std::vector<Eigen::Triplet<double>>& entries, Stiffness& mass) {
+  if (mass.dense) {
+    Matrix with = *mass.dense;
+    for (const Eigen::Triplet<double>& entry : entries) with(entry.row(), entry.col()) += entry.value();
+    mass.dense = std::make_shared<const Matrix>(std::move(with));
+    return;
+  }
+  linalg::SparseMatrix more(mass.sparse.rows(), mass.sparse.cols());
+  more.setFromTriplets(entries.begin(), entries.end());
+  mass.sparse += more;
+}
+
+/// The water that moves with the edges of a part, and its point masses.
+void add_to_mass(const model::Model& model, const mesh::Mesh& mesh, const Dofs& dofs, std::size_t part,
+                 Stiffness& mass) {
   for (const model::AddedMass& water : model.added_masses) {
     const int body = water.on->body;
     if (dofs.part_of(body) != part) continue;
@@ -290,15 +304,17 @@ void add_water(const model::Model& model, const mesh::Mesh& mesh, const Dofs& do
       return dofs.of(body, plane_components.node_of(dof), plane_components.component_of(dof));
     };
     for (Eigen::Triplet<double>& entry : entries) entry = {in_part(entry.row()), in_part(entry.col()), entry.value()};
-    if (mass.dense) {
-      Matrix with = *mass.dense;
-      for (const Eigen::Triplet<double>& entry : entries) with(entry.row(), entry.col()) += entry.value();
-      mass.dense = std::make_shared<const Matrix>(std::move(with));
-      continue;
+    add(entries, mass);
+  }
+  for (const model::PointMass& point : model.point_masses) {
+    if (dofs.part_of(point.on->body) != part) continue;
+    const int node = mesh::nodes_of(*point.on, mesh).nodes.front();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int component = 0; component < 2; ++component) {
+      const int dof = dofs.of(point.on->body, node, component);
+      entries.emplace_back(dof, dof, point.mass);
     }
-    linalg::SparseMatrix more(mass.sparse.rows(), mass.sparse.cols());
-    more.setFromTriplets(entries.begin(), entries.end());
-    mass.sparse += more;
+    add(entries, mass);
   }
 }
 
@@ -418,7 +434,7 @@ Stiffness part_mass(const model::Model& model, const mesh::Mesh& mesh, const std
   } else {
     mass.sparse = mass_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part, model), masses);
   }
-  add_water(model, mesh, dofs, part, mass);
+  add_to_mass(model, mesh, dofs, part, mass);
   return mass;
 }
 

@@ -11,12 +11,17 @@ namespace scabo::system {
 
 namespace {
 
-/// Mass of a rigid body for [u_x, u_y, L rotation] about its centroid.
-Matrix rigid_mass(const model::Body& body, double thickness, double lever) {
-  const double area_density = body.density.value_or(0.0) * thickness;
+/// Mass of a rigid body for [u_x, u_y, L rotation] about its centroid, with the point masses on it.
+Matrix rigid_mass(const model::Model& model, int index, const Vec2& reference, double lever) {
+  const model::Body& body = model.bodies[static_cast<std::size_t>(index)];
+  const double area_density = body.density.value_or(0.0) * model::thickness_of(model, index);
   const double mass = area_density * body.outline.area();
   Matrix M = Matrix::Zero(3, 3);
   M.diagonal() << mass, mass, area_density * body.outline.polar_moment() / (lever * lever);
+  for (const model::PointMass& point : model::point_masses_on(model, index)) {
+    const auto R = rigid_point(rigid_points(*point.on, body).front(), reference, lever);
+    M += point.mass * R.transpose() * R;
+  }
   return M;
 }
 
@@ -77,8 +82,7 @@ std::vector<PartInertia> inertia_of(const Structure& structure, const model::Mod
     if (structure.dofs.is_rigid(p)) {
       part.K = dense(Matrix::Zero(3, 3));
       const int body = structure.dofs.bodies_of(p).front();
-      part.M = dense(rigid_mass(model.bodies[static_cast<std::size_t>(body)], model::thickness_of(model, body),
-                                structure.parts[p]->lever()));
+      part.M = dense(rigid_mass(model, body, structure.parts[p]->reference(), structure.parts[p]->lever()));
     } else {
       part.K = part_stiffness(model, mesh, cells, structure.dofs, p, threads);
       if (structure.dofs.is_unbounded(p))

@@ -58,7 +58,8 @@ double without_rounding(double size) {
   return std::ldexp(std::round(std::ldexp(mantissa, bits)), exponent - bits);
 }
 
-/// An interference has to be resolved at rest.
+/// An interference has to be resolved at rest. `at_rest` has the gaps of the contact problem: those that follow from the
+/// displacements of a slender body that contact alone holds have its rounding errors.
 void refuse_overlap(const Prepared& prepared, const State& at_rest) {
   const double none = rounding_of_gaps(prepared);
   for (Eigen::Index i = 0; i < at_rest.gap.size(); ++i) {
@@ -162,8 +163,8 @@ std::vector<Vector> Dynamics::support_velocities(double time, double within) con
 }
 
 State Dynamics::in_motion(State at_rest, double step) const {
-  at_rest.gap = gaps_at(*at_rest_, at_rest);
   refuse_overlap(*at_rest_, at_rest);
+  at_rest.gap = gaps_at(*at_rest_, at_rest);
   const std::vector<Vector> of_supports = support_velocities(increment_.begin, step);
   const system::Dofs& dofs = at_rest_->structure.dofs;
   for (const Vector& u : at_rest.u) at_rest.velocity.push_back(Vector::Zero(u.size()));

@@ -57,6 +57,10 @@ void add_inertia(const Prepared& now, std::size_t b, Fingerprint& to) {
     for (const double value : {water.level, water.bottom.value_or(water.level), water.density}) to.add(value);
     to.add(water.up);
   }
+  for (const model::PointMass& point : model::point_masses_on(now.model, static_cast<int>(b))) {
+    to.add(static_cast<double>(point.on->index));
+    to.add(point.mass);
+  }
 }
 
 /// Shape, mesh and material of a body, and the bodies it is tied to.

@@ -151,6 +151,25 @@ std::vector<Warning> crack_warnings(const std::vector<CrackResult>& cracks) {
   return warnings;
 }
 
+namespace {
+
+/// Factors of a tip or corner. An internal level moves the inside besides the boundary
+/// (element/sbfem/internal_level.hpp): on the ring at a small xi, its motion divided by xi^(1/2) has the K of a motion
+/// of the boundary, and divided by xi its T-stress, but for parts of xi^2 and xi^(3/2).
+element::StressIntensity factors_of(const element::SolvedSuperElement& cell, const Vector& u,
+                                    const element::InteriorLoads& interior) {
+  element::StressIntensity factors = cell.factors(u, interior.loads);
+  if (!interior.motion.modes || factors.kind != element::CornerKind::crack) return factors;
+  constexpr double near = 1e-4;
+  const element::RadialField inside(cell.solution(), cell.modes(), Vector::Zero(u.size()), {}, interior.motion);
+  const Vector moved = inside.at(near).u;
+  factors = cell.factors(u + moved / std::sqrt(near), interior.loads);
+  factors.T_left = cell.factors(u + moved / near, interior.loads).T_left;
+  return factors;
+}
+
+}  // namespace
+
 std::vector<CrackResult> crack_results(const Discretisation& discretisation, const IncrementResult& increment) {
   std::vector<CrackResult> results;
   for (std::size_t b = 0; b < discretisation.cells.size(); ++b) {
@@ -160,10 +179,11 @@ std::vector<CrackResult> crack_results(const Discretisation& discretisation, con
     for (std::size_t c = 0; c < discretisation.cells[b].size(); ++c) {
       const auto& super_element = discretisation.cells[b][c];
       if (!super_element || super_element->domain.unbounded || !super_element->ring.is_open()) continue;
-      const std::vector<element::RadialLoad>& loads = element::loads_in(increment.fields.interior[b], c).loads;
+      const element::InteriorLoads& interior = element::loads_in(increment.fields.interior[b], c);
+      const std::vector<element::RadialLoad>& loads = interior.loads;
       const Vector u = increment.fields.displacements[b](element::dofs_of(discretisation.mesh.bodies[b].cells[c]));
       results.push_back({name_of_tip(discretisation.model.bodies[b], discretisation.mesh.bodies[b].cells[c].centre),
-                         super_element->factors(u, loads)});
+                         factors_of(*super_element, u, interior)});
       element::StressIntensity& factors = results.back().factors;
       if (!increment.fields.initial_of(b).is_zero()) factors.T_left.reset(), factors.T_right.reset();
       if (const auto tip = touching.find(c); tip != touching.end()) {

@@ -146,6 +146,8 @@ std::optional<double> value_of(const Discretisation& discretisation, const Incre
       return displacement_of_point(discretisation, increment, quantity);
     case Kind::velocity:
       return displacement_of_point(discretisation, with_velocities(increment), quantity);
+    case Kind::stress:
+      break;  // result/history.cpp, which recovers it
     case Kind::ground_velocity:
       return ground_velocity(discretisation.model, static_cast<std::size_t>(increment.step) - 1, increment.reached,
                              static_cast<std::size_t>(quantity.component));
@@ -424,7 +426,7 @@ void check_quantities(const model::Model& model, const mesh::Mesh& mesh) {
         if (of) all.push_back(of);
   std::vector<Diagnostic> mistakes;
   for (const model::Quantity* quantity : all) {
-    if (quantity->kind == Kind::displacement || quantity->kind == Kind::velocity) {
+    if (quantity->kind == Kind::displacement || quantity->kind == Kind::velocity || quantity->kind == Kind::stress) {
       const std::vector<int> bodies = bodies_of(model, *quantity);
       if (bodies.size() == 1) continue;
       if (bodies.empty())
