@@ -320,7 +320,7 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (int k = 0; moves[i] && k < components.dimension; ++k)
       place[static_cast<std::size_t>(components.of(i, k))] = static_cast<int>(components.of(moving.size(), k));
-    (moves[i] ? moving : held).push_back(static_cast<int>(i));
+    if (moves[i] || !all[i].is_bar()) (moves[i] ? moving : held).push_back(static_cast<int>(i));
   }
   system.pairs = selected(all, moving);
   system.held = selected(all, held);
