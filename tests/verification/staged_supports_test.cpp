@@ -222,6 +222,35 @@ steps: [{{name: one}}, {{name: two}}, {{name: three, increments: 2}}]
   }
 }
 
+// A rigid lid slides up and down along a guide that lasts. Another support holds it as a whole, of which the guide
+// leaves only the vertical force, and goes; then it stands on the plate below.
+TEST(StagedSupports, LeaveToOthersWhatThoseHold) {
+  const auto solution = run(R"(
+scabo: 1
+materials: {stuff: {young: 2e9, poisson: 0.2}}
+bodies:
+  plate: {material: stuff, shape: {rectangle: {corner: [0, 0], size: [2, 1]}}, mesh: {kind: fem, size: 0.25}}
+  lid: {rigid: true, shape: {rectangle: {corner: [0, 1], size: [2, 0.5]}}}
+supports:
+  - {on: plate.bottom, fix: [x, y], name: ground}
+  - {on: lid.left, fix: x, name: guide}
+  - {on: lid, fix: [x, y], name: whole, removed: two}
+  - {on: lid.top, fix: [x, y], name: again, added: three}
+contacts: {seat: {between: [plate.top, lid.bottom], friction: 0.3}}
+loads: {q: {on: lid.top_right, force: [1e3, -2e4]}}
+steps: [{name: one}, {name: two, increments: 2}, {name: three, loads: {q: 2}}]
+)");
+  last(solution);
+  const double whole[] = {2e4, 1e4, 0, 0}, again[] = {0, 0, 0, 2e4};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double q = i == 3 ? 2.0 : 1.0;
+    EXPECT_NEAR((reaction(solution, i, "whole") - Vec2(0, whole[i])).norm(), 0.0, 1e-8 * 2e4) << i;
+    EXPECT_NEAR((reaction(solution, i, "again") - Vec2(0, again[i])).norm(), 0.0, 1e-8 * 2e4) << i;
+    EXPECT_NEAR(reaction(solution, i, "guide").x(), -1e3 * q, 1e-8 * 2e4) << i;
+    EXPECT_NEAR(sum_of_reactions(increment_at(solution, i)).y(), 2e4 * q, 1e-8 * 2e4) << i;
+  }
+}
+
 // A block on a rigid floor is held against a push P beside friction mu N. Let go, the joint carries P where mu N is
 // more, and else the block begins to slide, on the way, at what the friction carries.
 TEST(StagedSupports, LetGoWhatFrictionCarriesOrNot) {
