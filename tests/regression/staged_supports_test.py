@@ -1,10 +1,11 @@
 """Supports that begin or end in a step: over a restart, in a run that is resumed, and in decks."""
+import shutil
 import signal
 import subprocess
 import time
 
 import support
-from decks import END, HELD, PRESSED, SQUARE, STATIC, Converting
+from decks import END, HELD, MATERIAL, PRESSED, SQUARE, STATIC, Converting, grid
 from support import rows_of, scabo, summary_of
 
 # A beam on a shoe with friction, and a prop at its end that is struck; another one comes, lifts and goes, then the shoe
@@ -132,6 +133,22 @@ class Decks(Converting):
         pressed = -self.reaction(first, "N_BODY_LEFT")[0]
         self.assertAlmostEqual(self.reaction(last, "N_BODY_RIGHT")[0] / pressed, 1.0, delta=1e-9)
         self.assertAlmostEqual(self.reaction(last, "N_BODY_LEFT")[0] / -pressed, 1.0, delta=1e-9)
+
+    def test_as_calculix(self):
+        """Under a pressure on its top the right side of a square is held where it is (FIXED) before the pressure becomes three times as large; or it
+        is drawn, and let go by OP=NEW. Reactions of CalculiX 2.20, to the seven digits that it prints."""
+        square = grid(4, 4, 2.0, 2.0, kind="CPE8") + MATERIAL + "*SOLID SECTION, ELSET=BODY, MATERIAL=steel\n" + HELD
+        top = "*DSLOAD\nBODY_TOP, P, {}\n"
+        self.assertEqual(self.convert(square + STATIC + top.format("1e6") + END + STATIC + "*BOUNDARY, FIXED\nN_BODY_RIGHT, 1, 2\n"
+                                      + top.format("3e6") + END).returncode, 0)
+        self.assertAlmostEqual(self.reaction(self.increments()[-1], "N_BODY_RIGHT")[0] / -6.376355e5, 1.0, delta=2e-7)
+        shutil.rmtree(self.directory / "part.results")
+        self.assertEqual(self.convert(square + STATIC + "*BOUNDARY\nN_BODY_RIGHT, 1, 1, 1e-4\n" + top.format("1e6") + END + STATIC
+                                      + "*BOUNDARY, OP=NEW\nN_BODY_LEFT, 1, 2\n" + END).returncode, 0)
+        first, last = self.increments()
+        self.assertAlmostEqual(self.reaction(first, "N_BODY_RIGHT")[0] / 2.333194e7, 1.0, delta=2e-7)
+        self.assertAlmostEqual(self.reaction(last, "N_BODY_LEFT")[0], 0.0, delta=1e-6)
+        self.assertAlmostEqual(self.reaction(last, "N_BODY_LEFT")[1] / 2e6, 1.0, delta=1e-9)
 
     def test_a_support_that_begins_elsewhere_or_again_is_refused(self):
         run = self.convert(SQUARE + HELD + PRESSED + STATIC + "*BOUNDARY\nN_BODY_RIGHT, 1, 1\n" + END)
