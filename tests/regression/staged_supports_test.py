@@ -80,6 +80,34 @@ class Runs(support.InTemporaryDirectory):
         for one, other in zip(first + second[1:], self.whole(), strict=True):
             self.assert_same(one, other)
 
+    def test_without_any_contact(self):
+        """A rigid lid on springs, which a support held whole in the first run, and a disc, whose rim another one held."""
+        text = """scabo: 1
+materials: {s: {young: 2e9, poisson: 0.2, density: 2000}}
+bodies:
+  disc: {material: s, shape: {circle: {centre: [0, 0], radius: 1}}, mesh: {kind: polygons, size: 0.25}}
+  lid: {rigid: true, shape: {rectangle: {corner: [-1, 2], size: [2, 0.5]}}}
+supports:
+  - {on: disc.rim, fix: normal, name: rimRIM}
+  - {on: {body: disc, near: [0, -1]}, fix: [x, y], name: foot}
+  - {on: {body: disc, near: [1, 0]}, fix: {along: [1, 2]}, name: side}
+  - {on: lid, fix: [x, y], name: wholeLID}
+springs: [{on: lid.bottom, k_n: 1e7, k_t: 1e7}]
+loads: {w: {on: disc, gravity: [0, -10]}, q: {on: lid.top_left, force: [1e3, -2e4]}}
+RESTART
+steps: [STEPS]
+"""
+        filled = lambda steps, rim="", lid="", restart="": (text.replace("STEPS", steps).replace("RIM", rim).replace("LID", lid)
+                                                            .replace("RESTART", restart))
+        ends = "{name: b, increments: 2}, {name: c, increments: 2}"
+        whole = self.run_model("whole", filled("{name: a}, " + ends, ", removed: b", ", removed: c"))
+        first = self.run_model("one", filled("{name: a}"))
+        second = self.run_model("two", filled("{name: rest, loads: {}}, " + ends, ", removed: b", ", removed: c", "restart: one.results"))
+        for increment in whole + first + second:
+            self.assertAlmostEqual(increment["energy"]["external"], increment["energy"]["elastic"], delta=1e-9)
+        for one, other in zip(second, whole, strict=True):
+            self.assert_same(one, other)
+
     def test_a_support_that_ends_in_the_first_step_of_a_restart_is_refused(self):
         self.run_model("one", beam(LOAD, "", ""))
         (self.directory / "two.yaml").write_text(beam(STRIKE, "", ", removed: strike", None, "one.results"))

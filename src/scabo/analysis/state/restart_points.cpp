@@ -79,7 +79,7 @@ std::vector<EndState::Held> held_at_end(const Prepared& now, const State& state)
       if (!belongs_to_pair(field)) continue;
       const Numbers numbers = field.get(state);
       Numbers& of = held.fields[field.name];
-      if (numbers.empty()) continue;  // as of constraints
+      if (numbers.empty() && field.optional) continue;  // all are zero
       of = entries_at(numbers, field.count, points);
       for (const double reaction : state.reactions[p]) append_reaction(field, reaction, of);
     }
