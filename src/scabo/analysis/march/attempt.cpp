@@ -1,6 +1,20 @@
 #include "scabo/analysis/march/attempt.hpp"
 
+#include <algorithm>
+
 namespace scabo::analysis {
+
+namespace {
+
+/// Of the support of a held point, among those that begin or end.
+int number_among_staged(const Prepared& prepared, const system::ContactSystem::Pair& pair) {
+  const std::vector<model::Support>& supports = prepared.model.supports;
+  const int support = prepared.structure.bars[static_cast<std::size_t>(pair.index)].held->support;
+  return static_cast<int>(std::count_if(supports.begin(), supports.begin() + support,
+                                        [](const model::Support& of) { return of.is_staged(); }));
+}
+
+}  // namespace
 
 DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attempt) {
   DiscreteProblem discrete{
@@ -10,7 +24,7 @@ DiscreteProblem discrete_problem(const Prepared& prepared, const Attempt& attemp
   for (const system::ContactSystem::Pair& pair : prepared.contact.pairs) {
     int number = pair.contact;
     if (is_held_point(prepared, pair))
-      number = contacts + bars + prepared.structure.bars[static_cast<std::size_t>(pair.index)].held->support;
+      number = contacts + bars + number_among_staged(prepared, pair);
     else if (pair.is_bar())
       number = contacts + pair.index;
     discrete.contact_of_pair.push_back(number);
