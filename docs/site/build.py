@@ -183,14 +183,30 @@ def render(source: pathlib.Path, options: argparse.Namespace) -> None:
         original = MATHJAX / name
         (static / name).parent.mkdir(parents=True, exist_ok=True)
         (shutil.copytree if original.is_dir() else shutil.copy)(original, static / name)
+    mend_theme(options.output / "html" / "_static")
+
+
+def mend_theme(static: pathlib.Path) -> None:
+    """Debian's Furo has its scripts and styles in several files, one of them outside of the site: a page that is read from a disk can use
+    neither an import of a script nor a path from the root."""
+    script = static / "scripts" / "furo.js"
+    text = script.read_text(encoding="utf-8")
+    for name in re.findall(r'^import \w+ from "\./([\w.-]+)";\n', text, re.M):
+        text = (script.parent / name).read_text(encoding="utf-8") + text.replace(re.search(rf'^import \w+ from "\./{re.escape(name)}";\n', text, re.M)[0], "")
+    script.write_text(text, encoding="utf-8")
+    style = static / "styles" / "furo.css"
+    text = style.read_text(encoding="utf-8")
+    for path in re.findall(r"@import url\((/javascript/[^)]+)\);", text):
+        text = text.replace(f"@import url({path});", pathlib.Path("/usr/share" + path).read_text(encoding="utf-8"))
+    style.write_text(text, encoding="utf-8")
 
 
 def check(html: pathlib.Path) -> None:
-    broken = list(check_site.broken_links(html))
+    broken = [*check_site.broken_links(html), *check_site.needs_of_theme(html)]
     for sentence in broken:
         print(sentence, file=sys.stderr)
     if broken:
-        sys.exit(f"make docs: {len(broken)} broken links")
+        sys.exit(f"make docs: {len(broken)} broken links and missing files")
 
 
 if __name__ == "__main__":

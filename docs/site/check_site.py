@@ -1,4 +1,4 @@
-"""Links of a built site: each must lead to a file of the site, and to an anchor that it has."""
+"""Links of a built site: each must lead to a file of the site, and to an anchor that it has. Scripts and styles need nothing outside of it."""
 from __future__ import annotations
 
 import html.parser
@@ -44,7 +44,18 @@ def broken_links(site: pathlib.Path) -> Iterator[str]:
                 yield f"{file}: {place.name} has no anchor {anchor}"
 
 
+def needs_of_theme(site: pathlib.Path) -> Iterator[str]:
+    """Scripts that import others, which a browser refuses of a page on a disk, and styles with paths from the root."""
+    for file in sorted(site.rglob("*.js")):
+        if "mathjax" not in file.parts and re.search(r"^import\b", file.read_text(encoding="utf-8", errors="replace"), re.M):
+            yield f"{file}: imports another script"
+    for file in sorted(site.rglob("*.css")):
+        for path in re.findall(r"url\([\"']?(/[^)\"']+)", file.read_text(encoding="utf-8", errors="replace")):
+            yield f"{file}: needs {path}"
+
+
 if __name__ == "__main__":
-    sentences = list(broken_links(pathlib.Path(sys.argv[1]).resolve()))
+    site = pathlib.Path(sys.argv[1]).resolve()
+    sentences = [*broken_links(site), *needs_of_theme(site)]
     print("\n".join(sentences))
     sys.exit(bool(sentences))

@@ -36,6 +36,10 @@ class Links(unittest.TestCase):
                              ["page.md has no heading 'heading'", "there is no file other.md"])
             (pathlib.Path(directory) / "index.html").write_text('<a id="here" href="#there"></a><img src="a.png">', encoding="utf-8")
             self.assertEqual(len(list(check_site.broken_links(pathlib.Path(directory)))), 2)
+            (pathlib.Path(directory) / "a.js").write_text('let a = 1;\nimport b from "./b.js";\n', encoding="utf-8")
+            (pathlib.Path(directory) / "a.css").write_text("@import url(/c.css); b { src: url(d.woff) }", encoding="utf-8")
+            self.assertEqual([sentence.split(": ")[1] for sentence in check_site.needs_of_theme(pathlib.Path(directory))],
+                             ["imports another script", "needs /c.css"])
 
     def test_texts_of_pictures_have_no_colon(self):
         """The site reads them as YAML."""

@@ -82,6 +82,22 @@ def documented_models():
 
 
 class ModelSchema(unittest.TestCase):
+    def test_every_key_has_a_description(self):
+        """Of its own, or that of what it refers to; editors show it."""
+        def is_described(key):
+            return "description" in key or ("$ref" in key and is_described(SCHEMA["$defs"][key["$ref"].rpartition("/")[2]]))
+
+        def without(node, path=""):
+            if isinstance(node, list):
+                return [found for item in node for found in without(item, path)]
+            if not isinstance(node, dict):
+                return []
+            keys = node.get("properties", {}) if not re.search(r"/(if|then|else|not)\b", path) else {}
+            return [f"{path}: {name}" for name, key in keys.items() if isinstance(key, dict) and not is_described(key)] + [
+                found for name, item in node.items() for found in without(item, f"{path}/{name}")]
+
+        self.assertEqual(without(SCHEMA), [])
+
     def test_is_a_valid_schema(self):
         jsonschema.Draft202012Validator.check_schema(SCHEMA)
 

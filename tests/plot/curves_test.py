@@ -19,6 +19,12 @@ class Curves(WithResults):
         np.testing.assert_allclose([curve.y for curve in curves.energies(self.results).curves], [[2, 4], [1.5, 3], [0.5, 1]])
         np.testing.assert_allclose([curve.y for curve in curves.states(self.results).curves], [[6, 6]] * 3)
 
+    def test_functions_of_the_package_stay_functions(self):
+        """Also after the modules that they come from were imported."""
+        for _ in range(2):
+            for name in plot.__all__:
+                self.assertTrue(callable(getattr(plot, name)), name)
+
     def test_materials_have_the_names_of_the_model_file(self):
         self.results.summary["model"]["materials"] = [{"name": "rock"}, {"name": "concrete"}]
         self.assertEqual([meshes.name_of_material(self.results, number) for number in (1, 2, 3)], ["rock", "concrete", "material 3"])

@@ -33,10 +33,18 @@ class Models(support.InTemporaryDirectory):
 
     def test_every_kind_of_model_can_be_drawn(self):
         good = ROOT / "tests" / "input" / "good"
-        for name in ("ties.yaml", "outside.yaml", "mesh_file.yaml", "image_levels.yaml", "crack_faces.yaml", "springs.yaml", "bars.yaml", "revolution.yaml"):
+        for name in ("ties.yaml", "outside.yaml", "mesh_file.yaml", "image_levels.yaml", "crack_faces.yaml", "springs.yaml", "bars.yaml", "revolution.yaml", "stages.yaml"):
             with self.subTest(name=name):
                 run = scabo("plot", good / name, "-o", self.directory / "picture.png")
                 self.assertEqual((run.returncode, run.stderr), (0, ""))
+
+    def test_names_of_what_begins_and_ends(self):
+        """An .svg has its texts as comments above the paths of their letters."""
+        run = scabo("plot", ROOT / "tests" / "input" / "good" / "staged_supports.yaml", "-o", self.directory / "picture.svg")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        text = (self.directory / "picture.svg").read_text(encoding="utf-8")
+        for name in ("prop (until strike)", "jack (from lift, until lower)", "beam"):
+            self.assertIn(name, text)
 
     def test_mistakes(self):
         run = scabo("plot", "dam.yaml", "--what", "stress", cwd=self.directory)

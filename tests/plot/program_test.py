@@ -14,7 +14,7 @@ import meshio
 import numpy as np
 import plot
 import support
-from plot import command, contacts, cracks, fields, mechanisms
+from plot import command, contacts, crack_paths, fields, mechanisms
 
 
 class Program(support.InTemporaryDirectory):
@@ -125,7 +125,7 @@ class Program(support.InTemporaryDirectory):
         """The picture against cracks.csv, and the animation: every file has a mesh of its own, whose crack is open by what cracks.csv says."""
         results = self.run_model("growth", "output.every=1", "steps.0.growth.until={steps: 3}", "output.fields=[displacement]")
         table = plot.Results(results).table("cracks.csv")
-        figure = cracks.cracks(plot.Results(results))
+        figure = crack_paths.cracks(plot.Results(results))
         for axis, column in zip(figure.axes[1:], ("length", "opening", "displacement"), strict=True):
             line, = axis.lines
             np.testing.assert_allclose(line.get_xdata() / line.get_xdata()[0], table[column] / table[column][0], rtol=1e-12)

@@ -384,12 +384,6 @@ class Messages(Converting):
         self.assertRegex(text, r"(?m)^# Missing \(\d+\): \*PLASTIC of material 'steel'")
         self.assertEqual(scabo("run", "part.yaml", cwd=self.directory).returncode, 0)
 
-    def test_steps_that_supports_cannot_follow(self):
-        run = self.convert(SQUARE + HELD + PRESSED + STATIC + "*BOUNDARY, OP=NEW\nN_BODY_BOTTOM, 2\n" + END)
-        self.assertEqual(run.returncode, 1)
-        self.assertIn("is released in step 2 by OP=NEW", run.stderr)
-        self.assertIn("the support begins in step 2", run.stderr)
-
     def test_new_loads_of_one_keyword_take_back_those_of_the_other(self):
         """CalculiX takes both back, Abaqus those of the same keyword: a deck must say which it means."""
         weight = STATIC + "*DLOAD\nBODY, GRAV, 9.81, 0., -1.\n" + END

@@ -325,7 +325,7 @@ steps: %s
         model.write_text("restart: one.results\n" + text % (", removed: away", f"[{away}]"), encoding="utf-8")
         run = scabo("check", model)
         self.assertEqual(run.returncode, 1)
-        self.assertIn("bodies.high.removed: is the first step of a restart, which begins with the bodies of the other run's end: "
+        self.assertIn("bodies.high.removed: is the first step of a restart, which begins with what is there at the other run's end: "
                       "put a step before it in which nothing changes, as {name: rest, loads: {}}", run.stderr)
 
     def test_its_own_directory_and_runs_without_an_end_are_refused(self):

@@ -18,7 +18,7 @@ from .units import Units
 
 if TYPE_CHECKING:
     from .contacts import contact
-    from .cracks import cracks
+    from .crack_paths import cracks
     from .curves import convergence, history
     from .fields import stress
     from .in_time import envelope, spectrum
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "cracks", "envelope", "history", "mechanism", "mesh", "solid_contact",
            "solid_stress", "spectrum", "stress", "sweep"]
 
-_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "cracks": "cracks", "envelope": "in_time", "spectrum": "in_time", "history": "curves", "mechanism": "mechanisms", "mesh": "meshes",
+_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "cracks": "crack_paths", "envelope": "in_time", "spectrum": "in_time", "history": "curves", "mechanism": "mechanisms", "mesh": "meshes",
              "stress": "fields", "sweep": "sweeps"}
 _IN_SPACE = {"solid_contact": "contact", "solid_stress": "stress"}
 

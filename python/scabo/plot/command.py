@@ -138,7 +138,7 @@ def refuse_other_dimension(options, results):
 
 def figures(options, results, increment):
     """Names and functions of the wanted figures."""
-    from . import contacts, cracks, curves, fields, in_time, mechanisms, meshes, solids
+    from . import contacts, crack_paths, curves, fields, in_time, mechanisms, meshes, solids
     from .units import Units
     units = Units.parse(options.units) if options.units else Units()
     if results.in_space:
@@ -154,7 +154,7 @@ def figures(options, results, increment):
         "convergence": lambda: curves.convergence(results),
         "mesh": lambda: meshes.mesh(results, units, window),
         "history": lambda: curves.history(results, component, units),
-        "cracks": lambda: cracks.cracks(results, units, window),
+        "cracks": lambda: crack_paths.cracks(results, units, window),
         "envelope": lambda: in_time.envelope(results, options.contact, units),
         "spectrum": lambda: in_time.spectrum(results, component, units),
         "mechanism": lambda: mechanisms.mechanism(results, options.scale, units, window),

@@ -11,6 +11,8 @@ from .units import Units
 
 MOST_NAMES = 60   # edges that are named
 MOST_ARROWS = 7   # along one edge
+KINDS = ("body", "load", "given edge", "support", "bar", "contact", "edge")
+THIN = 0.1        # part of the picture: in a body of this depth, names stand outside
 TINTS = ("#dfe7ee", "#f3e6d3", "#e2eddd", "#eee1ea", "#e9e9e2", "#dcebeb")
 
 
@@ -45,7 +47,26 @@ def model(drawing, units=None, window=None):
     axis.set_ylim(place.factor * low[1], place.factor * high[1])
     name_edges(axis, drawing["bodies"], place.factor, size)
     fields.finish_map(axis, place, window, height)
+    leave_room(figure, axis)
     return figure
+
+
+def leave_room(figure, axis):
+    """Names that would cover others: those of supports move down, those of contacts, and of edges that the user did not name, are left out;
+    a body is named without its steps."""
+    figure.draw_without_rendering()
+    taken = []
+    is_free = lambda box: not any(box.overlaps(other) for other in taken)
+    for text in sorted((text for text in axis.texts if text.get_text()), key=lambda text: KINDS.index(text.get_gid())):
+        if text.get_gid() == "body" and not is_free(text.get_window_extent()):
+            text.set_text(text.get_text().split("\n")[0])
+        for _ in range(4 if text.get_gid() == "support" else 0):
+            if not is_free(text.get_window_extent()):
+                text.xyann = (text.xyann[0], text.xyann[1] - 11)
+        if text.get_gid() in ("contact", "edge") and not is_free(text.get_window_extent()):
+            text.set_visible(False)
+        else:
+            taken.append(text.get_window_extent())
 
 
 def subtitle_of(drawing):
@@ -70,6 +91,12 @@ def legend_of(drawing):
     return legend
 
 
+def with_stages(entry):
+    """A name, and the steps in which a body or support begins and ends."""
+    steps = [f"{word} {short_name(entry[word])}" for word in ("from", "until") if word in entry]
+    return short_name(entry["name"]) + (f" ({', '.join(steps)})" if steps else "")
+
+
 def draw_body(axis, body, tint, factor):
     """Filled, holes left open, with its cells; of an unbounded one the outline alone."""
     codes, corners = [], []
@@ -83,8 +110,8 @@ def draw_body(axis, body, tint, factor):
     if body["cells"]:
         axis.add_collection(LineCollection([factor * np.array([*cell, cell[0]]) for cell in body["cells"]], colors="0.6", linewidths=0.3))
     middle = factor * np.array(body["loops"][0]).mean(axis=0)
-    axis.text(*middle, short_name(body["name"]), ha="center", va="center", fontweight="bold", fontsize=8.5, bbox=style.BOX_ON_LINES,
-              parse_math=False, clip_on=True)
+    axis.text(*middle, with_stages(body).replace(" (", "\n("), ha="center", va="center", fontweight="bold", fontsize=8.5, bbox=style.BOX_ON_LINES,
+              parse_math=False, clip_on=True, gid="body")
 
 
 def draw_interface(axis, entry, colour, factor, named):
@@ -94,7 +121,7 @@ def draw_interface(axis, entry, colour, factor, named):
     axis.plot(*points.T, color=colour, linewidth=3, alpha=0.75, solid_capstyle="butt", marker="o" if len(points) == 1 else None)
     if named:
         axis.annotate(short_name(entry["name"]), points[len(points) // 2], xytext=(0, -9), textcoords="offset points", color=colour, fontsize=8,
-                      ha="center", va="top", parse_math=False, annotation_clip=True)
+                      ha="center", va="top", parse_math=False, annotation_clip=True, gid="contact")
 
 
 def spread(points, most):
@@ -107,10 +134,13 @@ def spread(points, most):
 
 
 def draw_held(axis, entry, colour, dashes, factor, size):
-    """A short line across each direction that is held, at some points."""
+    """A short line across each direction that is held, at some points; the name of a support that begins or ends."""
     points = factor * np.array(entry["points"]).reshape(-1, 2)
     if not len(points):
         return
+    if "from" in entry or "until" in entry:
+        axis.annotate(with_stages(entry), points[np.argmin(points[:, 1])], xytext=(0, -11), textcoords="offset points", color=colour, fontsize=8,
+                      ha="center", va="top", parse_math=False, annotation_clip=True, gid="support")
     for along in entry["along"]:
         half = 0.02 * size * np.array([-along[1], along[0]])
         back = 0.012 * size * np.array(along)
@@ -123,7 +153,7 @@ def draw_bar(axis, entry, factor):
     """From end to end, with a dot where it ends."""
     points = factor * np.array(entry["points"]).reshape(-1, 2)
     axis.plot(*points.T, color=style.GREEN, linewidth=1.6, marker="o", markersize=4, clip_on=True, zorder=5)
-    axis.annotate(short_name(entry["name"]), points.mean(axis=0), color=style.GREEN, fontsize=8, textcoords="offset points", xytext=(4, 2), annotation_clip=True)
+    axis.annotate(short_name(entry["name"]), points.mean(axis=0), color=style.GREEN, fontsize=8, textcoords="offset points", xytext=(4, 2), annotation_clip=True, gid="bar")
 
 
 def draw_load(axis, entry, factor, size):
@@ -136,17 +166,19 @@ def draw_load(axis, entry, factor, size):
     for x in shown:
         axis.annotate("", x, x - 0.07 * size * along, arrowprops={"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.1}, annotation_clip=True)
     axis.annotate(short_name(entry["name"]), shown[len(shown) // 2] - 0.075 * size * along, color=style.RED, fontsize=8, ha="center",
-                  va="bottom" if along[1] < 0 else "top" if along[1] > 0 else "center", parse_math=False, annotation_clip=True)
+                  va="bottom" if along[1] < 0 else "top" if along[1] > 0 else "center", parse_math=False, annotation_clip=True, gid="load")
 
 
 def name_edges(axis, bodies, factor, size):
-    """Inside the body, beside the middle of each edge; of many only those that the user named."""
-    edges = [edge for body in bodies for edge in body["edges"]]
+    """Inside the body, or outside where it is thin, beside the middle of each edge; of many only those that the user named."""
+    edges = [(edge, np.ptp(np.array(body["loops"][0]), axis=0)) for body in bodies for edge in body["edges"]]
     if len(edges) > MOST_NAMES:
-        edges = [edge for edge in edges if edge["given"]][:MOST_NAMES]
-    for edge in edges:
+        edges = [(edge, extent) for edge, extent in edges if edge["given"]][:MOST_NAMES]
+    for edge, extent in edges:
         inwards = -np.array(edge["normal"])
+        if factor * np.abs(inwards * extent).sum() < THIN * size:
+            inwards = -inwards
         x = factor * np.array(edge["at"]) + 0.012 * size * inwards
-        axis.text(*x, short_name(edge["name"]), fontsize=7, color="0.25", parse_math=False, clip_on=True,
+        axis.text(*x, short_name(edge["name"]), fontsize=7, color="0.25", parse_math=False, clip_on=True, gid="given edge" if edge["given"] else "edge",
                   ha="center" if abs(inwards[0]) < 0.4 else "left" if inwards[0] > 0 else "right",
                   va="center" if abs(inwards[1]) < 0.4 else "bottom" if inwards[1] > 0 else "top")

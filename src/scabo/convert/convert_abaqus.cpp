@@ -33,6 +33,13 @@ using files::upper;
 using model::number_text;
 using model::Plane;
 
+/// How a node is held along x or y over the steps: its displacement, and when the support begins and ends.
+struct HeldOver {
+  Course course;
+  int added = 0, removed = -1;
+  friend bool operator==(const HeldOver&, const HeldOver&) = default;
+};
+
 class Converter {
  public:
   Converter(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name)
@@ -114,9 +121,10 @@ class Converter {
 
   void collect_supports() {
     for (const auto& [key, given] : content_.displacements) {
-      const auto known = std::find(courses_.begin(), courses_.end(), given.course);
+      const HeldOver held{given.course, given.added, given.removed};
+      const auto known = std::find(courses_.begin(), courses_.end(), held);
       courses_of_[key] = static_cast<int>(known - courses_.begin());
-      if (known == courses_.end()) courses_.push_back(given.course);
+      if (known == courses_.end()) courses_.push_back(held);
     }
     std::map<std::array<int, 2>, int> numbers;
     for (const auto& [key, side] : bodies_.boundary) {
@@ -235,29 +243,40 @@ class Converter {
 
   // ---- sections of the model
 
+  /// `, added: step_2` of a support that begins or ends.
+  std::string stages_of(const HeldOver& held) const {
+    const std::vector<std::string> names = names_of_steps(content_.steps);
+    std::string text;
+    for (const auto& [key, step] : {std::pair("added", held.added), std::pair("removed", held.removed)})
+      if (step > 0) text += fmt::format(", {}: {}", key, names[static_cast<std::size_t>(step)]);
+    return text;
+  }
+
   /// Of a place with courses of displacement in x and y, -1 where it is free.
   void write_support(const std::string& on, const std::array<int, 2>& courses, const std::string& label) {
-    std::vector<std::string> fixed;
+    std::map<std::string, std::vector<std::string>> fixed;  // by their stages
     for (const int k : {0, 1}) {
       const int number = courses[static_cast<std::size_t>(k)];
       if (number < 0) continue;
-      const Course& course = courses_[static_cast<std::size_t>(number)];
+      const HeldOver& held = courses_[static_cast<std::size_t>(number)];
+      const Course& course = held.course;
       if (is_zero(course)) {
-        fixed.push_back(k == 0 ? "x" : "y");
+        fixed[stages_of(held)].push_back(k == 0 ? "x" : "y");
         continue;
       }
       const double scale = scale_of(course);
       const std::string name = names_.take(label), value = number_text(scale);
-      parts_.supports +=
-          fmt::format("  - {{on: {}, displacement: {}, name: {}}}\n", on,
-                      k == 0 ? fmt::format("[{}, null]", value) : fmt::format("[null, {}]", value), yaml_word(name));
+      parts_.supports += fmt::format("  - {{on: {}, displacement: {}, name: {}{}}}\n", on,
+                                     k == 0 ? fmt::format("[{}, null]", value) : fmt::format("[null, {}]", value),
+                                     yaml_word(name), stages_of(held));
       driven_.push_back({name, scaled(course, 1.0 / scale)});
       ++result_.supports;
     }
-    if (fixed.empty()) return;
-    parts_.supports +=
-        fmt::format("  - {{on: {}, fix: [{}], name: {}}}\n", on, fmt::join(fixed, ", "), yaml_word(names_.take(label)));
-    ++result_.supports;
+    for (const auto& [stages, components] : fixed) {
+      parts_.supports += fmt::format("  - {{on: {}, fix: [{}], name: {}{}}}\n", on, fmt::join(components, ", "),
+                                     yaml_word(names_.take(label)), stages);
+      ++result_.supports;
+    }
   }
 
   void write_supports() {
@@ -444,7 +463,7 @@ class Converter {
   double largest_radius_ = 0.0;
   std::vector<SideUse> uses_;
   std::map<std::pair<int, int>, std::set<int>> uses_of_;
-  std::vector<Course> courses_;                     // of displacements
+  std::vector<HeldOver> courses_;                   // of displacements
   std::map<std::pair<int, int>, int> courses_of_;   // node and component: index into courses_
   std::set<std::pair<int, int>> covered_;           // those that supports on sides hold
   std::map<int, std::array<int, 2>> support_uses_;  // use: courses along x and y

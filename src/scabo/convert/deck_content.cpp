@@ -33,7 +33,6 @@ struct Growing {
   std::string amplitude;  // of this value, upper case
   bool touched = false;   // in this step
   bool fresh = true;      // new in this step
-  bool released = false;  // by OP=NEW, and not given since: told once
 };
 using Table = std::map<std::pair<int, int>, Growing>;
 
@@ -153,6 +152,7 @@ class ContentReader {
     course.resize(steps - 1);
     const double before = steps > 1 ? course.back().end : 0.0;
     if (!growing.touched && taken_back) growing.value = 0.0, growing.amplitude.clear();
+    if (growing.given.removed >= 0) return course.push_back({before, {}});
     // An amplitude in total time goes on in later steps, one in step time does not.
     const bool goes_on = !growing.amplitude.empty() && amplitudes_.at(growing.amplitude).total_time;
     if (growing.touched || goes_on)
@@ -162,29 +162,13 @@ class ContentReader {
     growing.touched = growing.fresh = false;
   }
 
-  /// One remark for all that OP=NEW releases in a step: a set has many nodes.
-  void note_what_is_released() {
+  /// By OP=NEW supports end that the step does not give anew; in the first step they never act.
+  void release_supports() {
     if (!new_displacements_) return;
-    std::vector<std::string> labels;
-    const Growing* first = nullptr;
-    for (auto& [key, growing] : displacements_) {
-      if (growing.touched) growing.released = false;
-      if (growing.touched || std::exchange(growing.released, true)) continue;
-      if (first == nullptr) first = &growing;
-      if (std::find(labels.begin(), labels.end(), growing.given.label) == labels.end())
-        labels.push_back(growing.given.label);
-    }
-    if (first == nullptr) return;
-    constexpr std::size_t most = 3;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(labels.size(), most); ++i)
-      names += fmt::format("{}'{}'", i == 0 ? "" : ", ", files::printable(labels[i]));
-    if (labels.size() > most) names += fmt::format(" and {} more", labels.size() - most);
-    remarks_.essential(
-        first->given.at,
-        fmt::format("the displacement{} of {} {} released in step {} by OP=NEW, which supports of Scabo "
-                    "cannot be",
-                    labels.size() == 1 ? "" : "s", names, labels.size() == 1 ? "is" : "are", content_.steps.size()));
+    const auto step = static_cast<int>(content_.steps.size()) - 1;
+    for (auto& [key, growing] : displacements_)
+      if (!growing.touched && growing.given.removed < 0) growing.given.removed = step;
+    std::erase_if(displacements_, [](const auto& of) { return of.second.given.removed == 0; });
   }
 
   /// What the step has of one of the keywords of distributed loads.
@@ -207,7 +191,7 @@ class ContentReader {
     const DeckStep& step = content_.steps.back();
     if (!has_procedure_)
       remarks_.essential(step.at, "the step has no *STATIC, and Scabo converts static steps; add it");
-    note_what_is_released();
+    release_supports();
     for (auto& [key, growing] : displacements_) finish(growing, false);
     for (auto& [key, growing] : forces_) finish(growing, new_forces_);
     for (auto& [key, growing] : pressures_) finish(growing, new_pressures_);
@@ -302,17 +286,32 @@ class ContentReader {
       }
       for (const int node : nodes_of(line, "the support"))
         for (const int component : components) {
-          const bool known = displacements_.contains({node, component});
-          tell_other_value(displacements_[{node, component}], component, value, *amplitude, line);
-          grow(displacements_[{node, component}], value, *amplitude, line, false);
-          if (in_step_ && !known && content_.steps.size() > 1)
-            remarks_.essential(
-                line.at, fmt::format("the support begins in step {}, but supports of Scabo act from the start; give it "
-                                     "before the first step",
-                                     content_.steps.size()));
+          hold(displacements_[{node, component}], component, value, *amplitude, is_on(block, "FIXED"), line);
           if (!in_step_) displacements_[{node, component}].touched = false;
         }
     }
+  }
+
+  /// A displacement in a step, or of a support that is there from the start. `fixed`: held where it is then.
+  void hold(Growing& growing, int component, double value, const std::string& amplitude, bool fixed,
+            const DeckLine& line) {
+    const auto step = static_cast<int>(content_.steps.size()) - 1;
+    const bool begins = growing.given.label.empty() && in_step_ && step > 0;
+    if (growing.given.removed >= 0)
+      remarks_.essential(line.at,
+                         fmt::format("the support ends in step {} by OP=NEW and begins again in step {}, which "
+                                     "one of Scabo does not; give it to other nodes",
+                                     growing.given.removed + 1, step + 1));
+    else if (begins && !fixed)
+      remarks_.essential(line.at,
+                         fmt::format("the support begins in step {}, and moves its nodes from where they are then to a "
+                                     "displacement from the start, while one of Scabo counts from there; write FIXED, "
+                                     "if it holds them where they are",
+                                     step + 1));
+    if (begins) growing.given.added = step;
+    if (fixed) value = growing.value;
+    tell_other_value(growing, component, value, amplitude, line);
+    grow(growing, value, amplitude, line, false);
   }
 
   void cload(const DeckBlock& block) {

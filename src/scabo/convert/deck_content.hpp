@@ -23,6 +23,7 @@ struct Given {
   Course course;
   std::string label;  ///< the set or number of the deck
   files::DeckPlace at;
+  int added = 0, removed = -1;  ///< of a support: the steps in which it begins and ends, as those of model::Support
 };
 
 struct DeckMaterial {

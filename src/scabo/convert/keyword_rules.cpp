@@ -161,12 +161,11 @@ void add_history_rules(Rules& rules) {
   const auto load_case = refuses("LOAD CASE", "is a case of cyclic symmetry; take it out");
   const auto delay = refuses("TIME DELAY", "shifts the *AMPLITUDE; write the times into its table");
   const auto submodel = refuses("SUBMODEL", "takes its values from another run; write numbers");
-  rules["BOUNDARY"] = {
-      DataLines::needed_unless_new,
-      4,
-      0,
-      {takes("OP", "NEW|MOD"), takes("MOD"), takes("AMPLITUDE"), harmless("TYPE", "DISPLACEMENT"), user, load_case,
-       delay, submodel, refuses("FIXED", "holds what has moved until then; write the displacement as a number")}};
+  rules["BOUNDARY"] = {DataLines::needed_unless_new,
+                       4,
+                       0,
+                       {takes("OP", "NEW|MOD"), takes("MOD"), takes("AMPLITUDE"), takes("FIXED"),
+                        harmless("TYPE", "DISPLACEMENT"), user, load_case, delay, submodel}};
   rules["CLOAD"] = {DataLines::needed_unless_new,
                     3,
                     0,

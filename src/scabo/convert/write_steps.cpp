@@ -39,10 +39,18 @@ std::string increments_of(const DeckStep& step) {
 
 }  // namespace
 
+std::vector<std::string> names_of_steps(const std::vector<DeckStep>& steps) {
+  std::vector<std::string> texts;
+  UniqueNames names;
+  for (std::size_t s = 0; s < steps.size(); ++s)
+    texts.push_back(yaml_word(names.take(steps[s].name.empty() ? fmt::format("step_{}", s + 1) : steps[s].name)));
+  return texts;
+}
+
 std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& all,
                        std::vector<NamedCurve>& curves) {
   std::string text;
-  UniqueNames names;
+  const std::vector<std::string> names = names_of_steps(steps);
   for (std::size_t s = 0; s < steps.size(); ++s) {
     std::vector<std::string> factors;
     bool plain = steps.size() == 1;  // everything goes to 1, which needs no word
@@ -56,9 +64,7 @@ std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Dri
     }
     if (factors.empty() && !plain && !all.empty())
       factors.push_back(fmt::format("{}: {}", yaml_word(all.front().name), number_text(all.front().factors[s].end)));
-    text += fmt::format("  - {{name: {}, increments: {}{}}}\n",
-                        yaml_word(names.take(steps[s].name.empty() ? fmt::format("step_{}", s + 1) : steps[s].name)),
-                        increments_of(steps[s]),
+    text += fmt::format("  - {{name: {}, increments: {}{}}}\n", names[s], increments_of(steps[s]),
                         plain || factors.empty() ? "" : fmt::format(", loads: {{{}}}", fmt::join(factors, ", ")));
   }
   return text;

@@ -15,6 +15,9 @@ struct Driven {
   Course factors;
 };
 
+/// The names of the steps in the model.
+std::vector<std::string> names_of_steps(const std::vector<DeckStep>& steps);
+
 /// The lines of `steps`. Factors that follow a table become curves, which are added to `curves`.
 std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& driven,
                        std::vector<NamedCurve>& curves);

@@ -228,7 +228,7 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
   }
   if (std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.rigid; }))
     parts.emplace_back("rigid bodies");
-  if (has_stages(model.bodies)) parts.emplace_back("stages of construction");
+  if (has_stages(model.bodies) || has_stages(model.supports)) parts.emplace_back("stages of construction");
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.mesh.tolerance.has_value(); }))
     parts.emplace_back("tolerances of the mesh");
@@ -245,6 +245,7 @@ void tell_what_has_no_effect(Reading& reading, const Value& root) {
                               fmt::format("a modal analysis ignores the model's {}{}", list,
                                           model.contacts.empty() ? "" : ": each body vibrates by itself")});
   }
+  for (Support& support : model.supports) support.added = 0, support.removed = -1, support.placed = false;
   for (const Support& support : model.supports)
     if (std::any_of(support.displacement.begin(), support.displacement.end(),
                     [](const auto& u) { return u.value_or(0.0) != 0.0; }))

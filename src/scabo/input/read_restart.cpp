@@ -50,6 +50,13 @@ void take_tightened(Reading& reading, const Node& root, const std::string& name)
                                              reading.model.bars[bar].name, quoted_name(name)));
 }
 
+/// Supports that have begun in the other run: they hold their places where those were then.
+void take_placed(Reading& reading, const Node& root, const Index& supports) {
+  std::vector<double> placed(reading.model.supports.size(), 0.0);
+  take_factors(root, "placed", in(supports), placed);
+  for (std::size_t i = 0; i < placed.size(); ++i) reading.model.supports[i].placed = placed[i] != 0.0;
+}
+
 }  // namespace
 
 void read_restart(Reading& reading, const Value& value) {
@@ -87,6 +94,7 @@ void read_restart(Reading& reading, const Value& value) {
     supports.emplace(reading.model.supports[i].name, static_cast<int>(i));
   take_factors(*root, "loads", in(reading.index_of_load), restart.load_factors);
   take_factors(*root, "supports", in(supports), restart.support_factors);
+  take_placed(reading, *root, supports);
   take_tightened(reading, *root, *name);
   if (root->find("motion") != nullptr) {
     const Index names{{"time", 0}, {"ground_x", 1}, {"ground_y", 2}};

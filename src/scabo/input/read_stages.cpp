@@ -1,5 +1,5 @@
-// Steps that are referred to by their names: `added` and `removed` of bodies, in which they are put in place and taken
-// away, and `fit_in` of contacts, over which an interference grows.
+// Steps that are referred to by their names: `added` and `removed` of bodies and supports, in which they are put in
+// place and taken away, and `fit_in` of contacts, over which an interference grows.
 #include <fmt/format.h>
 
 #include "scabo/input/reading.hpp"
@@ -73,6 +73,12 @@ void find_named_steps(Reading& reading) {
     Body& body = reading.model.bodies[b];
     if (const auto& added = reading.bodies[b].added) body.added = step_named(*added).value_or(0);
     if (const auto& removed = reading.bodies[b].removed) body.removed = step_named(*removed).value_or(-1);
+  }
+  for (std::size_t i = 0; i < reading.model.supports.size(); ++i) {
+    Support& support = reading.model.supports[i];
+    if (const auto& added = reading.stages_of_supports[i].added) support.added = step_named(*added).value_or(0);
+    if (const auto& removed = reading.stages_of_supports[i].removed)
+      support.removed = step_named(*removed).value_or(-1);
   }
   for (const auto& [bar, name] : reading.steps_of_bars)
     reading.model.bars[bar].tightened = step_named(name).value_or(0);

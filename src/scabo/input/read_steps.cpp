@@ -255,11 +255,12 @@ void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
   }
 }
 
-/// Whether a body is put in place or taken away, or a bar tightened, in the step of this name.
+/// Whether a body or support is put in place or taken away, or a bar tightened, in the step of this name.
 bool has_stage(const Reading& reading, const std::string& step) {
   const auto named = [&](const std::optional<Value>& value) { return value && value->node->text == step; };
-  return std::any_of(reading.bodies.begin(), reading.bodies.end(),
-                     [&](const auto& body) { return named(body.added) || named(body.removed); }) ||
+  const auto begins_or_ends = [&](const auto& of) { return named(of.added) || named(of.removed); };
+  return std::any_of(reading.bodies.begin(), reading.bodies.end(), begins_or_ends) ||
+         std::any_of(reading.stages_of_supports.begin(), reading.stages_of_supports.end(), begins_or_ends) ||
          std::any_of(reading.steps_of_bars.begin(), reading.steps_of_bars.end(),
                      [&](const auto& of) { return of.second.node->text == step; });
 }

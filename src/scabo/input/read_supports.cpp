@@ -186,10 +186,11 @@ std::optional<Prescribed> read_displacement(Reading& reading, const Value& value
 }
 
 /// One support; nothing if it is broken. A name given by the user is recorded in any case.
-std::optional<Support> read_support(Reading& reading, const Value& value) {
+std::optional<Support> read_support(Reading& reading, const Value& value, Reading::Stages& stages) {
   Report& report = reading.report;
   const std::size_t before = report.count();
-  const MapReader map(report, value, {"on", "fix", "displacement", "rotation", "at", "name"}, support_example);
+  const MapReader map(report, value, {"on", "fix", "displacement", "rotation", "at", "name", "added", "removed"},
+                      support_example);
   Support support;
   support.source = value.source();
   if (const auto name = map.get("name")) {
@@ -199,6 +200,7 @@ std::optional<Support> read_support(Reading& reading, const Value& value) {
       reading.own_support_names.insert(*text);
     }
   }
+  stages = {map.get("added"), map.get("removed")};
   const auto on = map.need("on");
   if (!on) reading.places_known = false;
   const ReadPlace place = on ? read_place(reading, *on) : ReadPlace{};
@@ -256,12 +258,15 @@ void read_supports(Reading& reading, const Value& value) {
       const std::size_t before = reading.report.count();
       for (Support& support : read_symmetry(reading, item)) {
         reading.support_is_named.push_back(false);
+        reading.stages_of_supports.emplace_back();
         reading.model.supports.push_back(std::move(support));
       }
       if (reading.report.count() > before) reading.conditions_known = reading.places_known = false;
       continue;
     }
-    if (auto support = read_support(reading, item)) {
+    Reading::Stages stages;
+    if (auto support = read_support(reading, item, stages)) {
+      reading.stages_of_supports.push_back(std::move(stages));
       reading.support_is_named.push_back(!support->name.empty());
       reading.model.supports.push_back(std::move(*support));
     } else {

@@ -84,6 +84,12 @@ struct Reading {
   /// `fit_in` of contacts, by their entry: the names of steps, which are read after contacts.
   std::vector<std::pair<std::string, Value>> fits_of_contacts;
 
+  /// `added` and `removed` of every support of the model: the names of steps.
+  struct Stages {
+    std::optional<Value> added, removed;
+  };
+  std::vector<Stages> stages_of_supports;
+
   /// `tightened` of bars, by their index in model.bars: the names of steps.
   std::vector<std::pair<std::size_t, Value>> steps_of_bars;
 

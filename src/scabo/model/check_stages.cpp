@@ -1,4 +1,4 @@
-// Validation of staged construction: bodies that are added or removed in steps.
+// Validation of staged construction: bodies and supports that are added or removed in steps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,26 +9,33 @@ namespace scabo::model {
 
 namespace {
 
-std::string removed_too_early(const Checking& checking, const Body& body) {
+/// `what`: body or support.
+template <typename Staged>
+std::string removed_too_early(const Checking& checking, const Staged& of, const char* what) {
   const std::vector<Step>& steps = checking.model.steps;
-  if (body.removed > 0)
-    return fmt::format("must be a step after '{}', in which the body is added",
-                       steps[static_cast<std::size_t>(body.added)].name);
+  if (of.removed > 0)
+    return fmt::format("must be a step after '{}', in which the {} is added",
+                       steps[static_cast<std::size_t>(of.added)].name, what);
   if (checking.model.restart)
-    return "is the first step of a restart, which begins with the bodies of the other run's end: put a step before it "
-           "in which nothing changes, as {name: rest, loads: {}}";
-  return "is the first step, so that the body is never there: name a later step, or leave the body out";
+    return "is the first step of a restart, which begins with what is there at the other run's end: put a step before "
+           "it in which nothing changes, as {name: rest, loads: {}}";
+  return fmt::format("is the first step, so that the {} is never there: name a later step, or leave the {} out", what,
+                     what);
+}
+
+template <typename Staged>
+void check_named_steps(Checking& checking, const std::string& path, const Staged& of, const char* what) {
+  const auto steps = static_cast<int>(checking.model.steps.size());
+  if (of.added < 0 || of.added >= steps) checking.error(path, "added", "is not a step of the model");
+  if (of.removed < -1 || of.removed >= steps) checking.error(path, "removed", "is not a step of the model");
+  if (of.removed >= 0 && of.removed <= of.added) checking.error(path, "removed", removed_too_early(checking, of, what));
 }
 
 void check_steps_of(Checking& checking, std::size_t index) {
   const Body& body = checking.model.bodies[index];
   const std::string path = path_of("bodies", body.name, index);
-  const auto steps = static_cast<int>(checking.model.steps.size());
   checking.enter(body.source);
-  if (body.added < 0 || body.added >= steps) checking.error(path, "added", "is not a step of the model");
-  if (body.removed < -1 || body.removed >= steps) checking.error(path, "removed", "is not a step of the model");
-  if (body.removed >= 0 && body.removed <= body.added)
-    checking.error(path, "removed", removed_too_early(checking, body));
+  check_named_steps(checking, path, body, "body");
   if (body.outside && body.is_staged())
     checking.error(path, body.added > 0 ? "added" : "removed",
                    "an unbounded body is always there: give the part that is added or removed a body of its own");
@@ -86,23 +93,57 @@ void check_loads_on_stages(Checking& checking) {
   }
 }
 
-/// A displacement counts from where a body is placed.
+/// Whether a support can be pairs with the ground, and its body be there.
+void check_staged_support(Checking& checking, std::size_t index) {
+  const Model& model = checking.model;
+  const Support& support = model.supports[index];
+  const std::string path = path_of("supports", support.source, index);
+  const char* key = support.added > 0 ? "added" : support.removed >= 0 ? "removed" : "";
+  checking.enter(support.source);
+  check_named_steps(checking, path, support, "support");
+  const char* with = is_dynamic(model)                ? "steps in time"
+                     : has_growth(model)              ? "cracks that grow"
+                     : has_large_slip(model.contacts) ? "contacts with 'slip: large'"
+                                                      : nullptr;
+  if (with != nullptr)
+    checking.error(path, key,
+                   fmt::format("supports that begin or end are not available beside {}: leave one of them out", with));
+  if (!checking.support[index]) return;
+  const Body& body = checking.body(support.on.body);
+  if (support.on.kind == Place::Kind::face || support.on.kind == Place::Kind::mouth)
+    checking.error(path, key, "the face of a crack is held in all steps or in none: leave the key out");
+  else if (body.outside)
+    checking.error(path, key, "an unbounded body is held in all steps or in none: leave the key out");
+  else if (support.added > 0 && support.added < body.added)
+    checking.error(path, "added",
+                   fmt::format("is before step '{}', in which body '{}' is added: a support without 'added' begins "
+                               "with its body",
+                               model.steps[static_cast<std::size_t>(body.added)].name, body.name));
+  else if (body.removed >= 0 && (support.removed > body.removed || support.added >= body.removed))
+    checking.error(path, key,
+                   fmt::format("is not before step '{}', in which body '{}' is removed: its supports end with it",
+                               model.steps[static_cast<std::size_t>(body.removed)].name, body.name));
+}
+
+/// A displacement counts from where a body is placed, or its support begins.
 void check_supports_of_stages(Checking& checking) {
   const Model& model = checking.model;
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];
     if (!checking.support[i]) continue;
     const Body& body = checking.body(support.on.body);
+    const int added = std::max(body.added, support.added);
     const bool moves = support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0 ||
                        support.rotation.value_or(0.0) != 0.0;
-    if (!moves || body.added <= 0 || body.added >= static_cast<int>(model.steps.size())) continue;
-    const auto before = static_cast<std::size_t>(body.added - 1);
+    if (!moves || added <= 0 || added >= static_cast<int>(model.steps.size())) continue;
+    const auto before = static_cast<std::size_t>(added - 1);
     if (model.steps[before].support_factors[i] == 0.0) continue;
     checking.enter(support.source);
     checking.error(path_of("supports", support.source, i), "",
-                   fmt::format("the displacement of support '{}' is applied before step '{}', in which body '{}' is "
+                   fmt::format("the displacement of support '{}' is applied before step '{}', in which {} is "
                                "added: give the support a name, and its factor a value in that step or a later one",
-                               support.name, model.steps[before + 1].name, body.name));
+                               support.name, model.steps[before + 1].name,
+                               support.added > body.added ? "it" : fmt::format("body '{}'", body.name)));
   }
 }
 
@@ -129,11 +170,21 @@ bool has_stages(const std::vector<Body>& bodies) {
   return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.is_staged(); });
 }
 
+bool has_stages(const std::vector<Support>& supports) {
+  return std::any_of(supports.begin(), supports.end(), [](const Support& support) { return support.is_staged(); });
+}
+
 void check_stages(Checking& checking) {
   const Model& model = checking.model;
   if (model.restart) refuse_several_meshes(checking, "a restart");
-  if (!has_stages(model.bodies)) return;
+  if (has_stages(model.supports)) refuse_several_meshes(checking, "supports that begin or end in steps");
   const std::size_t before = checking.found.size();
+  for (std::size_t i = 0; i < model.supports.size(); ++i)
+    if (model.supports[i].is_staged()) check_staged_support(checking, i);
+  if (!has_stages(model.bodies)) {
+    if (checking.found.size() == before && !checking.gaps.places) check_supports_of_stages(checking);
+    return;
+  }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) check_steps_of(checking, b);
   if (checking.gaps.bodies || checking.gaps.places || checking.gaps.conditions || checking.found.size() > before)
     return;

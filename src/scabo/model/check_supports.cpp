@@ -219,7 +219,10 @@ void check_conflicting_supports(Checking& checking) {
     const Support& support = model.supports[i];
     // Along other directions and by formulas they are compared at the nodes (system/structure.cpp).
     // Where a rotation is prescribed, points move differently: the body compares them (system/body_system.hpp).
-    if (!checking.support[i] || support.axes != SupportAxes::xy || support.rotation || support.varies()) continue;
+    // Those that begin or end are compared at the nodes as well (system/constraints.cpp).
+    if (!checking.support[i] || support.is_staged() || support.axes != SupportAxes::xy || support.rotation ||
+        support.varies())
+      continue;
     Places& places = of_body[static_cast<std::size_t>(support.on.body)];
     const auto at = places.find(key_of(support.on));
     // A whole body shares points with all places; once one was compared, another like it adds nothing.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "scabo/model/place.hpp"
 
@@ -32,9 +33,30 @@ struct Support {
   std::optional<Vec2> at = {};
   /// Of an edge, along x and y: the displacement at a point is that above times this.
   std::array<PointFormula, 2> shape = {};
+  /// Index into Model::steps of the step in which it begins (0: it is there from the start), and of the step in which
+  /// it ends (-1: it stays).
+  int added = 0, removed = -1;
+  /// It has begun in the run of `restart`, so that it holds its place where that was then.
+  bool placed = false;
 
   bool varies() const { return shape[0] || shape[1]; }
+  /// Whether it is there at the end of a step; step -1 is the start of the analysis.
+  bool is_there(int step) const { return (added == 0 || step >= added) && (removed < 0 || step < removed); }
+  /// Whether it does not hold its place as it is drawn from beginning to end: it is then pairs with the ground
+  /// (system/held_points.hpp).
+  bool is_staged() const { return added > 0 || removed >= 0 || placed; }
+  /// Whether it is there wherever `other` is.
+  bool covers(const Support& other) const {
+    return added <= other.added && (removed < 0 || (other.removed >= 0 && other.removed <= removed));
+  }
+  /// Whether both are there at some time.
+  bool meets(const Support& other) const {
+    return (removed < 0 || other.added < removed) && (other.removed < 0 || added < other.removed);
+  }
 };
+
+/// Whether supports begin or end in steps.
+bool has_stages(const std::vector<Support>& supports);
 
 /// Springs between a place and the ground, which does not move. They push and pull from the start of the analysis on.
 struct Spring {

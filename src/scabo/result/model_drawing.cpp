@@ -67,6 +67,13 @@ DrawingJson entry(const std::string& name, const std::vector<Vec2>& points, cons
   return {{"name", name}, {"points", json_of_points(points)}, {"along", json_of_points(along)}};
 }
 
+/// Names of the steps in which a body or support begins and ends, where it does.
+template <typename Staged>
+void add_stages(const Staged& of, const std::vector<model::Step>& steps, DrawingJson& to) {
+  if (of.added > 0) to["from"] = steps[static_cast<std::size_t>(of.added)].name;
+  if (of.removed >= 0) to["until"] = steps[static_cast<std::size_t>(of.removed)].name;
+}
+
 DrawingJson support_drawing(const model::Support& support, const std::vector<Vec2>& points) {
   Vec2 first(1.0, 0.0);
   if (support.axes == model::SupportAxes::edge) first = normal_of(points);
@@ -164,14 +171,18 @@ std::string model_drawing(const model::Model& model, const mesh::Mesh& mesh) {
   DrawingJson json = {{"title", model.title}};
   for (const char* list : {"bodies", "contacts", "ties", "supports", "springs", "bars", "loads"})
     json[list] = DrawingJson::array();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     json["bodies"].push_back(body_drawing(model.bodies[b], mesh.bodies[b], cells <= most_cells));
+    add_stages(model.bodies[b], model.steps, json["bodies"].back());
+  }
   for (const mesh::Interface& interface : mesh.interfaces)
     json["contacts"].push_back(
         interface_drawing(model.contacts[static_cast<std::size_t>(interface.contact)].name, interface));
   for (const mesh::Interface& interface : mesh.ties) json["ties"].push_back(interface_drawing("tie", interface));
-  for (const model::Support& support : model.supports)
+  for (const model::Support& support : model.supports) {
     json["supports"].push_back(support_drawing(support, points_of(support.on, model, mesh)));
+    add_stages(support, model.steps, json["supports"].back());
+  }
   for (const model::Spring& spring : model.springs)
     json["springs"].push_back(spring_drawing(spring, points_of(spring.on, model, mesh)));
   for (const model::Bar& bar : model.bars) {

@@ -36,6 +36,8 @@ void write_problems(const result::ResultsDirectory& directory, const model::Mode
     }
     for (const model::Contact& contact : model.contacts) saved.contacts.push_back(contact.name);
     for (const model::Bar& bar : model.bars) saved.contacts.push_back(bar.name);
+    for (const model::Support& support : model.supports)
+      if (support.is_staged()) saved.contacts.push_back(support.name);
     saved.contact_of_pair = discrete.contact_of_pair;
     saved.number_of_pair = discrete.number_of_pair;
     saved.title = fmt::format("{}: step {}, increment {}", model.title.empty() ? model.file : model.title,

@@ -17,6 +17,7 @@
 // so that ends may be on rigid bodies, and on bodies that nothing else holds. N_0 is applied as a load.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scabo/mesh/mesh.hpp"
@@ -30,8 +31,10 @@ struct BarSystem {
   PairSide a, b;
   Vec2 direction = Vec2::Zero();  ///< e, from a to b
   double softness = 0.0;          ///< L / (E A), length / force
-  /// Per part: generalised forces of a tension of 1; empty where it has no end.
+  /// Per part: generalised forces of a tension of 1; empty where it has no end, and of a held point.
   std::vector<Vector> pull;
+  /// Of a support that begins or ends in a step: what is held at a point (held_points.hpp); empty of a bar.
+  std::optional<Constraint> held = {};
 };
 
 /// Throws InputError where both ends are one point. Systems of the parts are made later: levers of rigid ones follow

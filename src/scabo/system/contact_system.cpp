@@ -320,7 +320,7 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (int k = 0; moves[i] && k < components.dimension; ++k)
       place[static_cast<std::size_t>(components.of(i, k))] = static_cast<int>(components.of(moving.size(), k));
-    (moves[i] ? moving : held).push_back(static_cast<int>(i));
+    if (moves[i] || !all[i].is_bar()) (moves[i] ? moving : held).push_back(static_cast<int>(i));
   }
   system.pairs = selected(all, moving);
   system.held = selected(all, held);
@@ -328,9 +328,10 @@ ContactSystem condensed(const Structure& structure, const std::vector<PairPoints
   for (ContactSystem::Pair& pair : system.pairs)
     pair.number = pair.is_bar() ? pair.index + 1 : ++numbers[static_cast<std::size_t>(pair.contact)];
   const Eigen::Index kept = components.count(moving.size());
-  system.motion = held.empty() ? motion : motion_of(selected(points, moving), structure);
-  if (!held.empty()) {
-    system.held_motion = motion_of(selected(points, held), structure);
+  const bool all_move = moving.size() == all.size();
+  system.motion = all_move ? motion : motion_of(selected(points, moving), structure);
+  if (!all_move) {
+    if (!held.empty()) system.held_motion = motion_of(selected(points, held), structure);
     if (joined) joined = JoinedBodies::of(structure, system.motion, softness_of(selected(points, moving), components));
     G = block_of(G, place, {}, kept, G.cols());
   }

@@ -31,7 +31,8 @@ struct PairPoints {
 /// The part of the contact problem that does not change from increment to increment.
 struct ContactSystem {
   /// A pair that can move: contact, index into the interface's pairs, number shown to users (from 1 in each contact).
-  /// Bars come after all contacts: they have no contact, and the index is that of the bar.
+  /// Bars and held points (Structure::bars) come after all contacts: they have no contact, and the index is that of
+  /// the bar.
   struct Pair {
     int contact = -1, index = -1, number = 0;
     bool is_bar() const { return contact < 0; }

@@ -27,7 +27,8 @@ struct Structure {
   Dofs dofs;
   std::vector<std::unique_ptr<BodySystem>> parts;  ///< one for each part of `dofs`
   ModelSprings springs;                            ///< those of the parts, spring by spring
-  std::vector<BarSystem> bars;                     ///< one for each of the model
+  /// One for each of the model, then the points of supports that begin or end in steps (held_points.hpp).
+  std::vector<BarSystem> bars;
   /// [load][part]: generalised forces at factor 1; empty where the load does not act on the part. Of loads that move
   /// see forces_of_moving_load().
   std::vector<std::vector<Vector>> loads;
@@ -49,10 +50,16 @@ struct Structure {
   double assembly_seconds = 0.0;  ///< of `make_structure`, for its stiffness matrices
 };
 
-/// Constraints of every part, from the supports of the model. Throws InputError for supports that contradict each
-/// other.
+/// Constraints of every part, from the supports of the model that last. Throws InputError for supports that contradict
+/// each other.
 std::vector<std::vector<Constraint>> constraints_of(const model::Model& model, const mesh::Mesh& mesh,
                                                     const Dofs& dofs);
+/// What supports that begin or end in steps hold, of every part, where no other support holds it at all these times.
+std::vector<std::vector<Constraint>> staged_constraints_of(const model::Model& model, const mesh::Mesh& mesh,
+                                                           const Dofs& dofs);
+/// What one support holds, whatever others do.
+std::vector<std::vector<Constraint>> constraints_of_support(const model::Model& model, const mesh::Mesh& mesh,
+                                                            const Dofs& dofs, std::size_t support);
 
 /// Throws InputError for bodies and parts that are held neither by supports nor by springs nor by contact pairs.
 void check_supports(const model::Model& model, const mesh::Mesh& mesh);

@@ -21,6 +21,7 @@ State full_state() {
   state.offset = Vector::LinSpaced(6, 7.0, 8.0);
   state.held_offset = Vector::LinSpaced(2, 9.0, 9.5);
   state.released = {Vector(), Vector::LinSpaced(4, 3.0, 4.0)};
+  state.released_reactions = {5.0, 6.0, 7.0, 0.0, 0.0, 0.0};
   state.referred = {Vec2(0.1, 0.2), Vec2(0.3, 0.4)};
   state.largest_force = 11.0;
   state.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
@@ -51,6 +52,7 @@ TEST(FieldsOfAState, AreReadBackAsTheyWere) {
   ASSERT_EQ(other.released.size(), 2u);
   EXPECT_EQ(other.released[0].size(), 0);
   EXPECT_EQ(other.released[1], state.released[1]);
+  EXPECT_EQ(other.released_reactions, state.released_reactions);
   EXPECT_EQ(other.replaced.placement, state.replaced.placement);
   EXPECT_EQ(other.replaced.moved, state.replaced.moved);
   EXPECT_EQ(other.factors.release, 0.25);

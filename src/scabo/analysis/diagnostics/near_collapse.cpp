@@ -36,8 +36,8 @@ bool is_heated(const model::Model& model, const Factors& before, const Factors& 
 bool only_loads_grow(const Prepared& prepared, const State& state, std::size_t index) {
   const model::Model& model = prepared.model;
   const model::Step& step = model.steps[index];
-  if (!model.springs.empty() || !model.bars.empty() || !step.load_curves.empty() || !step.support_curves.empty() ||
-      model::has_large_slip(model.contacts))
+  if (!model.springs.empty() || !model.bars.empty() || model::has_stages(model.supports) || !step.load_curves.empty() ||
+      !step.support_curves.empty() || model::has_large_slip(model.contacts))
     return false;
   const Factors before = factors_in(model, index, 0.0);
   return !is_heated(model, before, state.factors) &&

@@ -61,7 +61,10 @@ bool may_turn(const Prepared& prepared, std::size_t p) {
   const system::BodySystem& part = *prepared.structure.parts[p];
   const bool has_bar = std::any_of(prepared.structure.bars.begin(), prepared.structure.bars.end(),
                                    [&](const system::BarSystem& bar) { return bar.pull[p].size() > 0; });
-  return !prepared.is_absent(p) && !part.has_springs() && !has_bar && !part.is_revolved() &&
+  const bool is_held = std::any_of(prepared.contact.pairs.begin(), prepared.contact.pairs.end(), [&](const auto& at) {
+    return is_held_point(prepared, at) && prepared.structure.bars[static_cast<std::size_t>(at.index)].b.part == p;
+  });
+  return !prepared.is_absent(p) && !part.has_springs() && !has_bar && !is_held && !part.is_revolved() &&
          part.rigid_motions().cols() > 0 && !part.rigid_coordinates().row(2).isZero(1e-9);
 }
 

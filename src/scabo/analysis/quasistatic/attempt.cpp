@@ -36,6 +36,7 @@ Posed pose(const Prepared& prepared, const State& from, const Factors& factors, 
   to.offset = from.offset;
   to.held_offset = from.held_offset;
   to.released = from.released;
+  to.released_reactions = from.released_reactions;
   to.referred = from.referred;
   to.forces = applied_forces(prepared, factors, to.released);
   to.prescribed = prescribed_values(prepared, factors.supports, to.replaced.moved);

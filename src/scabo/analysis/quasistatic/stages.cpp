@@ -26,10 +26,14 @@ std::vector<char> absent_in(const Prepared& whole, std::size_t step) {
   return absent;
 }
 
-/// Per bar: its stiffness does not act in a step.
-std::vector<char> waiting_in(const model::Model& model, std::size_t step) {
+/// Per bar and held point: it does not act in a step.
+std::vector<char> waiting_in(const Prepared& whole, std::size_t step) {
   std::vector<char> waiting;
-  for (const model::Bar& bar : model.bars) waiting.push_back(bar.acts_in(static_cast<int>(step)) ? 0 : 1);
+  const auto number = static_cast<int>(step);
+  for (const model::Bar& bar : whole.model.bars) waiting.push_back(bar.acts_in(number) ? 0 : 1);
+  for (const system::BarSystem& bar : whole.structure.bars)
+    if (bar.held)
+      waiting.push_back(whole.model.supports[static_cast<std::size_t>(bar.held->support)].is_there(number) ? 0 : 1);
   if (std::none_of(waiting.begin(), waiting.end(), [](char does) { return does != 0; })) waiting.clear();
   return waiting;
 }
@@ -71,15 +75,26 @@ std::pair<std::size_t, std::size_t> parts_of(const Prepared& prepared, const Pai
   return {prepared.structure.dofs.part_of(contact.a.body), prepared.structure.dofs.part_of(contact.b.body)};
 }
 
-/// Takes the bodies of parts that are no longer there out of a state: what they exerted on the others is released.
-void take_away(const Prepared& before, const std::vector<char>& absent, State& state) {
+/// Takes the bodies of parts that are no longer there, and supports that end, out of a state: what they exerted on the
+/// others is released. `waiting`: per bar and held point.
+void take_away(const Prepared& before, const std::vector<char>& absent, const std::vector<char>& waiting,
+               std::size_t step, State& state) {
   state.released.assign(absent.size(), Vector());
+  if (model::has_stages(before.model.supports)) {
+    const std::vector<Eigen::Vector3d> exerted = reactions_of_held_points(before, state);
+    for (std::size_t i = 0; i < exerted.size(); ++i)
+      for (const double component : exerted[i])
+        state.released_reactions.push_back(before.model.supports[i].removed == static_cast<int>(step) ? component
+                                                                                                      : 0.0);
+  }
   Vector vanishing = Vector::Zero(state.p.size());  // forces of the pairs of what is taken away
   const auto gone = [&](std::size_t p) { return p != system::PairSide::ground && absent[p] && !before.is_absent(p); };
   for (std::size_t i = 0; i < before.contact.pairs.size(); ++i) {
-    const auto [a, b] = parts_of(before, before.contact.pairs[i]);
+    const Pair& pair = before.contact.pairs[i];
+    const auto [a, b] = parts_of(before, pair);
     const auto row = static_cast<Eigen::Index>(2 * i);
-    if (gone(a) || gone(b)) vanishing.segment<2>(row) = state.p.segment<2>(row);
+    const bool ends = pair.is_bar() && !waiting.empty() && waiting[static_cast<std::size_t>(pair.index)];
+    if (gone(a) || gone(b) || ends) vanishing.segment<2>(row) = state.p.segment<2>(row);
   }
   for (std::size_t p = 0; p < absent.size(); ++p) {
     if (!absent[p]) {
@@ -112,7 +127,7 @@ void refer_new_parts(const Prepared& whole, const std::vector<char>& before, con
 }  // namespace
 
 Stages::Stages(const Prepared& whole, std::size_t step) : whole_(whole) {
-  set(absent_in(whole, step), waiting_in(whole.model, step));
+  set(absent_in(whole, step), waiting_in(whole, step));
 }
 
 void Stages::set(std::vector<char> absent, std::vector<char> waiting) {
@@ -126,11 +141,13 @@ void Stages::set(std::vector<char> absent, std::vector<char> waiting) {
 }
 
 void Stages::enter(std::size_t step, State& state) {
-  std::vector<char> waiting = waiting_in(whole_.model, step);
-  if (!model::has_stages(whole_.model.bodies) && waiting == waiting_) return;
+  std::vector<char> waiting = waiting_in(whole_, step);
+  const bool has_stages = model::has_stages(whole_.model.bodies) || model::has_stages(whole_.model.supports);
+  if (!has_stages && waiting == waiting_) return;
   state.factors.presence = presence_at(whole_.model, static_cast<int>(step) - 1);
   state.factors.release = takes_away(whole_.model, step) ? 1.0 : 0.0;
   state.released.clear();
+  state.released_reactions.clear();
   std::vector<char> absent = absent_in(whole_, step);
   const std::vector<char> none(whole_.structure.parts.size(), 0);
   const auto all_there = [&](const std::vector<char>& of) { return of.empty() || of == none; };
@@ -139,7 +156,7 @@ void Stages::enter(std::size_t step, State& state) {
   const std::vector<Pair> pairs_before = now().contact.pairs, held_before = now().contact.held;
   const std::vector<int> first_before = now().contact.first_rigid;
   const std::vector<char> absent_before = now().absent;
-  if (takes_away(whole_.model, step)) take_away(now(), absent.empty() ? none : absent, state);
+  if (takes_away(whole_.model, step)) take_away(now(), absent.empty() ? none : absent, waiting, step, state);
   refer_new_parts(whole_, absent_before, absent, state);
   set(std::move(absent), std::move(waiting));
   const system::ContactSystem& contact = now().contact;

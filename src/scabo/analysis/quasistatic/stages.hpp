@@ -1,4 +1,4 @@
-// Staged construction: bodies that are put in place, or taken away, in a step.
+// Staged construction: bodies and supports that are put in place, or taken away, in a step.
 //
 // A body that is absent has neither stiffness nor weight nor loads, and its pairs do not act. Bodies are joined by
 // contacts alone, and W is a sum over bodies, so that a stage of construction is the same system with fewer pairs and
@@ -14,7 +14,9 @@
 //
 // so that both are continuous, and increments follow them as they follow loads. The elastic energy of a body that is
 // taken away leaves with it: it is taken off the work of the loads. The stiffness of a bar with preload
-// (system/bars.hpp) is a pair that is put in place after the step in which it is tightened.
+// (system/bars.hpp) is a pair that is put in place after the step in which it is tightened. A support that begins or
+// ends (system/held_points.hpp) is pairs as well: it holds its place where that is when it comes, and what it exerted
+// falls to zero over the step in which it ends.
 #pragma once
 
 #include <optional>
@@ -39,7 +41,7 @@ class Stages {
   void set(std::vector<char> absent, std::vector<char> waiting);
 
   const Prepared& whole_;
-  std::vector<char> waiting_;  // per bar: its stiffness does not act yet; empty: of all it does
+  std::vector<char> waiting_;  // per bar and held point: it does not act; empty: all do
   std::optional<system::ContactSystem> contact_;
   std::optional<Prepared> now_;  // empty: all bodies are there
 };

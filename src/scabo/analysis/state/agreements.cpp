@@ -93,11 +93,11 @@ std::string fingerprint_of_body(const Prepared& now, std::size_t b, bool in_moti
 
 std::string fingerprint_of_support(const Prepared& now, std::size_t support) {
   Fingerprint of;
-  for (std::size_t p = 0; p < now.structure.parts.size(); ++p)
-    for (const system::Constraint& constraint : now.structure.parts[p]->constraints()) {
-      if (constraint.support != static_cast<int>(support)) continue;
-      of.add(static_cast<double>(constraint.dof)), of.add(static_cast<double>(constraint.component));
-      of.add(constraint.point), of.add(constraint.inclined), of.add(constraint.value);
+  const auto held = system::constraints_of_support(now.model, now.mesh, now.structure.dofs, support);
+  for (const std::vector<system::Constraint>& of_part : held)
+    for (const system::Constraint& constraint : of_part) {
+      of.add(static_cast<double>(constraint.dof)), of.add(constraint.direction());
+      of.add(constraint.point), of.add(constraint.value);
       of.add(constraint.rotation ? 1.0 : 0.0);
     }
   return of.text();
@@ -131,7 +131,7 @@ std::string fingerprint_of_load(const Prepared& now, std::size_t load) {
 
 }  // namespace
 
-std::vector<EndState::Agreement> agreements_of(const Prepared& now, const State& state, bool in_motion) {
+std::vector<EndState::Agreement> agreements_of(const Prepared& now, const State& state, int step, bool in_motion) {
   const model::Model& model = now.model;
   std::vector<EndState::Agreement> agreements;
   const auto add = [&](const char* kind, const std::string& name, std::string digest) {
@@ -141,7 +141,7 @@ std::vector<EndState::Agreement> agreements_of(const Prepared& now, const State&
     if (body_is_there(now, static_cast<int>(b)))
       add("body", model.bodies[b].name, fingerprint_of_body(now, b, in_motion));
   for (std::size_t i = 0; i < model.supports.size(); ++i)
-    if (body_is_there(now, model.supports[i].on.body))
+    if (body_is_there(now, model.supports[i].on.body) && model.supports[i].is_there(step))
       add("support", model.supports[i].name, fingerprint_of_support(now, i));
   for (const model::Spring& spring : model.springs) {
     if (!body_is_there(now, spring.on.body)) continue;

@@ -49,6 +49,18 @@ double work_on_references(const Prepared& prepared, const State& state) {
   return work;
 }
 
+/// Of what supports that begin or end prescribe: the points that they hold move with them.
+double work_of_held_points(const Prepared& prepared, const State& from, const State& to) {
+  double work = 0.0;
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    if (!is_held_point(prepared, prepared.contact.pairs[i])) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    const double moved = gap_at(prepared, from.factors, k) - gap_at(prepared, to.factors, k);
+    work += 0.5 * (from.p[place_of(i)] + to.p[place_of(i)]) * moved;
+  }
+  return work;
+}
+
 /// N, of the pairs.
 Vector normal_forces(const State& state) { return state.p(Eigen::seqN(0, state.p.size() / 2, 2)); }
 
@@ -154,6 +166,7 @@ Energy energy_between(const Prepared& prepared, const State& from, const State& 
     energy.elastic -= reached;
     energy.external -= reached - work_on_references(prepared, from);
   }
+  energy.external += work_of_held_points(prepared, from, to);
   const FrictionWork friction = friction_work(prepared, from, to);
   energy.friction += friction.work;
   energy.external += friction.beyond_rule;

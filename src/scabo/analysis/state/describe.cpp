@@ -157,6 +157,20 @@ void add_factors(const Prepared& prepared, const State& state, IncrementResult& 
   }
 }
 
+/// Of supports that begin or end: what they exert, and what is left of it in the step in which they end.
+void add_staged_reactions(const Prepared& prepared, const State& state, IncrementResult& result) {
+  if (!model::has_stages(prepared.model.supports)) return;
+  const std::vector<Eigen::Vector3d> exerted = reactions_of_held_points(prepared, state);
+  for (std::size_t i = 0; i < exerted.size(); ++i) {
+    const model::Support& support = prepared.model.supports[i];
+    Eigen::Vector3d all = exerted[i];
+    if (!state.released_reactions.empty())
+      all += state.factors.release * Eigen::Map<const Eigen::Vector3d>(&state.released_reactions[3 * i]);
+    result.reactions[i] += all.head<2>();
+    if (support.rotation && support.is_staged()) result.moments[i] = all[2];
+  }
+}
+
 /// Forces of all supports, and moments of those that prescribe a rotation.
 void add_reactions(const Prepared& prepared, const State& state, IncrementResult& result) {
   result.reactions.assign(prepared.model.supports.size(), Vec2::Zero());
@@ -173,6 +187,7 @@ void add_reactions(const Prepared& prepared, const State& state, IncrementResult
         result.moments[support] = reaction * part.lever();
     }
   }
+  add_staged_reactions(prepared, state, result);
 }
 
 /// Displacements of the nodes of a body, of a rigid one with its rotation, from where the analysis began.
@@ -258,9 +273,25 @@ std::vector<double> tensions_of(const Prepared& prepared, const State& state) {
   for (std::size_t bar = 0; bar < prepared.model.bars.size(); ++bar)
     tensions.push_back(preload_of(prepared, state.factors, bar));
   for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i)
-    if (const system::ContactSystem::Pair& at = prepared.contact.pairs[i]; at.is_bar())
+    if (const system::ContactSystem::Pair& at = prepared.contact.pairs[i]; at.is_bar() && !is_held_point(prepared, at))
       tensions[static_cast<std::size_t>(at.index)] -= state.p[place_of(i)];
   return tensions;
+}
+
+std::vector<Eigen::Vector3d> reactions_of_held_points(const Prepared& prepared, const State& state) {
+  std::vector<Eigen::Vector3d> reactions(prepared.model.supports.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < prepared.contact.pairs.size(); ++i) {
+    const system::ContactSystem::Pair& at = prepared.contact.pairs[i];
+    if (!is_held_point(prepared, at)) continue;
+    const system::Constraint& held = *prepared.structure.bars[static_cast<std::size_t>(at.index)].held;
+    const auto support = static_cast<std::size_t>(held.support);
+    const double force = state.p[place_of(i)];
+    if (held.rotation)
+      reactions[support][2] += force * part_of(prepared, prepared.model.supports[support].on.body).lever();
+    else
+      reactions[support].head<2>() += force * held.direction();
+  }
+  return reactions;
 }
 
 IncrementResult describe(const Prepared& prepared, const State& state) {

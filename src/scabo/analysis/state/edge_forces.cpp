@@ -85,6 +85,15 @@ class SumOverEdge {
       apply(is_elsewhere(on), found->second,
             state_.reactions[part][static_cast<Eigen::Index>(c)] * constraints[c].direction());
     }
+    for (std::size_t i = 0; i < prepared_.contact.pairs.size(); ++i) {
+      const system::ContactSystem::Pair& at = prepared_.contact.pairs[i];
+      if (!is_held_point(prepared_, at)) continue;
+      const system::Constraint& held = *prepared_.structure.bars[static_cast<std::size_t>(at.index)].held;
+      const model::Place& on = prepared_.model.supports[static_cast<std::size_t>(held.support)].on;
+      if (on.body != edge_.on.body) continue;
+      if (const auto found = number_in_part_.find(plane_components.node_of(held.dof)); found != number_in_part_.end())
+        apply(is_elsewhere(on), found->second, state_.p[place_of(i)] * held.direction());
+    }
   }
 
   void apply_springs() {
@@ -113,8 +122,8 @@ class SumOverEdge {
     }
   }
 
-  /// What bodies that are being taken away still exert (stages.hpp). Where two of them, on two edges, pressed on one
-  /// corner, each edge has half of it.
+  /// What bodies and supports that are being taken away still exert (stages.hpp). Where two of them, on two edges,
+  /// pressed on one corner, each edge has half of it.
   void apply_released() {
     const std::size_t part = prepared_.structure.dofs.part_of(edge_.on.body);
     if (state_.released.empty() || state_.released[part].size() == 0) return;
@@ -129,6 +138,12 @@ class SumOverEdge {
       for (const mesh::ContactPair& pair : prepared_.mesh.interfaces[c].pairs)
         nodes.insert(of_a ? pair.node_a : pair.node_b);
       for (const int node : nodes) ++contacts_at[node][static_cast<std::size_t>(elsewhere)];
+    }
+    for (std::size_t i = 0; 3 * i < state_.released_reactions.size(); ++i) {
+      const model::Support& support = prepared_.model.supports[i];
+      if (support.on.body != edge_.on.body || !is_leaving(support)) continue;
+      for (const int node : mesh::nodes_of(support.on, prepared_.mesh).nodes)
+        ++contacts_at[node][is_elsewhere(support.on) ? 1 : 0];
     }
     for (const auto& [in_part, node] : number_in_part_) {
       const auto [here, elsewhere] = contacts_at[node];
@@ -157,6 +172,11 @@ class SumOverEdge {
     const auto b = static_cast<std::size_t>(body);
     return prepared_.is_absent(prepared_.structure.dofs.part_of(body)) && b < state_.factors.presence.size() &&
            state_.factors.presence[b] > 0.0;
+  }
+  bool is_leaving(const model::Support& support) const {
+    const auto first = static_cast<std::ptrdiff_t>(3 * (&support - prepared_.model.supports.data()));
+    const auto begin = state_.released_reactions.begin() + first;
+    return std::any_of(begin, begin + 3, [](double component) { return component != 0.0; });
   }
 
   /// Nodes that another edge of the body shares with a tied body, and this one does not.

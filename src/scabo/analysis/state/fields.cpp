@@ -149,6 +149,8 @@ struct Table {
       field(
           "released", whole, 0, in_this_run, [](auto& state) -> auto& { return state.released; }),
       field(
+          "released_reactions", whole, 0, in_this_run, [](auto& state) -> auto& { return state.released_reactions; }),
+      field(
           "p", pair, 2, lasts, [](auto& state) -> auto& { return state.p; }),
       field(
           "gap", pair, 1, lasts, [](auto& state) -> auto& { return state.gap; }),

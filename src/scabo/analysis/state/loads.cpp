@@ -116,9 +116,13 @@ std::vector<double> coefficients_at_start(const model::Model& model) {
 
 double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i) {
   const double gap = prepared.contact.gap[i];
+  const system::ContactSystem::Pair& pair = prepared.contact.pairs[static_cast<std::size_t>(i)];
+  if (pair.is_bar()) {  // a held point moves by what its support prescribes
+    const auto& held = prepared.structure.bars[static_cast<std::size_t>(pair.index)].held;
+    return held ? gap - held->value * factors.supports[static_cast<std::size_t>(held->support)] : gap;
+  }
   if (gap >= 0.0 || factors.fits.empty()) return gap;
-  const int contact = prepared.contact.pairs[static_cast<std::size_t>(i)].contact;
-  return gap * factors.fits[static_cast<std::size_t>(contact)];
+  return gap * factors.fits[static_cast<std::size_t>(pair.contact)];
 }
 
 std::vector<double> fits_at(const model::Model& model, int step) {

@@ -11,6 +11,7 @@
 #include "scabo/analysis/state/agreements.hpp"
 #include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
+#include "scabo/analysis/state/restart_points.hpp"
 #include "scabo/analysis/state/sealed_file.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 #include "scabo/model/restart_files.hpp"
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "7";
+constexpr const char* end_version = "8";
 
 template <typename Io, typename T, typename Exchange>
 void exchange_list(Io& io, const std::string& path, std::vector<T>& list, const Exchange& exchange) {
@@ -65,6 +66,12 @@ void exchange_end(Io& io, EndState& end) {
   exchange_named("contacts", end.contacts, is_of_contact);
   exchange_named("bars", end.bars, is_of_pair);
   exchange_named("parts", end.parts, is_of_part);
+  exchange_list(io, "held", end.held, [&](const std::string& path, EndState::Held& of) {
+    io.text(path + "/name", of.name);
+    io.numbers(path + "/constraints", of.constraints);
+    io.numbers(path + "/u", of.u);
+    exchange_fields(io, path + "/", is_of_pair, of.fields);
+  });
   exchange_fields(io, "state/", is_of_whole, end.whole);
 }
 
@@ -243,8 +250,8 @@ std::vector<std::string> disagreements(const std::vector<EndState::Agreement>& t
   for (const EndState::Agreement& of : here)
     if (!digests_there.contains(of.what))
       messages.push_back(
-          fmt::format("{} is not there at the end of {}: add the body that it belongs to in a step of this "
-                      "model ('added', the second one or a later one)",
+          fmt::format("{} is not there at the end of {}: it, or the body that it belongs to, must be 'added' in a step "
+                      "of this model, the second one or a later one",
                       of.what, directory));
   return messages;
 }
@@ -290,8 +297,13 @@ void continue_field(const Prepared& now, const EndState& end, const Field& field
     if (const EndState::Of* of = find(end.bars, now.model.bars[b].name))
       put(kept(of->fields, field.name), place_of_bar(now, b), field.count, numbers, size);
   for (const std::size_t p : present_parts(now))
-    if (const EndState::Of* of = is_of_part(field) ? find(end.parts, name_of_part(now, p)) : nullptr)
-      put(kept(of->fields, field.name), places_in_part(now, field, p), field.count, numbers, size);
+    if (const EndState::Of* of = is_of_part(field) ? find(end.parts, name_of_part(now, p)) : nullptr) {
+      const std::vector<double>& values = kept(of->fields, field.name);
+      const Places places = places_in_part(now, field, p);
+      // Where supports of the other run end here, its body has more motions: continue_motions().
+      if (field.owner != Owner::rigid_motion || values.size() == static_cast<std::size_t>(field.count) * places.size())
+        put(values, places, field.count, numbers, size);
+    }
   field.set(state, numbers);
 }
 
@@ -314,7 +326,8 @@ EndState end_state(const Prepared& now, const State& state) {
   EndState end;
   end.version = end_version;
   const bool in_motion = !state.velocity.empty();
-  end.agreements = agreements_of(now, state, in_motion);
+  const std::size_t last = now.model.steps.size() - 1;
+  end.agreements = agreements_of(now, state, static_cast<int>(last), in_motion);
   for (const model::Contact& contact : now.model.contacts) end.contacts.push_back({contact.name, {}});
   std::vector<std::size_t> bars;
   for (std::size_t b = 0; b < now.model.bars.size(); ++b)
@@ -341,7 +354,9 @@ EndState end_state(const Prepared& now, const State& state) {
   for (const model::Bar& bar : now.model.bars)
     if (bar.preload != 0.0)
       end.tightened.push_back({bar.name, bar.tightened - static_cast<double>(now.model.steps.size())});
-  const std::size_t last = now.model.steps.size() - 1;
+  for (const model::Support& support : now.model.supports)
+    if (support.is_staged() && support.is_there(static_cast<int>(last))) end.placed.push_back({support.name, 1.0});
+  end.held = held_at_end(now, state);
   if (in_motion)
     end.motion = {{"time", state.time},
                   {"ground_x", ground_velocity(now.model, last, 1.0, 0)},
@@ -353,9 +368,10 @@ void write_end_state(const fs::path& directory, EndState end) {
   const fs::path factors = directory / model::factors_at_end_file;
   std::ofstream stream(factors, std::ios::binary);
   stream << "# Scabo: factors at the end of this run\n";
-  for (const auto& [section, list] : {std::pair("loads", &end.loads), std::pair("supports", &end.supports),
-                                      std::pair("bars", &end.tightened), std::pair("motion", &end.motion)}) {
-    if (list->empty() && (list == &end.motion || list == &end.tightened)) continue;
+  for (const auto& [section, list] :
+       {std::pair("loads", &end.loads), std::pair("supports", &end.supports), std::pair("placed", &end.placed),
+        std::pair("bars", &end.tightened), std::pair("motion", &end.motion)}) {
+    if (list->empty() && list != &end.loads && list != &end.supports) continue;
     stream << section << ":\n";
     for (const EndState::Factor& factor : *list) {
       std::string quoted;
@@ -383,12 +399,14 @@ State state_of_restart(const Prepared& now) {
   state.factors.loads = now.model.restart->load_factors;
   state.factors.supports = now.model.restart->support_factors;
   if (auto messages =
-          disagreements(end.agreements, agreements_of(now, state, now.model.restart->motion.has_value()), directory);
+          disagreements(end.agreements, agreements_of(now, state, 0, now.model.restart->motion.has_value()), directory);
       !messages.empty())
     refuse(now.model, std::move(messages));
   for (const Field& field : fields_of_state())
     if (field.lasts) continue_field(now, end, field, state);
+  continue_points(now, end, state);
   complete(now, state);
+  if (continue_motions(now, end, state)) complete(now, state);
   place_new_bars(now, end, state);
   return state;
 }

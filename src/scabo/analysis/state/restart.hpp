@@ -33,6 +33,13 @@ struct EndState {
     std::string name;  ///< of the contact; of the first body of the part
     std::map<std::string, std::vector<double>> fields;
   };
+  /// Of a part what supports hold: points of those that begin or end (system/held_points.hpp), then the others.
+  struct Held {
+    std::string name;                                   ///< of the first body of the part
+    std::vector<double> constraints;                    ///< six numbers for each (restart_points.hpp)
+    std::vector<double> u;                              ///< displacement of the part
+    std::map<std::string, std::vector<double>> fields;  ///< of the pairs that they are, or would be
+  };
   struct Factor {
     std::string name;
     double value = 0.0;
@@ -40,7 +47,9 @@ struct EndState {
   std::string version;  ///< of the program
   std::vector<Agreement> agreements;
   std::vector<Of> contacts, bars, parts;
+  std::vector<Held> held;
   std::vector<Factor> loads, supports;
+  std::vector<Factor> placed;     ///< supports that have begun and stay: Support::placed in a run that goes on
   std::vector<Factor> tightened;  ///< bars with preload: Bar::tightened in a run that goes on from here
   std::vector<Factor> motion;     ///< time and ground_x, ground_y; empty: at rest
   std::map<std::string, std::vector<double>> whole;  ///< lasting fields of the state itself

@@ -17,7 +17,8 @@ struct DiscreteProblem {
   contact::Solution solution;
   bool accepted = false;
   double force_scale = 0.0;  ///< contact::SolverOptions::force_scale
-  /// Index into Model::contacts, one for each pair of the problem; beyond them that of a bar.
+  /// Index into Model::contacts, one for each pair of the problem; beyond them that of a bar, then that of a support
+  /// among those that begin or end.
   std::vector<int> contact_of_pair;
   std::vector<int> number_of_pair;  ///< PairResult::pair
 };

@@ -10,6 +10,10 @@ const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::Conta
   return prepared.mesh.interfaces[static_cast<std::size_t>(at.contact)].pairs[static_cast<std::size_t>(at.index)];
 }
 
+bool is_held_point(const Prepared& prepared, const system::ContactSystem::Pair& at) {
+  return at.is_bar() && prepared.structure.bars[static_cast<std::size_t>(at.index)].held.has_value();
+}
+
 Vec2 normal_of(const Prepared& prepared, const system::ContactSystem::Pair& at) {
   return at.is_bar() ? prepared.structure.bars[static_cast<std::size_t>(at.index)].direction
                      : mesh_pair(prepared, at).normal;

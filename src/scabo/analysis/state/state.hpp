@@ -46,6 +46,8 @@ struct Prepared {
 
 /// Of a contact, not of a bar.
 const mesh::ContactPair& mesh_pair(const Prepared& prepared, const system::ContactSystem::Pair& at);
+/// Whether a pair is a point of a support that begins or ends in a step (system/held_points.hpp).
+bool is_held_point(const Prepared& prepared, const system::ContactSystem::Pair& at);
 /// n of a pair: of a bar its direction.
 Vec2 normal_of(const Prepared& prepared, const system::ContactSystem::Pair& at);
 /// The part that a body belongs to.
@@ -70,7 +72,7 @@ struct Factors {
 /// Part of its loads that acts on part `p`, 0 to 1.
 double presence_of(const Prepared& prepared, const Factors& factors, std::size_t p);
 Factors between(const Factors& from, const Factors& to, double part);
-/// Initial gap of pair `i`, of which an interference is there in part.
+/// Initial gap of pair `i`, of which an interference is there in part; of a held point minus its displacement.
 double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i);
 /// Factors::fits at the end of a step; step -1: before the first.
 std::vector<double> fits_at(const model::Model& model, int step);
@@ -103,9 +105,11 @@ struct State {
   // Staged construction (stages.hpp); empty without stages:
   Vector offset;                 // 2N, [n, t]: added to the motion of a pair, which counts from its placing
   Vector held_offset;            // the same of held pairs
-  std::vector<Vector> released;  // per part, what removed bodies exerted on it; empty where nothing did
-  std::vector<Vec2> referred;    // per part, displacement of its reference point (outside.hpp) when it was put in place
-  double largest_force = 0.0;    ///< largest force so far, against which forces are judged after failure and unloading
+  std::vector<Vector> released;  // per part, what removed bodies and supports exerted on it; empty where nothing did
+  /// Of these, per support: [F_x, F_y, moment] of what it exerted; empty if none is removed.
+  std::vector<double> released_reactions;
+  std::vector<Vec2> referred;  // per part, displacement of its reference point (outside.hpp) when it was put in place
+  double largest_force = 0.0;  ///< largest force so far, against which forces are judged after failure and unloading
   Energy energy;
   Replacing replaced;
   // In time (dynamics/scheme.hpp); no velocities before the first time step:
@@ -141,6 +145,9 @@ std::vector<bool> touching_pairs(const Prepared& prepared);
 
 /// Tension of every bar: what acts of its preload, and the force of its stiffness.
 std::vector<double> tensions_of(const Prepared& prepared, const State& state);
+
+/// Of every support that begins or ends [F_x, F_y, moment] of what its points exert; zero of all others.
+std::vector<Eigen::Vector3d> reactions_of_held_points(const Prepared& prepared, const State& state);
 
 /// The results of an accepted state.
 IncrementResult describe(const Prepared& prepared, const State& state);

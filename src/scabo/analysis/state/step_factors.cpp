@@ -42,8 +42,9 @@ std::vector<double> presence_at(const model::Model& model, int step) {
 }
 
 bool takes_away(const model::Model& model, std::size_t step) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [&](const model::Body& body) { return body.removed == static_cast<int>(step); });
+  const auto ends = [&](const auto& of) { return of.removed == static_cast<int>(step); };
+  return std::any_of(model.bodies.begin(), model.bodies.end(), ends) ||
+         std::any_of(model.supports.begin(), model.supports.end(), ends);
 }
 
 namespace {

@@ -9,7 +9,7 @@ namespace scabo::analysis {
 /// is ever absent.
 std::vector<double> presence_at(const model::Model& model, int step);
 
-/// Whether bodies are taken away in a step.
+/// Whether bodies or supports are taken away in a step.
 bool takes_away(const model::Model& model, std::size_t step);
 
 /// At part `s` of a step, 0 to 1: between those at the end of the step before it (or of the run from which this one
