@@ -69,7 +69,7 @@ namespace {
 class SolidCheckpoints {
  public:
   explicit SolidCheckpoints(const SolidRun& run)
-      : run_(run), last_(run.begun), wanted_(run.posed.increments.size() > 1) {
+      : run_(run), last_(run.begun), wanted_(run.posed.increments.size() > 1 && !run.begun.origin.model.empty()) {
     if (wanted_ && last_.results.finished == 0) write();
   }
   void add(const analysis::SolidState& state) {
@@ -96,25 +96,41 @@ class SolidCheckpoints {
   CheckpointPace pace_;
 };
 
-result::SolidEnd solve_and_write(const SolidRun& run) {
-  SolidCheckpoints checkpoints(run);
-  analysis::SolidOptions options;
-  options.tolerance = run.model.tolerance;
-  options.threads = run.threads;
-  options.first = static_cast<std::size_t>(run.begun.results.finished);
-  if (options.first > 0) options.from = &run.begun.state;
-  std::size_t left = run.posed.increments.size() - options.first;
+/// Those that are left, each told to `add`. Whether it was interrupted; an interruption point follows every increment
+/// but the last.
+bool solve_increments(const analysis::PosedSolids& posed, analysis::SolidOptions options,
+                      const std::function<void(const analysis::SolidIncrement&, const analysis::SolidState&)>& add) {
+  std::size_t left = posed.increments.size() - options.first;
   options.on_increment = [&](const analysis::SolidIncrement& increment, const analysis::SolidState& state) {
-    run.results.add(increment);
-    if (increment.status == contact::Status::solved) checkpoints.add(state);
+    add(increment, state);
     if (--left > 0) interruption_point();
   };
-  bool interrupted = false;
   try {
-    if (left > 0) analysis::solve_solids(run.posed.model, run.posed.increments, options);
+    if (left > 0) analysis::solve_solids(posed.model, posed.increments, options);
   } catch (const Stopped&) {
-    interrupted = true;
+    return true;
   }
+  return false;
+}
+
+analysis::SolidOptions options_of(const model::SpaceModel& model, int threads) {
+  analysis::SolidOptions options;
+  options.tolerance = model.tolerance;
+  options.threads = threads;
+  return options;
+}
+
+result::SolidEnd solve_and_write(const SolidRun& run) {
+  SolidCheckpoints checkpoints(run);
+  analysis::SolidOptions options = options_of(run.model, run.threads);
+  options.first = static_cast<std::size_t>(run.begun.results.finished);
+  if (options.first > 0) options.from = &run.begun.state;
+  const bool interrupted = solve_increments(
+      run.posed, std::move(options), [&](const analysis::SolidIncrement& increment, const analysis::SolidState& state) {
+        run.results.add(increment);
+        if (increment.status == contact::Status::solved) checkpoints.add(state);
+        if (run.on_increment) run.on_increment(increment);
+      });
   const Interruptible nobody(nullptr);
   if (interrupted) checkpoints.finish();
   result::SolidEnd end = run.results.finish(interrupted);
@@ -131,6 +147,14 @@ analysis::RunOrigin origin_of(const model::SpaceModel& model, const std::vector<
 
 result::SolidEnd solve(const SolidRun& run) {
   return marking_failures(run.directory, [&] { return solve_and_write(run); });
+}
+
+bool solve_in_memory(const model::SpaceModel& model, const analysis::PosedSolids& posed, int threads,
+                     const std::function<void(const analysis::SolidIncrement&)>& on_increment) {
+  return solve_increments(posed, options_of(model, threads),
+                          [&](const analysis::SolidIncrement& increment, const analysis::SolidState&) {
+                            if (on_increment) on_increment(increment);
+                          });
 }
 
 }  // namespace scabo::run

@@ -27,7 +27,7 @@ Matrix places_of_nodes(std::size_t nodes) {
 /// A cut of a body, and by how much its parts are pulled together.
 using PulledTogether = std::pair<const system::SolidCut*, double>;
 
-/// 6 x N: xx, yy, zz, xy, yz, zx; 0 of a rigid body. `heated`: change of temperature of the nodes, or empty.
+/// `heated`: change of temperature of the nodes, or empty.
 Matrix stresses_at_nodes(const analysis::SolidBody& body, const Vector& u, const Vector& heated,
                          const PulledTogether& pulled) {
   const mesh::SolidMesh& mesh = body.mesh;
@@ -72,6 +72,15 @@ void add_stress(const element::Vec6& s, SolidCells& cells) {
 
 }  // namespace
 
+Matrix stresses_at_nodes(const analysis::SolidModel& model, const analysis::SolidIncrement& increment,
+                         std::size_t body) {
+  PulledTogether pulled{nullptr, 0.0};
+  for (std::size_t i = 0; i < model.preloads.size(); ++i)
+    if (model.preloads[i].body == static_cast<int>(body))
+      pulled = {&model.preloads[i].cut, increment.tensions[i].shortening};
+  return stresses_at_nodes(model.bodies[body], increment.u[body], increment.heated[body], pulled);
+}
+
 SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidIncrement& increment) {
   const std::vector<Vector>& u = increment.u;
   SolidCells cells;
@@ -81,11 +90,7 @@ SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidI
     cells.points.insert(cells.points.end(), mesh.nodes.data(), mesh.nodes.data() + mesh.nodes.size());
     cells.displacement.insert(cells.displacement.end(), u[b].data(), u[b].data() + u[b].size());
     cells.point_body.insert(cells.point_body.end(), static_cast<std::size_t>(mesh.nodes.cols()), number);
-    PulledTogether pulled{nullptr, 0.0};
-    for (std::size_t i = 0; i < model.preloads.size(); ++i)
-      if (model.preloads[i].body == static_cast<int>(b))
-        pulled = {&model.preloads[i].cut, increment.tensions[i].shortening};
-    const Matrix stresses = stresses_at_nodes(model.bodies[b], u[b], increment.heated[b], pulled);
+    const Matrix stresses = stresses_at_nodes(model, increment, b);
     for (Eigen::Index i = 0; i < stresses.cols(); ++i) add_stress(stresses.col(i), cells);
     for (const std::vector<int>& cell : mesh.cells) {
       for (const int node : cell) cells.connectivity.push_back(first + node);

@@ -250,6 +250,12 @@ std::string totals_of(const Json& increment) {
   return text;
 }
 
+/// Of an increment that has been added to the summary.
+void note_outcome(const analysis::SolidIncrement& increment, Json& json) {
+  json["status"] = status_of(increment.status);
+  if (!increment.reason.empty()) json["reason"] = increment.reason;
+}
+
 std::string which_increment(const Json& summary, const Json& increment) {
   return fmt::format("step {}, increment {}",
                      summary["model"]["steps"][increment["step"].get<std::size_t>() - 1].get<std::string>(),
@@ -366,8 +372,7 @@ void SolidResults::add_files(const analysis::SolidIncrement& increment) {
   summary_->json["status"] = "running";
   summary_->json["reason"] = nullptr;
   replace_summary();
-  summary_->json["status"] = status_of(increment.status);
-  if (!increment.reason.empty()) summary_->json["reason"] = increment.reason;
+  note_outcome(increment, summary_->json);
 }
 
 analysis::WrittenResults SolidResults::written() {
@@ -382,36 +387,59 @@ analysis::WrittenResults SolidResults::written() {
   return written;
 }
 
-SolidEnd SolidResults::finish(bool interrupted) {
-  Json& json = summary_->json;
+namespace {
+
+/// Puts the outcome into a summary.
+SolidEnd end_of(Json& json, int finished, bool interrupted) {
   const Json& made = json["increments"];
   if (interrupted) {
     json["status"] = "interrupted";
-    json["reason"] = finished_ > 0 ? "interrupted: the increments finished so far are kept"
-                                   : "interrupted: no increment was finished";
+    json["reason"] = finished > 0 ? "interrupted: the increments finished so far are kept"
+                                  : "interrupted: no increment was finished";
   } else if (json["status"] == "running") {  // all increments had been made before
     json["status"] = "solved";
   }
   SolidEnd end;
   end.status = json["status"].get<std::string>();
   if (json["reason"].is_string()) end.reason = json["reason"].get<std::string>();
-  end.finished = finished_;
+  end.finished = finished;
   for (const Json& increment : made)
     for (const Json& figure : increment["certificate"])
       end.certificate = std::max(end.certificate, figure.get<double>());
   if (!made.empty()) end.at = which_increment(json, made.back());
+  if (finished > 0) end.totals = totals_of(made[static_cast<std::size_t>(finished - 1)]);
+  return end;
+}
+
+}  // namespace
+
+SolidEnd SolidResults::finish(bool interrupted) {
+  Json& json = summary_->json;
+  SolidEnd end = end_of(json, finished_, interrupted);
   std::string text = end.status == "solved" ? "\nSolved: every increment converged and is certified.\n"
                      : interrupted          ? fmt::format("\nInterrupted: {}\n", end.reason)
                                             : fmt::format("\nNot solved: {}\n", end.reason);
   if (finished_ > 0) {
-    const Json& last = made[static_cast<std::size_t>(finished_ - 1)];
-    end.totals = totals_of(last);
+    const Json& last = json["increments"][static_cast<std::size_t>(finished_ - 1)];
     text += fmt::format("\nAfter {}:\n{}", which_increment(json, last), end.totals);
   }
   for (const Warning& warning : model_.warnings) text += "warning: " + warning.text + '\n';
   log_->append(text);
   replace_summary();
   return end;
+}
+
+std::pair<std::string, SolidEnd> summary_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
+                                            const std::vector<analysis::SolidIncrement>& increments, bool interrupted) {
+  Json json = begun_summary(model, posed);
+  int finished = 0;
+  for (std::size_t k = 0; k < increments.size(); ++k) {
+    json["increments"].push_back(json_of(model, posed, increments[k], k));
+    finished += increments[k].status == contact::Status::solved;
+    note_outcome(increments[k], json);
+  }
+  SolidEnd end = end_of(json, finished, interrupted);
+  return {text_of(json), std::move(end)};
 }
 
 }  // namespace scabo::result

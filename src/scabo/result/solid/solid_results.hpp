@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scabo/analysis/space/posed_solids.hpp"
@@ -24,6 +25,10 @@ struct SolidEnd {
   std::string at;            ///< `step press, increment 2`, of the last increment; empty: there is none
   std::string totals;        ///< of contacts and supports after the last solved increment, for people; likewise
 };
+
+/// Content of summary.json of increments in memory, and how the run has ended.
+std::pair<std::string, SolidEnd> summary_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
+                                            const std::vector<analysis::SolidIncrement>& increments, bool interrupted);
 
 class SolidResults {
  public:
