@@ -14,6 +14,7 @@
 #include "scabo/input/settings.hpp"
 #include "scabo/input/text_file.hpp"
 #include "scabo/result/history.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/run/plan.hpp"
 #include "scabo/run/solid_run.hpp"
 #include "tree.hpp"
@@ -68,6 +69,7 @@ py::dict sizes(const CheckedModel& checked) {
   if (checked.space) {
     const py::gil_scoped_release release;
     const analysis::PosedSolids posed = analysis::pose_solids(*checked.space);
+    const result::SolidOutputs outputs(*checked.space, posed);  // checks them
     plan = run::plan_of(posed);
     pairs = analysis::count_pairs(posed.model);
     plan.sizes.contact_pairs = std::accumulate(pairs.begin(), pairs.end(), 0);

@@ -15,6 +15,7 @@
 #include "scabo/result/history.hpp"
 #include "scabo/result/modal_results.hpp"
 #include "scabo/result/results_directory.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/result/solid/solid_results.hpp"
 #include "scabo/result/summary.hpp"
 #include "scabo/run/modal_run.hpp"
@@ -274,6 +275,7 @@ result::SolidEnd solve_space_without_lock(const CheckedModel& checked, const std
   watch.stage("mesh");
   solved.posed = std::make_shared<const analysis::PosedSolids>(analysis::pose_solids(model));
   const analysis::PosedSolids& posed = *solved.posed;
+  const result::SolidOutputs outputs(model, posed);  // checks them
   if (!ignore_memory)
     if (const std::string why =
             run::why_it_does_not_fit(run::plan_of(posed), run::available_memory(), "start it with ignore_memory=True");

@@ -1,7 +1,6 @@
 // Arrays of a static analysis in space.
 #include <pybind11/stl.h>
 
-#include <Eigen/Eigenvalues>
 #include <docstrings.hpp>  // made by make_docstrings.py
 #include <functional>
 #include <limits>
@@ -10,7 +9,9 @@
 
 #include "arrays.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/result/solid/solid_points.hpp"
+#include "scabo/result/solid/solid_stress.hpp"
 #include "solved.hpp"
 #include "until_ctrl_c.hpp"
 
@@ -100,7 +101,7 @@ std::vector<Vector3> points_in_space(const Numbers& array) {
 /// The one place of every point; one with body -1 outside, if that is allowed.
 std::vector<result::SolidPlace> one_place_of(const SpaceResult& solved, const std::vector<Vector3>& points, int only,
                                              bool allow_outside) {
-  const auto places = result::places_of(solved.posed->model, points, only);
+  const auto places = result::places_of(solved.posed->model, points, std::vector<int>(points.size(), only));
   std::vector<result::SolidPlace> found;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto fail = [&](const std::string& why) {
@@ -145,19 +146,13 @@ py::dict values(const SpaceResult& solved, std::size_t increment, const Numbers&
     body.mutable_at(row) = places[i].body;
     const result::SolidPointValues* value = places[i].body >= 0 ? &found[next++] : nullptr;
     const bool stressed = value && value->stress;
-    Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
-    if (stressed) {
-      const auto& s = *value->stress;
-      tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-    }
-    const Vector3 ascending = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, false).eigenvalues();
-    const Eigen::Matrix3d deviator = tensor - tensor.trace() / 3.0 * Eigen::Matrix3d::Identity();
+    const result::StressInSpace measures(stressed ? *value->stress : element::Vec6::Zero());
     for (int k = 0; k < 3; ++k) {
       displacements.mutable_at(row, k) = value ? value->displacement[k] : no_number;
-      principal.mutable_at(row, k) = stressed ? ascending[2 - k] : no_number;
+      principal.mutable_at(row, k) = stressed ? measures.principal[k] : no_number;
     }
     for (int k = 0; k < 6; ++k) stress.mutable_at(row, k) = stressed ? (*value->stress)[k] : no_number;
-    von_mises.mutable_at(row) = stressed ? std::sqrt(1.5) * deviator.norm() : no_number;
+    von_mises.mutable_at(row) = stressed ? measures.von_mises : no_number;
   }
   py::dict table;
   table["body"] = body;
@@ -202,6 +197,21 @@ py::dict fields(const SpaceResult& solved, std::size_t increment) {
   return table;
 }
 
+/// The text of history.csv, made from the fields of the increments that are solved; empty where the model asks for
+/// none.
+std::string history(const SpaceResult& solved) {
+  std::string table;
+  until_ctrl_c([&] {
+    const result::SolidOutputs outputs(*solved.model, *solved.posed);
+    if (!outputs.has_history()) return;
+    table = outputs.header_of_history();
+    for (std::size_t k = 0; k < solved.increments.size(); ++k)
+      if (solved.increments[k].status == contact::Status::solved)
+        table += outputs.row_of_history(solved.increments[k], k);
+  });
+  return table;
+}
+
 /// Names of the contacts and ties, in the order of the model.
 std::vector<std::string> contact_names(const SpaceResult& solved) {
   std::vector<std::string> names;
@@ -233,6 +243,7 @@ void bind_space_results(py::module_& module) {
       .def("nodes", &nodes, py::arg("body"), doc::space_results::nodes)
       .def("displacement", &displacement, py::arg("increment"), py::arg("body"), doc::space_results::displacement)
       .def("fields", &fields, py::arg("increment"), doc::space_results::fields)
+      .def("history", &history, doc::space_results::history)
       .def("values", &values, py::arg("increment"), py::arg("points"), py::arg("only"), py::arg("allow_outside"),
            doc::space_results::values);
 }

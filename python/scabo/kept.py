@@ -95,6 +95,7 @@ class KeptSpaceResult:
     of_nodes: list[np.ndarray]
     of_displacement: list[list[np.ndarray]]
     of_fields: list[dict[str, np.ndarray]]
+    of_history: str
 
     @classmethod
     def of(cls, core: _core.SpaceResult | KeptSpaceResult) -> KeptSpaceResult:
@@ -107,7 +108,7 @@ class KeptSpaceResult:
                    [[core.pairs(k, contact) for contact in contacts] if there else [] for k, there in enumerate(kept)],
                    [np.array(core.nodes(body)) for body in bodies],
                    [[np.array(core.displacement(k, body)) for body in bodies] if there else [] for k, there in enumerate(kept)],
-                   [core.fields(k) if there else {} for k, there in enumerate(kept)])
+                   [core.fields(k) if there else {} for k, there in enumerate(kept)], core.history() if all(kept) else "")
 
     def pairs(self, increment: int, contact: int) -> dict[str, np.ndarray]:
         return dict(self.of_pairs[increment][contact])
@@ -123,6 +124,9 @@ class KeptSpaceResult:
 
     def fields(self, increment: int) -> dict[str, np.ndarray]:
         return dict(self.of_fields[increment])
+
+    def history(self) -> str:
+        return self.of_history
 
     def values(self, increment: int, points: np.ndarray, only: int, allow_outside: bool) -> NoReturn:
         _no_values()

@@ -225,13 +225,11 @@ class Result:
         """Columns of history.csv over the increments: step, increment, time, and what ``output.history`` of the model asks
         for, not a number where it has no value. Empty without it. Without a directory it needs the fields of all
         increments (``keep_fields``)."""
-        if self._plane is None:
-            return {}
         if self._directory is not None:
             path = pathlib.Path(self._directory, "history.csv")
-            return _columns_of(path.read_text(encoding="utf-8")) if "history" in self._summary else {}
+            return _columns_of(path.read_text(encoding="utf-8")) if path.is_file() else {}
         self._with_all_fields()
-        table = self._plane.history()
+        table = self._core.history()
         return _columns_of(table) if table else {}
 
     @property

@@ -147,7 +147,7 @@ class ConstantStress(unittest.TestCase):
     def test_what_only_the_plane_has(self):
         self.assertIsNone(self.result.mechanism)
         self.assertIsNone(self.result.limit)
-        self.assertEqual((self.result.cracks, self.result.history), ({}, {}))
+        self.assertEqual((self.result.cracks, self.result.history), ({}, {}))  # it asks for no sections
         with self.assertRaisesRegex(ValueError, "what must be stress or contact"):
             self.result.plot("mesh")
 
@@ -217,6 +217,21 @@ class AsTheProgram(InTemporaryDirectory):
         result = scabo.read(self.file).run()
         for what in ("stress", "contact"):
             self.assertTrue(result.plot(what).axes)
+
+
+class Sections(InTemporaryDirectory):
+    def test_history_is_the_same_in_memory_and_in_files(self):
+        model = scabo.Model(stack(2))
+        model["output"] = {"history": {"cut": {"section": {"point": [0, 0, 0.4], "normal": [0, 0, 1]}}}, "points": [[0.5, 0.5, 0.1]]}
+        written, kept = model.run(self.directory / "out"), model.run()
+        for name, column in kept.history.items():
+            np.testing.assert_array_equal(column, written.history[name], name)
+        np.testing.assert_allclose(kept.history["cut.normal"], [-0.4 * PRESSURE, -0.8 * PRESSURE], rtol=1e-9)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(kept)).history["cut.normal"], kept.history["cut.normal"])
+        self.assertTrue((self.directory / "out" / "points.csv").is_file())
+        model["output"]["points"] = [[0.5, 0.5, 1.1]]
+        with self.assertRaisesRegex(scabo.ModelError, "output.points.0: the point .* lies in no body"):
+            model.check()
 
 
 class Running(unittest.TestCase):

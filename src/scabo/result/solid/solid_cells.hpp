@@ -19,10 +19,6 @@ struct SolidCells {
   std::vector<float> principal_1, principal_2, principal_3, von_mises;
 };
 
-/// 6 x nodes of a body: xx, yy, zz, xy, yz, zx, each the mean of those of the elements around a node; 0 of a rigid one.
-Matrix stresses_at_nodes(const analysis::SolidModel& model, const analysis::SolidIncrement& increment,
-                         std::size_t body);
-
 /// At the nodes of all bodies; stresses are the mean of those of the elements around a node of a body.
 SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidIncrement& increment);
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "scabo/geometry/simplex_basis.hpp"
-#include "scabo/result/solid/solid_cells.hpp"
+#include "scabo/result/solid/solid_stress.hpp"
 
 namespace scabo::result {
 
@@ -64,13 +64,17 @@ std::optional<SolidFinder::Place> SolidFinder::at(const Eigen::Vector3d& point) 
 }
 
 std::vector<std::vector<SolidPlace>> places_of(const analysis::SolidModel& model,
-                                               const std::vector<Eigen::Vector3d>& points, int only) {
+                                               const std::vector<Eigen::Vector3d>& points,
+                                               const std::vector<int>& only) {
   std::vector<std::vector<SolidPlace>> places(points.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (only >= 0 && only != static_cast<int>(b)) continue;
+    const auto number = static_cast<int>(b);
+    const auto is_meant = [&](int body) { return body < 0 || body == number; };
+    if (std::none_of(only.begin(), only.end(), is_meant)) continue;
     const SolidFinder finder(model.bodies[b].mesh);
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (auto in = finder.at(points[i])) places[i].push_back({static_cast<int>(b), std::move(*in)});
+      if (is_meant(only[i]))
+        if (auto in = finder.at(points[i])) places[i].push_back({number, std::move(*in)});
   }
   return places;
 }
@@ -89,7 +93,7 @@ std::vector<SolidPointValues> values_at(const analysis::SolidModel& model, const
       value.displacement += N[static_cast<Eigen::Index>(i)] * increment.u[b].segment<3>(3 * cell[i]);
     if (body.rigid_at) continue;
     const auto [known, is_new] = stresses.try_emplace(place.body);
-    if (is_new) known->second = stresses_at_nodes(model, increment, b);
+    if (is_new) known->second = SolidStress(model, increment, b).at_nodes();
     value.stress = Eigen::Matrix<double, 6, 1>::Zero();
     for (std::size_t i = 0; i < cell.size(); ++i)
       *value.stress += N[static_cast<Eigen::Index>(i)] * known->second.col(cell[i]);

@@ -37,9 +37,10 @@ struct SolidPlace {
   SolidFinder::Place in = {};
 };
 
-/// Where points lie. `only`: in this body, or -1. Of one that lies in several bodies, all of them.
+/// Where points lie. `only`: of each the body that is meant, or -1. Of one that lies in several bodies, all of them.
 std::vector<std::vector<SolidPlace>> places_of(const analysis::SolidModel& model,
-                                               const std::vector<Eigen::Vector3d>& points, int only);
+                                               const std::vector<Eigen::Vector3d>& points,
+                                               const std::vector<int>& only);
 
 struct SolidPointValues {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();

@@ -12,6 +12,7 @@
 #include "scabo/analysis/space/posed_solids.hpp"
 #include "scabo/analysis/state/written_results.hpp"
 #include "scabo/result/files.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/result/vtu.hpp"
 
 namespace scabo::result {
@@ -60,8 +61,9 @@ class SolidResults {
   std::unique_ptr<Summary> summary_;
   DirectoryLock lock_;
   int finished_ = 0;
-  std::optional<GrowingFile> table_, log_;
-  std::optional<FieldCollection> collection_, faces_;  // the latter of models with contacts
+  SolidOutputs outputs_;
+  std::optional<GrowingFile> table_, log_, points_, history_;  // the last two if the model asks for them
+  std::optional<FieldCollection> collection_, faces_;          // the latter of models with contacts
   std::vector<std::filesystem::path> not_synchronised_;
 };
 
