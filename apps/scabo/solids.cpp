@@ -95,10 +95,6 @@ run::Plan begin(const model::SpaceModel& model, const analysis::PosedSolids& pos
 
 ExitStatus run_solids(const model::SpaceModel& model, const std::filesystem::path& directory, const RunOptions& options,
                       Events& events) {
-  if (options.report)
-    throw InputError(model.file, {{{},
-                                   "is a model in space, of which there is no page for the browser: run it "
-                                   "without --report, and draw it by `scabo plot`"}});
   events.stage("checking");
   const analysis::PosedSolids posed = analysis::pose_solids(model);
   const result::SolidOutputs outputs(model, posed);  // checks them

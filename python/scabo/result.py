@@ -393,8 +393,6 @@ class Result:
         of the model, as in "m,N". Beyond ``megabytes``, fields of increments are left out, evenly. ``mirrored``: both
         halves of bodies of revolution. ``fields``: those that the page has, as in "displacement,von_mises"; None: all."""
         from . import report
-        if self.dimension == 3:
-            raise ValueError("there is no page for the browser of a model in space: draw it by plot()")
         if self.directory is not None and pathlib.Path(self.directory, "summary.json").is_file():
             return report.write(self.directory, output, units, megabytes, mirrored, fields)
         if output is None:
