@@ -3,6 +3,7 @@ import filecmp
 import json
 import pathlib
 import pickle
+import re
 import resource
 import sys
 import types
@@ -232,6 +233,31 @@ class Sections(InTemporaryDirectory):
         model["output"]["points"] = [[0.5, 0.5, 1.1]]
         with self.assertRaisesRegex(scabo.ModelError, "output.points.0: the point .* lies in no body"):
             model.check()
+
+
+class Pages(InTemporaryDirectory):
+    def content(self, **options):
+        page = scabo.Model(stack(2)).run(self.directory / "out").report(self.directory / "page.html", **options).read_text(encoding="utf-8")
+        data, = re.findall(r'<script type="application/json" id="content">(.*?)</script>', page, re.DOTALL)
+        return json.loads(data), set(re.findall(r'<script type="text/plain" id="(\w+)"', page))
+
+    def test_a_page_has_fields_and_faces(self):
+        if not (pathlib.Path(scabo.__path__[0]) / "report" / "template.html").is_file():
+            self.skipTest("the page for reports was not built")
+        content, arrays = self.content(units="m,N")
+        space = content["space"]
+        self.assertEqual((space["bodies"], space["increments"], [face["name"] for face in space["faces"]]), (["lower", "upper"], [1, 2], ["joint"]))
+        self.assertEqual((content["field"], content["pairs"]), (None, None))
+        self.assertAlmostEqual(space["ranges"]["2"]["von_mises"][1], PRESSURE, delta=1e-6 * PRESSURE)
+        self.assertAlmostEqual(content["totals"]["contacts"][0]["normal_force"][1], 0.8 * PRESSURE, delta=1e-6 * PRESSURE)
+        self.assertAlmostEqual(content["reactions"]["supports"][0]["z"][1], 0.8 * PRESSURE, delta=1e-6 * PRESSURE)
+        self.assertLessEqual({f"{key}_{number}" for key in ("ux", "uy", "uz", "xx", "yz", "von_mises") for number in (1, 2)}, arrays)
+        content, arrays = self.content(fields="von_mises")
+        self.assertEqual([quantity["key"] for quantity in content["space"]["quantities"]], ["von_mises"])
+        self.assertNotIn("ux_1", arrays)
+        content, arrays = self.content(megabytes=1e-3)  # one increment is always there, with its faces
+        self.assertEqual(content["space"]["increments"], [2])
+        self.assertIn("face_0_pressure_2", arrays)
 
 
 class Running(unittest.TestCase):
