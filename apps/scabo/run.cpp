@@ -39,8 +39,6 @@ ExitStatus run(const RunOptions& options, Cluster* cluster, Events& events) {
   const input::AnyModel read = input::read_any_model(options.model, input::parse_settings(options.settings));
   const double reading = std::chrono::duration<double>(Clock::now() - start).count();
   const auto output = options.output.empty() ? default_output(options.model) : options.output;
-  if (const auto* solids = std::get_if<model::SpaceModel>(&read)) return run_solids(*solids, output, options, events);
-  const auto& model = std::get<model::Model>(read);
   std::optional<ReportAtEnd> report_at_end;
   if (options.report) report_at_end.emplace();
   const auto reported = [&](ExitStatus status) {  // after a signal the user wants an end, not another program
@@ -48,6 +46,9 @@ ExitStatus run(const RunOptions& options, Cluster* cluster, Events& events) {
     events.stage("report");
     return report_at_end->write(output, status, options.quiet || options.json_lines);
   };
+  if (const auto* solids = std::get_if<model::SpaceModel>(&read))
+    return reported(run_solids(*solids, output, options, events));
+  const auto& model = std::get<model::Model>(read);
   if (cluster && !analysis::can_use_ranks(model)) {
     print_warning(
         fmt::format("{}: one of the {} ranks does all of it", analysis::why_no_ranks, cluster->ranks().count()));

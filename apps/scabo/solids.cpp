@@ -7,6 +7,7 @@
 #include "scabo/base/interruption.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/run/failures.hpp"
 #include "scabo/run/solid_run.hpp"
 #include "startup.hpp"
@@ -30,6 +31,7 @@ std::string bodies_of(const model::SpaceModel& model, const analysis::PosedSolid
 
 ExitStatus check_solids(const model::SpaceModel& model) {
   const analysis::PosedSolids posed = analysis::pose_solids(model);
+  const result::SolidOutputs outputs(model, posed);  // checks them
   for (const Warning& warning : model.warnings) print_warning(warning.text);
   print_output(fmt::format(
       "{}: {}\n\n{}\n{}, {}, {}.\n{}No mistakes found.\n", model.file, model.title.empty() ? "(no title)" : model.title,
@@ -93,12 +95,9 @@ run::Plan begin(const model::SpaceModel& model, const analysis::PosedSolids& pos
 
 ExitStatus run_solids(const model::SpaceModel& model, const std::filesystem::path& directory, const RunOptions& options,
                       Events& events) {
-  if (options.report)
-    throw InputError(model.file, {{{},
-                                   "is a model in space, of which there is no page for the browser: run it "
-                                   "without --report, and draw it by `scabo plot`"}});
   events.stage("checking");
   const analysis::PosedSolids posed = analysis::pose_solids(model);
+  const result::SolidOutputs outputs(model, posed);  // checks them
   const run::Plan plan = begin(model, posed, directory, events);
   if (!options.ignore_memory)
     if (const std::string why =

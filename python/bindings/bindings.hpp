@@ -12,6 +12,7 @@ void bind_errors(py::module_& module);
 void bind_models(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_static_results(py::module_& module);
+void bind_space_results(py::module_& module);
 void bind_modal_results(py::module_& module);
 void bind_super_elements(py::module_& module);
 void bind_contact(py::module_& module);

@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 
 #include <docstrings.hpp>  // made by make_docstrings.py
+#include <numeric>
+#include <variant>
 
 #include "bindings.hpp"
 #include "scabo/analysis/static_analysis.hpp"
@@ -12,7 +14,9 @@
 #include "scabo/input/settings.hpp"
 #include "scabo/input/text_file.hpp"
 #include "scabo/result/history.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/run/plan.hpp"
+#include "scabo/run/solid_run.hpp"
 #include "tree.hpp"
 
 namespace scabo::python {
@@ -26,7 +30,7 @@ Document read(const std::string& file, const std::vector<std::string>& settings)
   Document document{file, settings, nullptr};
   auto [root, model] = input::parse_document(input::read_text_file(file), file, input::parse_settings(settings));
   document.root = std::move(root);
-  document.text = std::move(model.text);
+  document.text = std::visit([](const auto& of) { return of.text; }, model);
   return document;
 }
 
@@ -42,12 +46,17 @@ CheckedModel checked_model(py::handle data, const std::string& file, const Docum
   const input::NodePtr before = document ? document->root : nullptr;
   const input::NodePtr root = tree_of(data, before, file);
   const py::gil_scoped_release release;
-  checked.model = input::model_of_tree(root, file);
   checked.is_of_file = document && root == before;
-  if (checked.is_of_file) {
-    checked.settings = document->settings;
-    checked.model.text = document->text;
-  }
+  if (checked.is_of_file) checked.settings = document->settings;
+  std::visit(
+      [&](auto&& model) {
+        if (checked.is_of_file) model.text = document->text;
+        if constexpr (std::is_same_v<std::decay_t<decltype(model)>, model::SpaceModel>)
+          checked.space = std::make_shared<const model::SpaceModel>(std::move(model));
+        else
+          checked.model = std::move(model);
+      },
+      input::model_of_tree(root, file));
   return checked;
 }
 
@@ -57,7 +66,14 @@ CheckedModel checked_model(py::handle data, const std::string& file, const Docum
 py::dict sizes(const CheckedModel& checked) {
   run::Plan plan;
   std::vector<int> pairs;
-  {
+  if (checked.space) {
+    const py::gil_scoped_release release;
+    const analysis::PosedSolids posed = analysis::pose_solids(*checked.space);
+    const result::SolidOutputs outputs(*checked.space, posed);  // checks them
+    plan = run::plan_of(posed);
+    pairs = analysis::count_pairs(posed.model);
+    plan.sizes.contact_pairs = std::accumulate(pairs.begin(), pairs.end(), 0);
+  } else {
     const py::gil_scoped_release release;
     const mesh::Mesh mesh = analysis::check(checked.model);
     if (checked.model.analysis.type == model::AnalysisType::static_) result::check_sections(checked.model, mesh);
@@ -65,7 +81,8 @@ py::dict sizes(const CheckedModel& checked) {
     pairs = run::moving_pairs(checked.model, mesh);
   }
   py::dict contacts;
-  for (std::size_t i = 0; i < pairs.size(); ++i) contacts[py::str(checked.model.contacts[i].name)] = pairs[i];
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    contacts[py::str(checked.space ? checked.space->contacts[i].name : checked.model.contacts[i].name)] = pairs[i];
   py::dict found;
   found["bodies"] = plan.sizes.bodies;
   found["nodes"] = plan.sizes.nodes;
@@ -91,10 +108,17 @@ std::vector<std::string> names_of(const std::vector<Part>& parts) {
 bool is_modal(const CheckedModel& checked) { return checked.model.analysis.type == model::AnalysisType::modal; }
 
 /// Names of the bodies, in the order of the model.
-std::vector<std::string> bodies(const CheckedModel& checked) { return names_of(checked.model.bodies); }
+std::vector<std::string> bodies(const CheckedModel& checked) {
+  return checked.space ? names_of(checked.space->bodies) : names_of(checked.model.bodies);
+}
+
+/// Whether it is a model in space.
+bool is_in_space(const CheckedModel& checked) { return checked.space != nullptr; }
 
 /// What the checks warn of, one sentence each.
-std::vector<std::string> warnings(const CheckedModel& checked) { return texts_of(checked.model.warnings); }
+std::vector<std::string> warnings(const CheckedModel& checked) {
+  return texts_of(checked.space ? checked.space->warnings : checked.model.warnings);
+}
 
 /// JSON Schema of the model file, as text.
 std::string schema() { return std::string(input::model_schema()); }
@@ -107,6 +131,7 @@ void bind_models(py::module_& module) {
       .def("data", &data, doc::models::data);
   py::class_<CheckedModel>(module, "CheckedModel", doc::models::CheckedModel)
       .def_property_readonly("is_modal", &is_modal, doc::models::is_modal)
+      .def_property_readonly("is_in_space", &is_in_space, doc::models::is_in_space)
       .def_property_readonly("bodies", &bodies, doc::models::bodies)
       .def_property_readonly("warnings", &warnings, doc::models::warnings)
       .def("sizes", &sizes, doc::models::sizes);

@@ -7,6 +7,7 @@
 
 #include "scabo/input/yaml_document.hpp"
 #include "scabo/model/model.hpp"
+#include "scabo/model/solid_model.hpp"
 
 namespace scabo::python {
 
@@ -20,8 +21,9 @@ struct Document {
 
 /// A model that has been read and validated.
 struct CheckedModel {
-  model::Model model;
-  double reading = 0.0;  ///< seconds
+  model::Model model;                              ///< empty of a model in space
+  std::shared_ptr<const model::SpaceModel> space;  ///< a model in space; else null
+  double reading = 0.0;                            ///< seconds
   /// If the model is that of the file with these settings: it can be read again by `scabo resume`.
   bool is_of_file = false;
   std::vector<std::string> settings;

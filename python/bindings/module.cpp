@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
   python::bind_models(module);
   python::bind_runs(module);
   python::bind_static_results(module);
+  python::bind_space_results(module);
   python::bind_modal_results(module);
   python::bind_super_elements(module);
   python::bind_contact(module);

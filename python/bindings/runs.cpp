@@ -15,9 +15,12 @@
 #include "scabo/result/history.hpp"
 #include "scabo/result/modal_results.hpp"
 #include "scabo/result/results_directory.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
+#include "scabo/result/solid/solid_results.hpp"
 #include "scabo/result/summary.hpp"
 #include "scabo/run/modal_run.hpp"
 #include "scabo/run/sizes.hpp"
+#include "scabo/run/solid_run.hpp"
 #include "scabo/run/static_run.hpp"
 #include "scabo/run/time_left.hpp"
 #include "solved.hpp"
@@ -52,6 +55,7 @@ class Watch {
   /// With the interpreter lock.
   py::object error() const { return error_; }
 
+  void begin(int increments) { now_.increments = increments; }
   void begin(const model::Model& model) {
     bool automatic = false;
     for (const model::Step& step : model.steps) automatic = automatic || !model::is_counted(step);
@@ -86,11 +90,18 @@ class Watch {
     if (stopped_) throw analysis::EndAtOnce{};
   }
   void increment(const model::Model& model, const analysis::IncrementResult& result) {
-    if (!result.converged) return;
+    if (result.converged) done(run::part_done(model, result), result.newton_iterations, result.residual);
+  }
+  void increment(int of, const analysis::SolidIncrement& made) {
+    if (made.status == contact::Status::solved)
+      done((now_.increment + 1.0) / of, made.iterations, made.certificate.worst());
+  }
+  /// An increment is finished, and `fraction` of all.
+  void done(double fraction, int iterations, double residual) {
     ++now_.increment;
-    now_.fraction = run::part_done(model, result);
-    now_.newton_iterations = result.newton_iterations;
-    now_.residual = result.residual;
+    now_.fraction = fraction;
+    now_.newton_iterations = iterations;
+    now_.residual = residual;
     now_.iteration.reset();
     now_.iteration_residual.reset();
     time_left_.increment(now_.fraction, now_.increment == 1);
@@ -240,6 +251,89 @@ std::shared_ptr<ModalRunResult> solve_modal(const CheckedModel& checked, const s
   return solved;
 }
 
+/// `step press, increment 2 of 10`
+std::string stage_of(const model::SpaceModel& model, const analysis::PosedSolids& posed, std::size_t number) {
+  const auto& [step, of_step] = posed.step_and_number[number];
+  return "step " + model.steps[step].name + ", increment " + std::to_string(of_step) + " of " +
+         std::to_string(model.steps[step].increments);
+}
+
+result::SolidEnd run_in_directory(const run::SolidRun& run, const CheckedModel& checked, RunRecord& record) {
+  run::SolidRun with_origin = run;
+  if (checked.is_of_file)
+    with_origin.begun.origin = run::origin_of(run.model, checked.settings, run.directory, run.threads);
+  const result::SolidEnd end = run::solve(with_origin);
+  record.directory = run.directory.string();
+  record.summary = text_of_file(run.directory / "summary.json");
+  return end;
+}
+
+result::SolidEnd solve_space_without_lock(const CheckedModel& checked, const std::optional<std::string>& output,
+                                          int threads, bool keep_fields, bool ignore_memory, Watch& watch,
+                                          SpaceResult& solved) {
+  const model::SpaceModel& model = *checked.space;
+  watch.stage("mesh");
+  solved.posed = std::make_shared<const analysis::PosedSolids>(analysis::pose_solids(model));
+  const analysis::PosedSolids& posed = *solved.posed;
+  const result::SolidOutputs outputs(model, posed);  // checks them
+  if (!ignore_memory)
+    if (const std::string why =
+            run::why_it_does_not_fit(run::plan_of(posed), run::available_memory(), "start it with ignore_memory=True");
+        !why.empty())
+      throw run::NotEnoughMemory(why);
+  const auto count = static_cast<int>(posed.increments.size());
+  watch.begin(count);
+  watch.stage(stage_of(model, posed, 0));
+  watch.meshed();
+  const auto add = [&](const analysis::SolidIncrement& increment) {
+    if (!keep_fields && increment.status == contact::Status::solved && !solved.increments.empty())
+      solved.increments.back().u.clear();
+    solved.increments.push_back(increment);
+    watch.increment(count, increment);
+    if (const std::size_t next = solved.increments.size(); next < posed.increments.size())
+      watch.stage(stage_of(model, posed, next));
+  };
+  if (output) {
+    result::SolidResults results(*output, model, posed);
+    run::SolidRun run{model, posed, results, *output, threads};
+    run.on_increment = add;
+    return run_in_directory(run, checked, solved.record);
+  }
+  const bool interrupted = run::solve_in_memory(model, posed, threads, add);
+  auto [summary, end] = result::summary_of(model, posed, solved.increments, interrupted);
+  solved.record.summary = std::move(summary);
+  return end;
+}
+
+/// Runs a static analysis in space, with the arguments and exceptions of solve_static.
+std::shared_ptr<SpaceResult> solve_space(const CheckedModel& checked, const std::optional<std::string>& output,
+                                         int threads, bool keep_fields, bool ignore_memory,
+                                         const py::object& progress) {
+  auto solved = std::make_shared<SpaceResult>();
+  solved->model = checked.space;
+  solved->posed = std::make_shared<const analysis::PosedSolids>();
+  solved->record.warnings = texts_of(checked.space->warnings);
+  Watch watch(progress);
+  result::SolidEnd end;
+  try {
+    const py::gil_scoped_release release;
+    const linalg::KeptBlasThreads kept;
+    const Interruptible::Ask ask = [&] {
+      if (watch.work()) throw run::Stopped{};
+    };
+    const Interruptible here(&ask);
+    end = solve_space_without_lock(checked, output, threads, keep_fields, ignore_memory, watch, *solved);
+  } catch (const run::Stopped&) {  // before the first increment
+    if (watch.error().is_none()) throw;
+    std::tie(solved->record.summary, end) = result::summary_of(*solved->model, *solved->posed, {}, true);
+  }
+  solved->status = end.status;
+  if (end.status != "solved")
+    solved->record.why_not_solved = (end.status == "interrupted" || end.at.empty() ? "" : end.at + ": ") + end.reason;
+  solved->record.error = watch.error();
+  return solved;
+}
+
 /// Writes results that are in memory, with the fields of all increments, to a directory, as a run does. Raises
 /// WriteError.
 void write_results(const StaticResult& solved, const std::string& output) {
@@ -249,6 +343,17 @@ void write_results(const StaticResult& solved, const std::string& output) {
     run::marking_failures(directory.path(), [&] {
       for (const analysis::IncrementResult& increment : solution.increments) directory.add(solution, increment);
       directory.finish(solution);
+    });
+  });
+}
+
+/// The same of results in space.
+void write_space_results(const SpaceResult& solved, const std::string& output) {
+  until_ctrl_c([&] {
+    result::SolidResults results(output, *solved.model, *solved.posed);
+    run::marking_failures(output, [&] {
+      for (const analysis::SolidIncrement& increment : solved.increments) results.add(increment);
+      results.finish(solved.status == "interrupted");
     });
   });
 }
@@ -278,9 +383,13 @@ void bind_runs(py::module_& module) {
       .def_readonly("why_not_solved", &RunRecord::why_not_solved, doc::solved::RunRecord_why_not_solved);
   module.def("solve_static", &solve_static, py::arg("model"), py::arg("output"), py::arg("threads"),
              py::arg("keep_fields"), py::arg("ignore_memory"), py::arg("progress"), doc::runs::solve_static);
+  module.def("solve_space", &solve_space, py::arg("model"), py::arg("output"), py::arg("threads"),
+             py::arg("keep_fields"), py::arg("ignore_memory"), py::arg("progress"), doc::runs::solve_space);
   module.def("solve_modal", &solve_modal, py::arg("model"), py::arg("output"), py::arg("threads"), py::arg("progress"),
              doc::runs::solve_modal);
   module.def("write_results", &write_results, py::arg("result"), py::arg("output"), doc::runs::write_results);
+  module.def("write_space_results", &write_space_results, py::arg("result"), py::arg("output"),
+             doc::runs::write_space_results);
 }
 
 }  // namespace scabo::python

@@ -1,12 +1,14 @@
 // Results as the extension module keeps them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bindings.hpp"
 #include "scabo/analysis/modal/modal_analysis.hpp"
+#include "scabo/analysis/space/posed_solids.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 
 namespace scabo::python {
@@ -26,6 +28,16 @@ struct [[gnu::visibility("hidden")]] RunRecord {
 struct [[gnu::visibility("hidden")]] StaticResult {
   analysis::StaticSolution solution;
   RunRecord record;  ///< summary, directory, warnings, and why the run ended
+};
+
+/// Results of a static analysis in space, numbered alike. Nodes and displacements show the memory of the solution;
+/// other arrays are new ones.
+struct [[gnu::visibility("hidden")]] SpaceResult {
+  std::shared_ptr<const model::SpaceModel> model;
+  std::shared_ptr<const analysis::PosedSolids> posed;  ///< of `model`
+  std::vector<analysis::SolidIncrement> increments;    ///< those that are solved, and at most one that is not
+  std::string status;                                  ///< solved, not_converged, mechanism, collapse or interrupted
+  RunRecord record;                                    ///< summary, directory, warnings, and why the run ended
 };
 
 /// Results of a modal analysis: modes in ascending frequency.

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["Fields"]
 
 _OF_CELLS = ("points", "connectivity", "offsets", "types", "cell_body")
-_NAMES = {5: "triangle", 7: "polygon", 9: "quad", 22: "triangle6", 23: "quad8"}  # of meshio, by VTK's numbers
+_NAMES = {5: "triangle", 7: "polygon", 9: "quad", 10: "tetra", 22: "triangle6", 23: "quad8", 24: "tetra10"}  # of meshio, by VTK's numbers
 
 
 @dataclass(frozen=True)
@@ -22,18 +22,20 @@ class Fields:
     are left out."""
 
     points: np.ndarray
-    """(n, 3), of the undeformed shape, z = 0."""
+    """(n, 3), of the undeformed shape; z = 0 in the plane."""
     connectivity: np.ndarray
     """Indices of the points of all cells, one cell after the other."""
     offsets: np.ndarray
     """Cells + 1: where each begins in ``connectivity``, and the end."""
     types: np.ndarray
-    """Of the cells, numbers of VTK: 5 triangle, 7 polygon, 9 quadrilateral, 22 and 23 the quadratic ones."""
+    """Of the cells, numbers of VTK: 5 triangle, 7 polygon, 9 quadrilateral, 22 and 23 the quadratic ones; in space 10 and 24, the
+    linear and the quadratic tetrahedron."""
     cell_body: np.ndarray
     """Body of every cell, from 1 in the order of the model."""
     values: dict[str, np.ndarray]
     """At the points: body, displacement (n, 3), stress (n, 6): xx, yy, zz, xy, yz, xz, principal_1 to principal_3, descending,
-    principal_angle (from x, radians), von_mises. Not a number where stress is infinite or, as in rigid bodies, unknown."""
+    principal_angle (from x, radians; in the plane), von_mises. Not a number where stress is infinite or, as in rigid bodies, unknown;
+    in space it is 0 in rigid bodies."""
 
     @classmethod
     def of(cls, arrays: dict[str, np.ndarray]) -> Fields:

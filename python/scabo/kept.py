@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _core
 
-__all__ = ["KeptModes", "KeptRecord", "KeptResult"]
+__all__ = ["KeptModes", "KeptRecord", "KeptResult", "KeptSpaceResult"]
 
 
 @dataclass
@@ -79,8 +79,62 @@ class KeptResult:
         return self.of_mechanism
 
     def values(self, increment: int, points: np.ndarray, only: int, allow_outside: bool) -> NoReturn:
-        raise LookupError("results that were pickled have no values at points, which the solver computes: compute them before, or use "
-                          "fields(), whose points they keep")
+        _no_values()
+
+
+@dataclass
+class KeptSpaceResult:
+    """A ``_core.SpaceResult``: pairs, displacements and fields of all increments that have them."""
+
+    record: KeptRecord
+    status: str
+    contacts: list[str]
+    bodies: list[str]
+    increments: int
+    of_pairs: list[list[dict[str, np.ndarray]]]
+    of_nodes: list[np.ndarray]
+    of_displacement: list[list[np.ndarray]]
+    of_fields: list[dict[str, np.ndarray]]
+    of_history: str
+
+    @classmethod
+    def of(cls, core: _core.SpaceResult | KeptSpaceResult) -> KeptSpaceResult:
+        """The solver's arrays are copied."""
+        if isinstance(core, KeptSpaceResult):
+            return core
+        kept = [core.keeps_fields(increment) for increment in range(core.increments)]
+        bodies, contacts = range(len(core.bodies)), range(len(core.contacts))
+        return cls(KeptRecord.of(core.record), core.status, list(core.contacts), list(core.bodies), core.increments,
+                   [[core.pairs(k, contact) for contact in contacts] if there else [] for k, there in enumerate(kept)],
+                   [np.array(core.nodes(body)) for body in bodies],
+                   [[np.array(core.displacement(k, body)) for body in bodies] if there else [] for k, there in enumerate(kept)],
+                   [core.fields(k) if there else {} for k, there in enumerate(kept)], core.history() if all(kept) else "")
+
+    def pairs(self, increment: int, contact: int) -> dict[str, np.ndarray]:
+        return dict(self.of_pairs[increment][contact])
+
+    def keeps_fields(self, increment: int) -> bool:
+        return bool(self.of_fields[increment])
+
+    def nodes(self, body: int) -> np.ndarray:
+        return self.of_nodes[body]
+
+    def displacement(self, increment: int, body: int) -> np.ndarray:
+        return self.of_displacement[increment][body]
+
+    def fields(self, increment: int) -> dict[str, np.ndarray]:
+        return dict(self.of_fields[increment])
+
+    def history(self) -> str:
+        return self.of_history
+
+    def values(self, increment: int, points: np.ndarray, only: int, allow_outside: bool) -> NoReturn:
+        _no_values()
+
+
+def _no_values() -> NoReturn:
+    raise LookupError("results that were pickled have no values at points, which the solver computes: compute them before, or use "
+                      "fields(), whose points they keep")
 
 
 @dataclass

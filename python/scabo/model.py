@@ -33,7 +33,7 @@ class Sizes:
     super_elements: int
     finite_elements: int
     contact_pairs: int
-    """Pairs that can move; those that supports hold on both sides do not count."""
+    """Pairs that can move; those that supports hold on both sides do not count. In space: all pairs."""
     contacts: dict[str, int]
     """Such pairs of every contact."""
     increments: int
@@ -102,7 +102,7 @@ class Model(dict[str, Any]):
 
     def run(self, output: str | os.PathLike[str] | None = None, *, progress: Callback | bool | None = None,
             threads: int | None = None, keep_fields: bool = True, ignore_memory: bool = False) -> Result:
-        """Solves the model; natural modes are found by ``modes``.
+        """Solves the model, in the plane or in space; natural modes are found by ``modes``.
 
         output
             Directory for the files that ``scabo run`` writes (docs/results.md); None: nothing is written.
@@ -127,7 +127,9 @@ class Model(dict[str, Any]):
         if checked.is_modal:
             raise ValueError("analysis.type: a modal analysis has modes and no increments: use modes()")
         with watching(progress) as callback:
-            solved = _core.solve_static(checked, _target(output), threads_of(threads), keep_fields, ignore_memory, callback)
+            how = (checked, _target(output), threads_of(threads), keep_fields, ignore_memory, callback)
+            solved: _core.StaticResult | _core.SpaceResult
+            solved = _core.solve_space(*how) if checked.is_in_space else _core.solve_static(*how)
         result = Result(solved)
         _warn(solved.record.warnings)
         if solved.record.error is not None:

@@ -19,7 +19,7 @@ import numpy as np
 from . import _core
 from .arguments import real_array
 from .fields import Fields
-from .kept import KeptResult
+from .kept import KeptResult, KeptSpaceResult
 from .motion import Motion
 
 if TYPE_CHECKING:
@@ -39,6 +39,22 @@ def _columns_of(table: str) -> dict[str, np.ndarray]:
     header, *rows = csv.reader(io.StringIO(table))
     columns = zip(*rows) if rows else [()] * len(header)
     return {name: np.array([value or "nan" for value in column], dtype=float) for name, column in zip(header, columns)}
+
+
+def _flat(table: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Vectors as three columns, named as in contact.csv."""
+    columns: dict[str, np.ndarray] = {}
+    for name, array in table.items():
+        if array.ndim == 1:
+            columns[name] = array
+        else:
+            for k, axis in enumerate("xyz"):
+                columns[axis if name == "position" else f"{name}_{axis}"] = array[:, k]
+    return columns
+
+
+def _text_of(value: Any) -> str:
+    return "[" + ", ".join(f"{x:.6g}" for x in value) + "]" if isinstance(value, list) else f"{value:.6g}"
 
 
 class Increment:
@@ -61,7 +77,7 @@ class Increment:
     contacts: dict[str, dict[str, Any]]
     """Totals of every contact."""
     reactions: dict[str, list[float]]
-    """Force of every support on its body, [x, y]."""
+    """Force of every support on its body, [x, y], in space [x, y, z]."""
     bars: dict[str, dict[str, float]]
     """Of a model with bars: the tension of every bar."""
     cracks: dict[str, dict[str, Any]]
@@ -93,7 +109,8 @@ class Increment:
 
 
 class Contact:
-    """Results of one contact. Forces act on B; n is the normal out of A, t is n turned by -90 degrees."""
+    """Results of one contact. Forces act on B; n is the normal out of A. In the plane t is n turned by -90 degrees; in space
+    forces, shear and slip are vectors along the global axes, and ties are here too."""
 
     def __init__(self, result: Result, name: str, index: int) -> None:
         self._result = result
@@ -105,7 +122,10 @@ class Contact:
         normal_y, gap, slip, normal_force, tangential_force, pressure, shear, state ("open", "stick" or "slip"),
         displacements of both sides along n and t; of bodies of revolution also forces_of_radians.
 
-        All but ``state`` show the memory of the solver and cannot be written: use ``.copy()`` to change one.
+        In space: pair, position and normal (n, 3), area, gap, slip (n, 3), force (n, 3), normal_force, pressure, shear (n, 3),
+        state.
+
+        In the plane all but ``state`` show the memory of the solver and cannot be written: use ``.copy()`` to change one.
         """
         columns = self._result._core.pairs(self._result._with_fields(increment), self._index)
         columns["state"] = _STATES[columns["state"]]
@@ -115,28 +135,29 @@ class Contact:
         return columns
 
     def frame(self, increment: int = -1) -> pandas.DataFrame:
-        """The same as a DataFrame of pandas, which must be installed."""
+        """The same as a DataFrame of pandas, which must be installed. In space a vector is three columns: x, y and z of the
+        position, and normal_x, slip_z and so on."""
         try:
             import pandas
         except ImportError:
             raise ImportError("frame() needs pandas (python3-pandas): install it, or use table()") from None
-        return pandas.DataFrame(self.table(increment))
+        return pandas.DataFrame(_flat(self.table(increment)))
 
     def history(self) -> dict[str, np.ndarray]:
-        """Totals over the increments: normal_force and tangential_force (sums over the pairs), numbers of open, stick
-        and slip pairs, max_gap and max_pressure."""
+        """Totals over the increments: normal_force and tangential_force (sums over the pairs; in space vectors, (n, 3)), numbers
+        of open, stick and slip pairs, max_gap and max_pressure."""
         totals = [increment.contacts[self.name] for increment in self._result.increments]
         return {name: np.array([total[name] for total in totals]) for name in _VALUES}
 
     @property
-    def normal_force(self) -> float:
-        """Sum over the pairs after the last increment."""
-        return self._result._last().contacts[self.name]["normal_force"]
+    def normal_force(self) -> Any:
+        """Sum over the pairs after the last increment, a number; in space the vector on B, an array of three."""
+        return self._result._of_axes(self._result._last().contacts[self.name]["normal_force"])
 
     @property
-    def tangential_force(self) -> float:
-        """Sum over the pairs after the last increment."""
-        return self._result._last().contacts[self.name]["tangential_force"]
+    def tangential_force(self) -> Any:
+        """The same of the tangential forces."""
+        return self._result._of_axes(self._result._last().contacts[self.name]["tangential_force"])
 
     def __repr__(self) -> str:
         return f"<scabo.Contact {self.name!r}>"
@@ -168,15 +189,21 @@ class _Contacts(Mapping[str, Contact]):
 class Result:
     """Results of a static analysis. Increments are numbered from 0, and from -1 backwards, as lists are; only converged
     ones count. Positions, displacements, forces and stresses are in the units of the model; stress is positive in
-    tension."""
+    tension. Of a model in space vectors have three components, and stresses six."""
 
-    def __init__(self, core: _core.StaticResult | KeptResult) -> None:
+    def __init__(self, core: _core.StaticResult | _core.SpaceResult | KeptResult | KeptSpaceResult) -> None:
         self._core = core
+        self._plane = core if isinstance(core, (_core.StaticResult, KeptResult)) else None
         self._directory = core.record.directory
         self._summary: dict[str, Any] = json.loads(core.record.summary)
         self._increments = [Increment(content) for content in self._summary["increments"] if content["converged"]]
         self.contact: Mapping[str, Contact] = _Contacts(self)
         """The contacts by their names."""
+
+    @property
+    def dimension(self) -> int:
+        """2 of a model in the plane, 3 of one in space."""
+        return 2 if self._plane is not None else 3
 
     @property
     def status(self) -> str:
@@ -200,7 +227,7 @@ class Result:
         increments (``keep_fields``)."""
         if self._directory is not None:
             path = pathlib.Path(self._directory, "history.csv")
-            return _columns_of(path.read_text(encoding="utf-8")) if "history" in self._summary else {}
+            return _columns_of(path.read_text(encoding="utf-8")) if path.is_file() else {}
         self._with_all_fields()
         table = self._core.history()
         return _columns_of(table) if table else {}
@@ -217,8 +244,9 @@ class Result:
 
     @property
     def mechanism(self) -> Motion | None:
-        """How the bodies begin to move, of a run that ended as a mechanism or collapse, or beyond a limit; None otherwise."""
-        table = self._core.mechanism()
+        """How the bodies begin to move, of a run that ended as a mechanism or collapse, or beyond a limit; None otherwise,
+        and of a model in space."""
+        table = None if self._plane is None else self._plane.mechanism()
         return None if table is None else Motion(table, self.bodies, list(self._core.contacts))
 
     @property
@@ -254,12 +282,13 @@ class Result:
         return list(self._core.bodies)
 
     def nodes(self, body: str) -> np.ndarray:
-        """Undeformed positions of the nodes of a body, (nodes, 2), without a copy; empty for a rigid body."""
+        """Undeformed positions of the nodes of a body, (nodes, 2) or in space (nodes, 3), without a copy; in the plane empty for a
+        rigid body."""
         return self._core.nodes(self._body(body))
 
     def nodal_displacement(self, body: str, increment: int = -1) -> np.ndarray:
-        """Displacements of these nodes, (nodes, 2), without a copy; of a rigid body [u_x, u_y, rotation] about its
-        centroid. With a ``reference`` point that moves (unbounded bodies) they are relative to it, in new memory."""
+        """Displacements of these nodes, (nodes, 2) or in space (nodes, 3), without a copy; of a rigid body in the plane
+        [u_x, u_y, rotation] about its centroid. With a ``reference`` point that moves (unbounded bodies) they are relative to it, in new memory."""
         return self._core.displacement(self._with_fields(increment), self._body(body))
 
     def values(self, points: ArrayLike, *, body: str | None = None, increment: int = -1,
@@ -270,25 +299,29 @@ class Result:
         ``body`` (index into ``bodies``), ``displacement`` (n, 2), ``stress`` (n, 4): xx, yy, xy, zz, ``strain`` (n, 3):
         xx, yy, gamma_xy, ``principal`` (n, 3), descending, ``principal_angle``, ``von_mises``, ``energy_density``.
 
-        A point on the edge where bodies touch needs ``body``. A point outside is an error, or with outside="nan" not a
+        In space points are (n, 3), and the arrays are ``body``, ``displacement`` (n, 3), ``stress`` (n, 6): xx, yy, zz, xy, yz,
+        xz, ``principal`` (n, 3) and ``von_mises``: interpolated in the tetrahedron, stress between the means at its nodes.
+
+        A point on the edge or face where bodies touch needs ``body``. A point outside is an error, or with outside="nan" not a
         number. Stress in a rigid body, and where it is infinite, is not a number.
         """
         if outside not in ("error", "nan"):
             raise ValueError(f"outside must be 'error' or 'nan', not {outside!r}")
         only = -1 if body is None else self._body(body)
         at = real_array("points", points)
-        if at.ndim != 2 or at.shape[1] != 2:
-            raise ValueError(f"points must have the shape (n, 2), as in [[x, y], ...], not {at.shape}")
+        if at.ndim != 2 or at.shape[1] != self.dimension:
+            raise ValueError(f"points must have the shape (n, {self.dimension}), as in [[{', '.join('xyz'[:self.dimension])}], ...], "
+                             f"not {at.shape}")
         return self._core.values(self._with_fields(increment), at, only, outside == "nan")
 
     def displacement(self, points: ArrayLike, *, body: str | None = None, increment: int = -1,
                      outside: Literal["error", "nan"] = "error") -> np.ndarray:
-        """Displacement at points, (n, 2); see ``values``."""
+        """Displacement at points, (n, 2) or (n, 3); see ``values``."""
         return self.values(points, body=body, increment=increment, outside=outside)["displacement"]
 
     def stress(self, points: ArrayLike, *, body: str | None = None, increment: int = -1,
                outside: Literal["error", "nan"] = "error") -> np.ndarray:
-        """Stress at points, (n, 4): xx, yy, xy, zz; see ``values``."""
+        """Stress at points, (n, 4): xx, yy, xy, zz, or in space (n, 6): xx, yy, zz, xy, yz, xz; see ``values``."""
         return self.values(points, body=body, increment=increment, outside=outside)["stress"]
 
     def fields(self, increment: int = -1) -> Fields:
@@ -308,13 +341,16 @@ class Result:
         self._directory = self._write(os.fsdecode(directory))
 
     def _write(self, directory: str) -> str:
-        if isinstance(self._core, KeptResult):
+        if isinstance(self._core, (KeptResult, KeptSpaceResult)):
             raise LookupError("results that were pickled cannot be written, nor drawn without a directory: save() them before")
-        if self._core.writes_problems:
+        if self._plane is not None and self._plane.writes_problems:
             raise ValueError("the model asks for the discrete problems (output.discrete_problems), which are written "
                              "only during a run: use run(output=...)")
         self._with_all_fields()
-        _core.write_results(self._core, directory)
+        if isinstance(self._core, _core.SpaceResult):
+            _core.write_space_results(self._core, directory)
+        else:
+            _core.write_results(self._core, directory)
         return directory
 
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
@@ -322,11 +358,13 @@ class Result:
         shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism", "envelope", "spectrum"
         (``columns="NAME"``, a velocity of the history), "history" or "cracks". ``mirrored=True`` draws both halves of bodies of
         revolution. Results that are not in a directory are first written to a temporary one."""
-        if what not in _PICTURES:
-            raise ValueError(f"what must be {', '.join(_PICTURES[:-1])} or {_PICTURES[-1]}, not {what!r}")
+        of_space = self.dimension == 3
+        pictures = _PICTURES[:2] if of_space else _PICTURES
+        if what not in pictures:
+            raise ValueError(f"what must be {', '.join(pictures[:-1])} or {pictures[-1]}, not {what!r}")
         try:
             from . import plot
-            picture = getattr(plot, what)
+            picture = getattr(plot, f"solid_{what}" if of_space else what)
         except ImportError as error:
             raise ImportError(f"plot() needs scabo.plot and Matplotlib (python3-matplotlib): {error}") from None
         if what in ("stress", "contact"):
@@ -396,9 +434,15 @@ class Result:
     def _last(self) -> Increment:
         return self._increments[self._number(-1)]
 
+    def _of_axes(self, value: Any) -> Any:
+        return value if self._plane is not None else np.array(value)
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Tables, nodal displacements, fields and histories are kept, and values at points are not."""
-        kept = KeptResult.of(self._core)
+        if isinstance(self._core, (_core.SpaceResult, KeptSpaceResult)):
+            kept: KeptResult | KeptSpaceResult = KeptSpaceResult.of(self._core)
+        else:
+            kept = KeptResult.of(self._core)
         kept.record.directory = self._directory
         return Result, (kept,)
 
@@ -412,6 +456,6 @@ class Result:
             return text
         head = "".join(f"<th>{name.replace('_', ' ')}</th>" for name in ("contact", *_VALUES))
         rows = "".join(f"<tr><td>{html.escape(name)}</td>"
-                       + "".join(f"<td>{total[value]:.6g}</td>" for value in _VALUES) + "</tr>"
+                       + "".join(f"<td>{_text_of(total[value])}</td>" for value in _VALUES) + "</tr>"
                        for name, total in self._last().contacts.items())
         return f"{text}<table><tr>{head}</tr>{rows}</table>"

@@ -31,7 +31,8 @@ export interface Listed<T> {
 export interface Model {
   nodes: number;
   dofs: number;
-  super_elements: number;
+  super_elements?: number;
+  finite_elements?: number; // of models in space, which have no super-elements
   contact_pairs: number;
   plane?: string;
   thickness?: number;
@@ -63,6 +64,27 @@ export interface Pairs {
   sizes: number[];
   increments: number[];
   note: string;
+}
+
+/** A contact face of a model in space. */
+export interface Face {
+  name: string;
+  axes: [string, string]; // names of its two coordinates
+  pairs: number;
+}
+
+/** Bodies in space: the values of python/scabo/report/space.py. */
+export interface Space {
+  centre: [number, number, number];
+  low: [number, number, number];
+  high: [number, number, number];
+  bodies: string[];
+  increments: number[];
+  ranges: Record<string, Record<string, Range>>;
+  magnification: number;
+  quantities: { key: string; name: string; dimension: Dimension }[];
+  note: string;
+  faces: Face[];
 }
 
 /** Of one contact over the increments. */
@@ -107,7 +129,7 @@ export interface Content {
   cracks: ({ name: string; kind: string } & Record<string, number | string>)[];
   quantities: { of: string; value: number | null; bar: number | null; relative: number | null; wanted: number | null; reached: boolean | null }[];
   totals: { count: number; curves: string[]; contacts: Totals[] };
-  reactions: { count: number; curves: string[]; supports: { name: string; x: Series; y: Series }[] };
+  reactions: { count: number; curves: string[]; supports: { name: string; x: Series; y: Series; z?: Series }[] }; // z: of models in space
   time_axis: string;
   in_time: boolean;
   history: { time: number[]; columns: { name: string; values: Series }[]; note: string } | null;
@@ -117,6 +139,7 @@ export interface Content {
   units: [string, string] | null;
   field: Fields | null;
   pairs: Pairs | null;
+  space?: Space | null; // of a model in space, which has neither `field` nor `pairs`
   mechanism: { text: string; length: number } | null; // `length`: as which its largest displacement is drawn
 }
 

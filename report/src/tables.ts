@@ -1,5 +1,5 @@
 // What is read rather than looked at: outcome, warnings, increments, certificate, model.
-import type { Content } from "./content";
+import type { Content, Model } from "./content";
 import { element, section, table } from "./dom";
 import type { State } from "./state";
 import { counted, number } from "./units";
@@ -12,12 +12,17 @@ export function verdict({ content }: State): HTMLElement {
   } else {
     tiles.push([increments.length === 1 ? "increment" : "increments", String(increments.length)], ["worst figure of the certificate", increments.length ? number(worst, 2) : "–"]);
   }
-  tiles.push(["degrees of freedom", model.dofs.toLocaleString("en")], ["super-elements", model.super_elements.toLocaleString("en")]);
+  tiles.push(["degrees of freedom", model.dofs.toLocaleString("en")], elementsOf(model));
   if (model.contact_pairs) tiles.push(["contact pairs", model.contact_pairs.toLocaleString("en")]);
   if (content.timing.total != null) tiles.push(["time", `${number(content.timing.total, 3)} s`]);
   return element("section", { class: `card verdict ${content.verdict.level}`, id: "outcome", "aria-labelledby": "outcome-heading" },
     element("div", {}, element("h2", { id: "outcome-heading" }, content.verdict.heading), element("p", {}, content.verdict.text)),
     element("dl", { class: "tiles" }, ...tiles.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value)))));
+}
+
+/** What the bodies are divided into: in space into tetrahedra. */
+function elementsOf(model: Model): [string, string] {
+  return model.super_elements === undefined ? ["tetrahedra", (model.finite_elements ?? 0).toLocaleString("en")] : ["super-elements", model.super_elements.toLocaleString("en")];
 }
 
 export function warnings({ warnings: texts }: Content): HTMLElement | null {
@@ -69,7 +74,7 @@ export function model(state: State): HTMLElement {
   const { content } = state, { model: m } = content, { units } = state.shown;
   const facts: [string, string][] = [];
   if (m.plane) facts.push(["plane", m.plane], ["thickness", units.text("length", m.thickness ?? null)]);
-  facts.push(["nodes", m.nodes.toLocaleString("en")], ["degrees of freedom", m.dofs.toLocaleString("en")], ["super-elements", m.super_elements.toLocaleString("en")]);
+  facts.push(["nodes", m.nodes.toLocaleString("en")], ["degrees of freedom", m.dofs.toLocaleString("en")], elementsOf(m));
   if (m.contact_pairs) facts.push(["contact pairs", m.contact_pairs.toLocaleString("en")]);
   if (m.steps?.length && !content.modal) facts.push(["steps", m.steps.slice(0, 20).join(", ") + (m.steps.length > 20 ? " ..." : "")]);
   facts.push(["units", units.length && units.force ? `${units.length}, ${units.force}` : "those of the model file"]);
@@ -80,8 +85,8 @@ export function model(state: State): HTMLElement {
     parts.push(element("h3", {}, heading), table(head, rows, { class: "numbers", "aria-label": heading }));
     if (all > rows.length) parts.push(element("p", { class: "note" }, `The first ${rows.length} of ${all}.`));
   };
-  list("Bodies", m.bodies.count, ["body", "material", "super-elements", "finite elements", "nodes"], m.bodies.listed.map((body) => [body.name + (body.unbounded ? " (unbounded)" : ""),
-    body.rigid ? "rigid" : body.materials.join(", "), String(body.super_elements), String(body.finite_elements), body.nodes.toLocaleString("en")]));
+  list("Bodies", m.bodies.count, ["body", "material", ...(content.space ? ["tetrahedra"] : ["super-elements", "finite elements"]), "nodes"], m.bodies.listed.map((body) => [body.name + (body.unbounded ? " (unbounded)" : ""),
+    body.rigid ? "rigid" : body.materials.join(", "), ...(content.space ? [] : [String(body.super_elements)]), String(body.finite_elements), body.nodes.toLocaleString("en")]));
   list("Materials", m.materials.count, ["material", "law", "Young's modulus", "Poisson's ratio", "density"], m.materials.listed.map((material) => [material.name, material.law,
     units.text("stress", material.young), number(material.poisson), number(material.density)]));
   list("Contacts", m.contacts.count, ["contact", "first side", "second side", "law"], m.contacts.listed.map((contact) => [contact.name, ...contact.between, contact.law]));

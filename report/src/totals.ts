@@ -29,6 +29,10 @@ export class TotalsPanel {
     return state.content.increments.length && (totals.count || reactions.count || history) ? new TotalsPanel(state) : null;
   }
 
+  private get axes(): ("x" | "y" | "z")[] {
+    return this.state.content.space ? ["x", "y", "z"] : ["x", "y"];
+  }
+
   private show(): void {
     const { content, shown } = this.state, at = shown.increment - 1, { units } = shown, { totals, reactions, history } = content;
     const parts: (Node | string)[] = [], more = (all: number, listed: number) => (all > listed ? element("p", { class: "note" }, `The ${listed} of ${all} with the largest forces.`) : "");
@@ -38,7 +42,7 @@ export class TotalsPanel {
         { class: "numbers", "aria-label": "Totals of contacts" }), more(totals.count, totals.contacts.length));
     }
     if (reactions.count) {
-      parts.push(element("h3", {}, "Reactions"), table(["support", "x", "y"], reactions.supports.map((support) => [support.name, units.text("force", support.x[at], 5), units.text("force", support.y[at], 5)]),
+      parts.push(element("h3", {}, "Reactions"), table(["support", ...this.axes], reactions.supports.map((support) => [support.name, ...this.axes.map((axis) => units.text("force", support[axis]![at], 5))]),
         { class: "numbers", "aria-label": "Reactions" }), more(reactions.count, reactions.supports.length));
     }
     if (history) {
@@ -59,8 +63,8 @@ export class TotalsPanel {
 
   private saveReactions(): void {
     const { content } = this.state;
-    saveCsv(fileName(content.directory, "reactions"), ["step", "increment", "time", "support", "x", "y"], content.increments.flatMap((row, k) =>
-      content.reactions.supports.map((support) => [row.step, row.increment, row.time, support.name, support.x[k], support.y[k]])));
+    saveCsv(fileName(content.directory, "reactions"), ["step", "increment", "time", "support", ...this.axes], content.increments.flatMap((row, k) =>
+      content.reactions.supports.map((support) => [row.step, row.increment, row.time, support.name, ...this.axes.map((axis) => support[axis]![k])])));
   }
 
   private saveHistory(): void {

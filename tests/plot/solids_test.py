@@ -3,7 +3,7 @@ import unittest
 
 import made_up  # noqa: F401  the package for pictures
 import numpy as np
-from plot import geometry, solids, vtu
+from plot import geometry, solids, tetrahedra, vtu
 
 
 def grid():
@@ -32,7 +32,7 @@ def grid():
 class Seen(unittest.TestCase):
     def test_facets_outside_are_those_of_one_cell_and_turn_outwards(self):
         of = grid()
-        facets = solids.outer_facets(of)
+        facets = tetrahedra.outer_facets(of)
         self.assertEqual(len(facets), 6)
         middle = of.points[:5].mean(axis=0)
         volume = 0.0
@@ -42,7 +42,7 @@ class Seen(unittest.TestCase):
         self.assertAlmostEqual(volume, 1 / 6 + 1 / 3)
         for k in range(3):
             np.testing.assert_allclose(of.points[facets[:, 3 + k]], 0.5 * (of.points[facets[:, k]] + of.points[facets[:, (k + 1) % 3]]))
-        self.assertEqual(len(solids.triangles_of(facets)), 24)
+        self.assertEqual(len(tetrahedra.triangles_of(facets)), 24)
 
     def test_directions_are_a_turn(self):
         for view in ((-60, 25), (0, 90), (135, -40)):
@@ -63,10 +63,10 @@ class Seen(unittest.TestCase):
 
     def test_values_of_components(self):
         of = grid()
-        np.testing.assert_array_equal(solids.values_of(of, "yz"), 4)
-        np.testing.assert_array_equal(solids.values_of(of, "uz"), of.points[:, 2])
-        np.testing.assert_array_equal(solids.values_of(of, "displacement"), of.points[:, 2])
-        self.assertEqual(solids.magnification_of(of), 1.0)
+        np.testing.assert_array_equal(tetrahedra.values_of(of, "yz"), 4)
+        np.testing.assert_array_equal(tetrahedra.values_of(of, "uz"), of.points[:, 2])
+        np.testing.assert_array_equal(tetrahedra.values_of(of, "displacement"), of.points[:, 2])
+        self.assertEqual(tetrahedra.magnification_of(of), 1.0)
 
 
 class Maps(unittest.TestCase):
@@ -77,7 +77,7 @@ class Maps(unittest.TestCase):
             points, normal = (square @ turn, np.array([0, 0, 1]) @ turn) if turned else (square, np.array([0, 0, 1.0]))
             data = {"contact": np.array([2] * 4), "normal": np.tile(normal, (4, 1)), "pressure": np.arange(4.0), "gap": np.zeros(4),
                     "shear": np.tile([3.0, 4.0, 0.0], (4, 1)), "slip": np.zeros((4, 3)), "state": np.array([0, 1, 2, 1])}
-            of = solids.map_of("joint", vtu.Grid(points, np.array([0, 1, 2, 0, 2, 3]), np.array([3, 6]), np.array([5, 5]), data,
+            of = tetrahedra.map_of("joint", vtu.Grid(points, np.array([0, 1, 2, 0, 2, 3]), np.array([3, 6]), np.array([5, 5]), data,
                                                  {"contact": np.array([2, 2])}), 2)
             self.assertAlmostEqual(geometry.areas(of.places, of.corners).sum(), 3.0)
             np.testing.assert_array_equal(of.values["shear"], 5.0)

@@ -168,6 +168,7 @@ class TypeChecker(InTemporaryDirectory):
         files = [*sorted((ROOT / "examples" / "python").glob("*.py"))]
         script = self.directory / "script.py"
         script.write_text("import scabo\nforce: float = scabo.read('m.yaml').run().contact['base'].normal_force\n"
+                          "vector: list[float] = scabo.read('space.yaml').run().contact['joint'].normal_force.tolist()\n"
                           "first: float = scabo.Model('m.yaml').modes().modes[0].frequency\n")
         done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--follow-imports=silent",
                                *files, script], text=True, capture_output=True, cwd=self.directory, timeout=PATIENCE)

@@ -15,6 +15,7 @@ from solids import arrays_of, vector
 from support import ROOT, certificate_of, rows_of, scabo, summary_of
 
 EXAMPLE = ROOT / "examples" / "30_blocks_in_space"
+OUTPUT = "output={points: [[0.5, 0.5, -0.1]], history: {cut: {section: {point: [0, 0, -0.1], normal: [0, 0, 1]}}}}"
 CHECK = json.loads((EXAMPLE / "check.json").read_text(encoding="utf-8"))
 TOLERANCE = CHECK["relative_tolerance"]
 
@@ -299,7 +300,7 @@ class BlocksInSpace(support.InTemporaryDirectory):
         return {file.name: file.read_bytes() for file in sorted((self.directory / name).iterdir())}
 
     def test_a_signal_ends_the_run_and_it_is_resumed(self):
-        settings = ["--set", "steps.1.increments=60"]
+        settings = ["--set", "steps.1.increments=60", "--set", OUTPUT]
         self.solve(EXAMPLE / "model.yaml", "whole", *settings)
         for how, status in ((signal.SIGINT, 130), (signal.SIGKILL, -signal.SIGKILL)):
             with self.subTest(how=how):
@@ -311,7 +312,7 @@ class BlocksInSpace(support.InTemporaryDirectory):
                 if how == signal.SIGINT:
                     self.assertRegex(err, r"interrupted; .*: go on with `scabo resume ")
                     self.assertEqual((summary["status"], summary["reason"]), ("interrupted", "interrupted: the increments finished so far are kept"))
-                for name in ("contact.csv", "log.txt", "fields.pvd"):
+                for name in ("contact.csv", "log.txt", "fields.pvd", "points.csv", "history.csv"):
                     with open(self.directory / "results" / name, "ab") as file:
                         file.write(b"half a li")
                 done = scabo("resume", self.directory / "results", "--quiet")

@@ -47,7 +47,7 @@ def row_of(entry, number, model, in_time):
     return {"number": number, "step": entry["step"], "increment": entry["increment"], "reached": entry["reached"],
             "step_name": steps[entry["step"] - 1] if entry["step"] <= len(steps) else str(entry["step"]),
             "time": entry.get("time", 0.0) if in_time else entry["step"] - 1 + entry["reached"], "factors": entry["factors"], "iterations": entry["newton_iterations"],
-            "coarse": entry.get("coarse_iterations", 0), "residual": entry["residual"], "certificate": max(figures, default=None),
+            "coarse": entry.get("coarse_iterations", 0), "residual": entry.get("residual"), "certificate": max(figures, default=None),
             "open": sum(contact["open"] for contact in contacts), "stick": sum(contact["stick"] for contact in contacts),
             "slip": sum(contact["slip"] for contact in contacts), "energy": entry.get("energy"),
             "error": (entry.get("error") or {}).get("relative_energy_norm")}
@@ -58,8 +58,8 @@ def series(increments, group, name, part):
     values = []
     for entry in increments:
         value = entry.get(group, {}).get(name)
-        value = value[part] if value is not None else None
-        values.append(value)
+        value = value[part] if value is not None and (not isinstance(value, list) or part < len(value)) else None
+        values.append(math.hypot(*value) if isinstance(value, list) else value)  # of a vector in space its size
     return values
 
 
@@ -77,15 +77,21 @@ def largest(increments, group, size, numbers):
 
 
 def totals_of(increments):
-    names, count, curves = largest(increments, "contacts", lambda contact: abs(contact["normal_force"] or 0.0), len(TOTALS))
+    names, count, curves = largest(increments, "contacts", lambda contact: size_of(contact["normal_force"]), len(TOTALS))
     return {"count": count, "curves": curves,
             "contacts": [{"name": name, **{key: series(increments, "contacts", name, key) for key in TOTALS}} for name in names]}
 
 
 def reactions_of(increments):
     names, count, curves = largest(increments, "reactions", lambda force: math.hypot(*(part or 0.0 for part in force)), 2)
+    axes = "xyz"[:max((len(force) for entry in increments for force in entry.get("reactions", {}).values()), default=2)]
     return {"count": count, "curves": curves,
-            "supports": [{"name": name, "x": series(increments, "reactions", name, 0), "y": series(increments, "reactions", name, 1)} for name in names]}
+            "supports": [{"name": name, **{axis: series(increments, "reactions", name, k) for k, axis in enumerate(axes)}} for name in names]}
+
+
+def size_of(force):
+    """Of a number, or of a vector in space."""
+    return math.hypot(*force) if isinstance(force, list) else abs(force or 0.0)
 
 
 def cracks_of(increments):

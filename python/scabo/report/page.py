@@ -12,6 +12,7 @@ from .mechanism import add_mechanism
 from .packing import Arrays
 from .pairs import add_pairs
 from .reading import Results, ResultsError, Units, refuse_impossible
+from .space import add_space
 
 MEGABYTES = 25.0  # of a page, unless the values of a single increment need more
 TITLE, CONTENT, ARRAYS = "<!--scabo:title-->", "<!--scabo:content-->", "<!--scabo:arrays-->"
@@ -42,14 +43,14 @@ def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False, fields=N
     named = Units.parse(units) if units else None
     quantities = asked_for(fields)
     results = Results(directory, mirrored)
-    if results.in_space:
-        raise ResultsError(f"{directory}: is of a model in space, of which there is no page yet: `scabo plot` draws it, and ParaView opens its "
-                           "fields.pvd")
     check(results)
     content = content_of(results)
     content["units"] = [named.length, named.force] if named else None
     arrays = Arrays()
     room = max(0.0, megabytes * 1e6 - len(text) - len(json.dumps(content)))
+    content["space"] = add_space(results, arrays, room, fields) if results.in_space and results.count else None
+    if results.in_space:
+        return filled(text, {**content, "field": None, "pairs": None, "mechanism": None}, arrays)
     shown = add_fields(results, arrays, 0.75 * room, quantities) if results.count else None
     centre = shown["centre"] if shown else [0.0, 0.0]
     content["field"] = shown
@@ -60,7 +61,7 @@ def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False, fields=N
 
 def check(results):
     """The keys that a page is made of exist."""
-    needed = ("step", "increment", "reached", "factors", "converged", "newton_iterations", "residual", "contacts")
+    needed = ("step", "increment", "reached", "factors", "converged", "newton_iterations", "contacts")
     entries = results.summary.get("modes") if results.modal else results.summary.get("increments")
     if not isinstance(entries, list) or not isinstance(results.summary.get("model"), dict) or not results.modal and not all(
             isinstance(entry, dict) and all(key in entry for key in needed) for entry in entries):

@@ -56,7 +56,7 @@ export class HistoryPanel {
 }
 
 function groupsOf({ content }: State): Group[] {
-  const rows = content.increments, groups: Group[] = [], { totals, reactions, history } = content;
+  const axes: ("x" | "y" | "z")[] = content.space ? ["x", "y", "z"] : ["x", "y"], rows = content.increments, groups: Group[] = [], { totals, reactions, history } = content;
   if (totals.count) {
     const many = totals.count > totals.curves.length ? `Of ${totals.count} contacts those ${totals.curves.length} with the largest forces are in this page.` : "";
     const names = (text: string, name: string) => (totals.count > 1 ? `${name}, ${text}` : text);
@@ -73,7 +73,7 @@ function groupsOf({ content }: State): Group[] {
   if (rows.some((row) => row.energy)) groups.push({ name: "energies", y: "energy", dimension: "energy", curves: (["external", "elastic", "friction"] as const).map((kind) => (
     { name: { external: "work of the loads", elastic: "elastic energy", friction: "dissipated by friction" }[kind], values: rows.map((row) => row.energy?.[kind] ?? null) })) });
   if (reactions.count) groups.push({ name: "reactions", y: "force", dimension: "force", note: reactions.count > MOST / 2 ? `Of ${reactions.count} supports those with the largest reactions are shown.` : "",
-    curves: reactions.supports.filter(({ name }) => reactions.curves.includes(name)).slice(0, MOST / 2).flatMap((support) => [{ name: `${support.name}, x`, values: support.x }, { name: `${support.name}, y`, values: support.y }]) });
+    curves: reactions.supports.filter(({ name }) => reactions.curves.includes(name)).slice(0, MOST / 2).flatMap((support) => axes.map((axis) => ({ name: `${support.name}, ${axis}`, values: support[axis]! }))) });
   for (const column of history?.columns ?? []) groups.push({ name: `history: ${column.name}`, y: column.name, dimension: "number", time: history!.time, note: history!.note,
     curves: [{ name: column.name, values: column.values }] });
   return groups;

@@ -98,7 +98,7 @@ function quantitiesOf({ content }: State): Quantity[] {
     quantities.push({ name: `${contact.name}, tangential force`, dimension: "force", values: contact.tangential_force });
     quantities.push({ name: `${contact.name}, normal force`, dimension: "force", values: contact.normal_force });
   }
-  for (const support of reactions.supports.filter(({ name }) => reactions.curves.includes(name))) for (const part of ["x", "y"] as const) quantities.push({ name: `${support.name}, reaction ${part}`, dimension: "force", values: support[part] });
+  for (const support of reactions.supports.filter(({ name }) => reactions.curves.includes(name))) for (const part of ["x", "y", ...(content.space ? ["z"] as const : [])] as const) quantities.push({ name: `${support.name}, reaction ${part}`, dimension: "force", values: support[part]! });
   return quantities.filter(({ values }) => values.some((value) => value !== null));
 }
 

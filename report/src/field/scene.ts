@@ -368,7 +368,7 @@ function besideJoints(x: Float32Array, y: Float32Array, sizes: number[]): { besi
 
 const NO_CAMERA = new ThreeCamera(); // shaders place points themselves
 
-function texture(signed: boolean): DataTexture {
+export function texture(signed: boolean): DataTexture {
   const made = new DataTexture(colourMap(signed), ENTRIES, 1);
   made.magFilter = made.minFilter = NearestFilter;
   made.needsUpdate = true;

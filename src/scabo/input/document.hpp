@@ -6,21 +6,21 @@
 #include <string_view>
 #include <vector>
 
-#include "scabo/input/read_model.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 #include "scabo/input/yaml_document.hpp"
 
 namespace scabo::input {
 
 struct Document {
   NodePtr root;  ///< with the overrides in it
-  model::Model model;
+  AnyModel model;
 };
 
-/// `parse_model` with its tree.
+/// `parse_model` with its tree, also of a model in space.
 Document parse_document(std::string_view text, const std::string& file, const std::vector<Override>& overrides = {});
 
 /// Reads and checks a tree, whoever made it. Mistakes at nodes without a line are reported by their key path alone;
 /// `file` is used in messages, and files that the model names are relative to its folder. Throws InputError.
-model::Model model_of_tree(const NodePtr& root, const std::string& file);
+AnyModel model_of_tree(const NodePtr& root, const std::string& file);
 
 }  // namespace scabo::input

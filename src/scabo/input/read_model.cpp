@@ -321,43 +321,49 @@ NodePtr tree_of_text(std::string_view text, const std::string& file, const std::
 void refuse_space(const Node& root, const std::string& file) {
   if (is_in_space(root))
     refuse_file(file,
-                "is a model in space (analysis: {space: true}), which only `scabo run` and `scabo check` take, "
+                "is a model in space (analysis: {space: true}), which `scabo run`, `scabo check` and Python take, "
                 "in one process: use these");
+}
+
+}  // namespace
+
+namespace {
+
+/// `text`: of the model file; none of a model that was built in Python.
+AnyModel read_any_tree(Reading& reading, const NodePtr& root, const std::string& file,
+                       std::shared_ptr<const std::string> text) {
+  reading.model.file = file;
+  if (is_in_space(*root)) {
+    SpaceModel model = solid_model_of_tree(root, reading.report, file);
+    model.text = std::move(text);
+    return model;
+  }
+  reading.model.text = std::move(text);
+  return read_tree(reading, root, file);
 }
 
 }  // namespace
 
 Document parse_document(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
   Reading reading;
-  reading.model.file = file;
-  reading.model.text = std::make_shared<const std::string>(text);
   const NodePtr root = tree_of_text(text, file, overrides, reading.report);
-  refuse_space(*root, file);
-  return {root, read_tree(reading, root, file)};
+  return {root, read_any_tree(reading, root, file, std::make_shared<const std::string>(text))};
 }
 
 AnyModel read_any_model(const std::string& file, const std::vector<Override>& overrides) {
-  Reading reading;
-  reading.model.file = file;
-  reading.model.text = std::make_shared<const std::string>(read_text_file(file));
-  const NodePtr root = tree_of_text(*reading.model.text, file, overrides, reading.report);
-  if (is_in_space(*root)) {
-    SpaceModel model = solid_model_of_tree(root, reading.report, file);
-    model.text = reading.model.text;
-    return model;
-  }
-  return read_tree(reading, root, file);
+  return parse_document(read_text_file(file), file, overrides).model;
 }
 
 Model parse_model(std::string_view text, const std::string& file, const std::vector<Override>& overrides) {
-  return parse_document(text, file, overrides).model;
+  Reading reading;
+  const NodePtr root = tree_of_text(text, file, overrides, reading.report);
+  refuse_space(*root, file);
+  return std::get<Model>(read_any_tree(reading, root, file, std::make_shared<const std::string>(text)));
 }
 
-Model model_of_tree(const NodePtr& root, const std::string& file) {
+AnyModel model_of_tree(const NodePtr& root, const std::string& file) {
   Reading reading;
-  reading.model.file = file;
-  refuse_space(*root, file);
-  return read_tree(reading, root, file);
+  return read_any_tree(reading, root, file, nullptr);
 }
 
 Model read_model(const std::string& file, const std::vector<Override>& overrides) {

@@ -103,6 +103,23 @@ struct SpaceContact {
   Eigen::Vector3d about = Eigen::Vector3d::Zero();  ///< point to which the moment of the contact forces refers
 };
 
+/// A point of `output: {points: ...}`.
+struct SpacePoint {
+  std::string name;
+  Eigen::Vector3d at;
+  int body = -1;  ///< the one that is meant; -1: every body in which it lies
+  Source source;
+};
+
+/// A plane section of `output: {history: ...}`, whose resultants are wanted.
+struct SpaceSection {
+  std::string name;
+  Eigen::Vector3d point, normal;         ///< of the plane; the latter of length 1
+  std::optional<Eigen::Vector3d> about;  ///< of the moment; none: the centroid of the section
+  int body = -1;                         ///< -1: every elastic body that the plane cuts
+  Source source;
+};
+
 struct SpaceModel {
   std::string file, title;
   std::vector<std::string> files;           ///< that it names
@@ -113,7 +130,9 @@ struct SpaceModel {
   std::vector<SpaceLoad> loads;
   std::vector<SpaceContact> contacts;
   std::vector<Curve> curves;
-  std::vector<Step> steps;   ///< counted ones
+  std::vector<Step> steps;  ///< counted ones
+  std::vector<SpacePoint> points;
+  std::vector<SpaceSection> sections;
   double tolerance = 1e-10;  ///< of the certificate
   std::vector<Warning> warnings;
 };

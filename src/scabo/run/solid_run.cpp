@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/run/checkpoint_pace.hpp"
@@ -13,22 +12,14 @@ namespace scabo::run {
 
 namespace {
 
-/// Measured on one thread of a Xeon; the exponents are those of sparse factors in space.
-constexpr double unit_dofs = 95232.0, unit_bytes = 0.66e9, unit_seconds = 6.3;
-constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 4e-5;  // of elements and fields, the latter of an increment
-constexpr double sweep_seconds = 3e-8;                          // for each degree of freedom and row of W
-constexpr double contact_bytes = 60.0, contact_seconds = 2e-8;  // for the square of the rows of W
-
-/// Corners of the side with the pairs, or more: those of the side with more of them.
-double most_pairs(const analysis::SolidContact& contact) {
-  double most = 0.0;
-  for (const analysis::SolidContact::Side& side : {contact.a, contact.b}) {
-    std::set<int> corners;
-    for (const mesh::SolidFacet& facet : side.facets) corners.insert(facet.begin(), facet.begin() + 3);
-    most = std::max(most, static_cast<double>(corners.size()));
-  }
-  return most;
-}
+/// Measured on one thread of a Xeon (benchmarks/README.md, "In space beside CalculiX"); the exponents are those of
+/// sparse factors in space.
+constexpr double unit_dofs = 95232.0, unit_bytes = 0.9e9, unit_seconds = 3.0;
+constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 1.6e-5;  // of elements and fields; of elements
+constexpr double field_seconds = 3e-6;                            // for each degree of freedom and increment
+constexpr double sweep_seconds = 3e-8;                            // for each degree of freedom and row of W
+constexpr double contact_bytes = 200.0;                           // for the square of the rows of W
+constexpr double row_seconds = 2e-8, solve_seconds = 1e-10;       // of an increment, for their square and their cube
 
 }  // namespace
 
@@ -38,8 +29,10 @@ Plan plan_of(const analysis::PosedSolids& posed) {
   plan.bytes = CostConstants().base_bytes;
   std::vector<double> rows(posed.model.bodies.size(), 0.0);  // of W, on each body
   double all_rows = 0.0;
-  for (const analysis::SolidContact& contact : posed.model.contacts) {
-    const double pairs = most_pairs(contact);
+  const std::vector<int> counts = analysis::count_pairs(posed.model);
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    const analysis::SolidContact& contact = posed.model.contacts[c];
+    const double pairs = counts[c];
     plan.sizes.contact_pairs += static_cast<int>(pairs);
     for (const int body : {contact.a.body, contact.b.body}) rows[static_cast<std::size_t>(body)] += 3.0 * pairs;
     all_rows += 3.0 * pairs;
@@ -55,11 +48,11 @@ Plan plan_of(const analysis::PosedSolids& posed) {
     plan.cells += seconds_of_dof * n;
     plan.factorise += unit_seconds * std::pow(n / unit_dofs, 2.05);
     plan.condense += sweep_seconds * n * rows[b];
-    plan.fields += plan.increments * seconds_of_dof * n;
+    plan.fields += plan.increments * field_seconds * n;
   }
   plan.sizes.dofs = 3 * plan.sizes.nodes;
   plan.bytes += contact_bytes * all_rows * all_rows;
-  plan.contact = plan.increments * contact_seconds * all_rows * all_rows;
+  plan.contact = plan.increments * (row_seconds + solve_seconds * all_rows) * all_rows * all_rows;
   return plan;
 }
 
@@ -69,7 +62,7 @@ namespace {
 class SolidCheckpoints {
  public:
   explicit SolidCheckpoints(const SolidRun& run)
-      : run_(run), last_(run.begun), wanted_(run.posed.increments.size() > 1) {
+      : run_(run), last_(run.begun), wanted_(run.posed.increments.size() > 1 && !run.begun.origin.model.empty()) {
     if (wanted_ && last_.results.finished == 0) write();
   }
   void add(const analysis::SolidState& state) {
@@ -96,25 +89,41 @@ class SolidCheckpoints {
   CheckpointPace pace_;
 };
 
-result::SolidEnd solve_and_write(const SolidRun& run) {
-  SolidCheckpoints checkpoints(run);
-  analysis::SolidOptions options;
-  options.tolerance = run.model.tolerance;
-  options.threads = run.threads;
-  options.first = static_cast<std::size_t>(run.begun.results.finished);
-  if (options.first > 0) options.from = &run.begun.state;
-  std::size_t left = run.posed.increments.size() - options.first;
+/// Those that are left, each told to `add`. Whether it was interrupted; an interruption point follows every increment
+/// but the last.
+bool solve_increments(const analysis::PosedSolids& posed, analysis::SolidOptions options,
+                      const std::function<void(const analysis::SolidIncrement&, const analysis::SolidState&)>& add) {
+  std::size_t left = posed.increments.size() - options.first;
   options.on_increment = [&](const analysis::SolidIncrement& increment, const analysis::SolidState& state) {
-    run.results.add(increment);
-    if (increment.status == contact::Status::solved) checkpoints.add(state);
+    add(increment, state);
     if (--left > 0) interruption_point();
   };
-  bool interrupted = false;
   try {
-    if (left > 0) analysis::solve_solids(run.posed.model, run.posed.increments, options);
+    if (left > 0) analysis::solve_solids(posed.model, posed.increments, options);
   } catch (const Stopped&) {
-    interrupted = true;
+    return true;
   }
+  return false;
+}
+
+analysis::SolidOptions options_of(const model::SpaceModel& model, int threads) {
+  analysis::SolidOptions options;
+  options.tolerance = model.tolerance;
+  options.threads = threads;
+  return options;
+}
+
+result::SolidEnd solve_and_write(const SolidRun& run) {
+  SolidCheckpoints checkpoints(run);
+  analysis::SolidOptions options = options_of(run.model, run.threads);
+  options.first = static_cast<std::size_t>(run.begun.results.finished);
+  if (options.first > 0) options.from = &run.begun.state;
+  const bool interrupted = solve_increments(
+      run.posed, std::move(options), [&](const analysis::SolidIncrement& increment, const analysis::SolidState& state) {
+        run.results.add(increment);
+        if (increment.status == contact::Status::solved) checkpoints.add(state);
+        if (run.on_increment) run.on_increment(increment);
+      });
   const Interruptible nobody(nullptr);
   if (interrupted) checkpoints.finish();
   result::SolidEnd end = run.results.finish(interrupted);
@@ -131,6 +140,14 @@ analysis::RunOrigin origin_of(const model::SpaceModel& model, const std::vector<
 
 result::SolidEnd solve(const SolidRun& run) {
   return marking_failures(run.directory, [&] { return solve_and_write(run); });
+}
+
+bool solve_in_memory(const model::SpaceModel& model, const analysis::PosedSolids& posed, int threads,
+                     const std::function<void(const analysis::SolidIncrement&)>& on_increment) {
+  return solve_increments(posed, options_of(model, threads),
+                          [&](const analysis::SolidIncrement& increment, const analysis::SolidState&) {
+                            if (on_increment) on_increment(increment);
+                          });
 }
 
 }  // namespace scabo::run

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "scabo/analysis/space/posed_solids.hpp"
 #include "scabo/analysis/space/solid_checkpoint.hpp"
@@ -20,7 +21,8 @@ struct SolidRun {
   result::SolidResults& results;
   std::filesystem::path directory;  ///< of the results
   int threads = 1;
-  analysis::SolidCheckpoint begun = {};  ///< of a new run: without increments
+  analysis::SolidCheckpoint begun = {};  ///< of a new run: without increments; without origin none are written
+  std::function<void(const analysis::SolidIncrement&)> on_increment = {};  ///< told when it is written
 };
 
 /// What a checkpoint says about the origin of a run. Throws InputError if a file cannot be read.
@@ -31,5 +33,9 @@ analysis::RunOrigin origin_of(const model::SpaceModel& model, const std::vector<
 /// (base/interruption.hpp; one follows every increment but the last). Throws result::WriteError; a failure is recorded
 /// in the directory.
 result::SolidEnd solve(const SolidRun& run);
+
+/// All increments without files, told as they are made. Whether it was interrupted.
+bool solve_in_memory(const model::SpaceModel& model, const analysis::PosedSolids& posed, int threads,
+                     const std::function<void(const analysis::SolidIncrement&)>& on_increment);
 
 }  // namespace scabo::run

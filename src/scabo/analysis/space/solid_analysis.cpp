@@ -439,6 +439,12 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
 
 }  // namespace
 
+std::vector<int> count_pairs(const SolidModel& model) {
+  std::vector<int> counts(model.contacts.size(), 0);
+  for (const SolidPair& pair : paired_faces(model).pairs) ++counts[static_cast<std::size_t>(pair.contact)];
+  return counts;
+}
+
 void solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments, const SolidOptions& options) {
   SolidMarch march(model, options);
   for (std::size_t k = options.first; k < increments.size(); ++k) {

@@ -121,6 +121,9 @@ struct SolidOptions {
   std::function<void(const SolidIncrement&, const SolidState&)> on_increment;
 };
 
+/// Number of pairs of every contact.
+std::vector<int> count_pairs(const SolidModel& model);
+
 /// Solves the increments from `first`, in their order; one that is not solved ends the analysis. None of them is kept.
 /// Contacts have faces for which mesh::why_no_pairs gives no reason.
 void solve_solids(const SolidModel& model, const std::vector<SolidFactors>& increments, const SolidOptions& options);

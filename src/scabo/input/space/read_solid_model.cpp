@@ -49,9 +49,9 @@ SpaceModel SpaceReader::read(const Value& root) {
   const MapReader map(
       report_, root,
       {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
-       "curves", "steps", "solver"},
+       "curves", "steps", "solver", "output"},
       "'scabo: 1' and sections",
-      only_in_the_plane({"springs", "bars", "contact_properties", "output", "tolerance", "restart", "initial"}));
+      only_in_the_plane({"springs", "bars", "contact_properties", "tolerance", "restart", "initial"}));
   if (const auto version = map.need("scabo"); version && number(version, 1.0) != 1.0)
     report_.error(*version, fmt::format("this program reads format version 1, not {}", version->node->text));
   if (const auto title = map.get("title")) model_.title = read_text(report_, *title).value_or("");
@@ -76,6 +76,7 @@ SpaceModel SpaceReader::read(const Value& root) {
       for (const Entry& entry :
            read_named(report_, *value, tied ? "ties" : "contacts", "{joint: {between: [base.top, block.bottom]}}"))
         pair_of_faces(entry, tied);
+  if (const auto value = map.get("output")) output(*value);
   if (const auto value = map.get("curves")) curves(*value);
   steps(map.get("steps"));
   find_fits();

@@ -51,6 +51,12 @@ class SpaceReader {
   void check_gravity(const Entry& entry, const model::SpaceLoad& load);
   void pair_of_faces(const Entry& entry, bool tied);
 
+  // read_solid_output.cpp
+  void output(const Value& value);
+  void point(const Value& value);
+  void section(const Entry& entry);
+  int body_named(const Value& value);
+
   // read_solid_steps.cpp
   void curves(const Value& value);
   void steps(const std::optional<Value>& value);

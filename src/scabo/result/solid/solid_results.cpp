@@ -102,12 +102,10 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
              const analysis::SolidIncrement& increment, std::size_t number) {
   const auto& [step, of_step] = posed.step_and_number[number];
   const bool solved = increment.status == contact::Status::solved;
-  Json json = {
-      {"step", step + 1},
-      {"increment", of_step},
-      {"reached", model.steps[step].ends.empty() ? static_cast<double>(of_step) / model.steps[step].increments
-                                                 : model.steps[step].ends[static_cast<std::size_t>(of_step - 1)]},
-      {"factors", Json::object()}};
+  Json json = {{"step", step + 1},
+               {"increment", of_step},
+               {"reached", reached_by(model, posed, number)},
+               {"factors", Json::object()}};
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     json["factors"][model.loads[i].name] = increment.factors.loads[static_cast<Eigen::Index>(i)];
   for (std::size_t i = 0; i < model.supports.size(); ++i)
@@ -193,6 +191,22 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
   json["warnings"] = texts_of(model.warnings);
   json["model"] = {{"nodes", nodes}, {"dofs", 3 * nodes}, {"finite_elements", cells}, {"steps", Json::array()}};
   for (const model::Step& step : model.steps) json["model"]["steps"].push_back(step.name);
+  for (std::size_t b = 0; b < posed.model.bodies.size(); ++b) {
+    const mesh::SolidMesh& mesh = posed.model.bodies[b].mesh;
+    Json materials = Json::array();
+    if (const int material = model.bodies[b].material; material >= 0)
+      materials.push_back(model.materials[static_cast<std::size_t>(material)].name);
+    json["model"]["bodies"].push_back({{"name", model.bodies[b].name},
+                                       {"rigid", model.bodies[b].rigid},
+                                       {"materials", materials},
+                                       {"nodes", mesh.nodes.cols()},
+                                       {"finite_elements", mesh.cells.size()}});
+  }
+  for (const model::SpaceContact& contact : model.contacts)
+    json["model"]["contacts"].push_back(
+        {{"name", contact.name},
+         {"between", {contact.a.text, contact.b.text}},
+         {"law", contact.friction ? fmt::format("friction {:g}", *contact.friction) : "tied"}});
   json["increments"] = Json::array();
   return json;
 }
@@ -250,6 +264,12 @@ std::string totals_of(const Json& increment) {
   return text;
 }
 
+/// Of an increment that has been added to the summary.
+void note_outcome(const analysis::SolidIncrement& increment, Json& json) {
+  json["status"] = status_of(increment.status);
+  if (!increment.reason.empty()) json["reason"] = increment.reason;
+}
+
 std::string which_increment(const Json& summary, const Json& increment) {
   return fmt::format("step {}, increment {}",
                      summary["model"]["steps"][increment["step"].get<std::size_t>() - 1].get<std::string>(),
@@ -268,7 +288,8 @@ SolidResults::SolidResults(std::filesystem::path path, const model::SpaceModel& 
       model_(model),
       posed_(posed),
       summary_(new Summary{begun_summary(model, posed)}),
-      lock_(prepare_directory(path_, text_of(summary_->json))) {
+      lock_(prepare_directory(path_, text_of(summary_->json))),
+      outputs_(model, posed) {
   replace_summary();
   open_files(nullptr);
 }
@@ -280,7 +301,8 @@ SolidResults::SolidResults(std::filesystem::path path, DirectoryLock lock, const
       posed_(posed),
       summary_(new Summary{begun_summary(model, posed)}),
       lock_(std::move(lock)),
-      finished_(written.finished) {
+      finished_(written.finished),
+      outputs_(model, posed) {
   std::ifstream stream(path_ / "summary.json", std::ios::binary);
   Json before = Json::parse(stream, nullptr, false);
   const auto count = static_cast<std::size_t>(finished_);
@@ -303,17 +325,23 @@ void SolidResults::open_files(const analysis::WrittenResults* written) {
       file.emplace(path_ / name);
   };
   open("contact.csv", table_);
+  if (outputs_.has_points()) open("points.csv", points_);
+  if (outputs_.has_history()) open("history.csv", history_);
   open("log.txt", log_);
   open("fields.pvd", collection_);
   if (!model_.contacts.empty()) open("contact.pvd", faces_);
   if (written) return;
   table_->append(columns_of_solids);
+  if (points_) points_->append(outputs_.header_of_points());
+  if (history_) history_->append(outputs_.header_of_history());
   log_->append(log_header(model_, summary_->json));
 }
 
 std::vector<GrowingFile*> SolidResults::growing_files() {
   std::vector<GrowingFile*> files{&*table_, &*log_, &collection_->file()};
   if (faces_) files.push_back(&faces_->file());
+  for (std::optional<GrowingFile>* file : {&points_, &history_})
+    if (*file) files.push_back(&**file);
   return files;
 }
 
@@ -360,14 +388,15 @@ void SolidResults::add_files(const analysis::SolidIncrement& increment) {
   if (increment.status == contact::Status::solved) {
     ++finished_;
     table_->append(rows_of(model_, posed_, increment, number));
+    if (points_) points_->append(outputs_.rows_of_points(increment, number));
+    if (history_) history_->append(outputs_.row_of_history(increment, number));
     add_fields(increment);
   }
   log_->append(log_line(model_, made.back(), increment));
   summary_->json["status"] = "running";
   summary_->json["reason"] = nullptr;
   replace_summary();
-  summary_->json["status"] = status_of(increment.status);
-  if (!increment.reason.empty()) summary_->json["reason"] = increment.reason;
+  note_outcome(increment, summary_->json);
 }
 
 analysis::WrittenResults SolidResults::written() {
@@ -382,36 +411,59 @@ analysis::WrittenResults SolidResults::written() {
   return written;
 }
 
-SolidEnd SolidResults::finish(bool interrupted) {
-  Json& json = summary_->json;
+namespace {
+
+/// Puts the outcome into a summary.
+SolidEnd end_of(Json& json, int finished, bool interrupted) {
   const Json& made = json["increments"];
   if (interrupted) {
     json["status"] = "interrupted";
-    json["reason"] = finished_ > 0 ? "interrupted: the increments finished so far are kept"
-                                   : "interrupted: no increment was finished";
+    json["reason"] = finished > 0 ? "interrupted: the increments finished so far are kept"
+                                  : "interrupted: no increment was finished";
   } else if (json["status"] == "running") {  // all increments had been made before
     json["status"] = "solved";
   }
   SolidEnd end;
   end.status = json["status"].get<std::string>();
   if (json["reason"].is_string()) end.reason = json["reason"].get<std::string>();
-  end.finished = finished_;
+  end.finished = finished;
   for (const Json& increment : made)
     for (const Json& figure : increment["certificate"])
       end.certificate = std::max(end.certificate, figure.get<double>());
   if (!made.empty()) end.at = which_increment(json, made.back());
+  if (finished > 0) end.totals = totals_of(made[static_cast<std::size_t>(finished - 1)]);
+  return end;
+}
+
+}  // namespace
+
+SolidEnd SolidResults::finish(bool interrupted) {
+  Json& json = summary_->json;
+  SolidEnd end = end_of(json, finished_, interrupted);
   std::string text = end.status == "solved" ? "\nSolved: every increment converged and is certified.\n"
                      : interrupted          ? fmt::format("\nInterrupted: {}\n", end.reason)
                                             : fmt::format("\nNot solved: {}\n", end.reason);
   if (finished_ > 0) {
-    const Json& last = made[static_cast<std::size_t>(finished_ - 1)];
-    end.totals = totals_of(last);
+    const Json& last = json["increments"][static_cast<std::size_t>(finished_ - 1)];
     text += fmt::format("\nAfter {}:\n{}", which_increment(json, last), end.totals);
   }
   for (const Warning& warning : model_.warnings) text += "warning: " + warning.text + '\n';
   log_->append(text);
   replace_summary();
   return end;
+}
+
+std::pair<std::string, SolidEnd> summary_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
+                                            const std::vector<analysis::SolidIncrement>& increments, bool interrupted) {
+  Json json = begun_summary(model, posed);
+  int finished = 0;
+  for (std::size_t k = 0; k < increments.size(); ++k) {
+    json["increments"].push_back(json_of(model, posed, increments[k], k));
+    finished += increments[k].status == contact::Status::solved;
+    note_outcome(increments[k], json);
+  }
+  SolidEnd end = end_of(json, finished, interrupted);
+  return {text_of(json), std::move(end)};
 }
 
 }  // namespace scabo::result

@@ -6,11 +6,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scabo/analysis/space/posed_solids.hpp"
 #include "scabo/analysis/state/written_results.hpp"
 #include "scabo/result/files.hpp"
+#include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/result/vtu.hpp"
 
 namespace scabo::result {
@@ -24,6 +26,10 @@ struct SolidEnd {
   std::string at;            ///< `step press, increment 2`, of the last increment; empty: there is none
   std::string totals;        ///< of contacts and supports after the last solved increment, for people; likewise
 };
+
+/// Content of summary.json of increments in memory, and how the run has ended.
+std::pair<std::string, SolidEnd> summary_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
+                                            const std::vector<analysis::SolidIncrement>& increments, bool interrupted);
 
 class SolidResults {
  public:
@@ -55,8 +61,9 @@ class SolidResults {
   std::unique_ptr<Summary> summary_;
   DirectoryLock lock_;
   int finished_ = 0;
-  std::optional<GrowingFile> table_, log_;
-  std::optional<FieldCollection> collection_, faces_;  // the latter of models with contacts
+  SolidOutputs outputs_;
+  std::optional<GrowingFile> table_, log_, points_, history_;  // the last two if the model asks for them
+  std::optional<FieldCollection> collection_, faces_;          // the latter of models with contacts
   std::vector<std::filesystem::path> not_synchronised_;
 };
 

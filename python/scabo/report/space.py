@@ -1,0 +1,104 @@
+"""Bodies in space of a page: tetrahedra, their values after the increments that have a place in it, and contact faces."""
+import numpy as np
+
+from .choice import in_order_of_importance, listed
+from .fields import GROUPS
+from .reading import ResultsError, geometry, tetrahedra, vtu
+
+NAMES = {"displacement": ("ux", "uy", "uz"), "stress": tuple(tetrahedra.STRESSES), "principal": GROUPS["principal"], "von_mises": GROUPS["von_mises"]}
+ON_FACES = ("pressure", "shear", "gap", "slip")
+
+
+def add_space(results, arrays, budget, asked=None):
+    """Adds points, tetrahedra, surfaces, sharp edges and values, up to `budget` bytes beyond those of one increment. `asked`: names of
+    groups of fields, as in "displacement,von_mises"; None: all. Returns what the page has to know, or None without fields."""
+    numbers = [number for number in results.field_numbers() if number <= results.count]
+    if not numbers:
+        return None
+    keys = keys_of(asked)
+    grid = results.fields(numbers[-1])
+    facets = tetrahedra.outer_facets(grid)
+    triangles = tetrahedra.triangles_of(facets)
+    centre = 0.5 * (grid.points.min(axis=0) + grid.points.max(axis=0))
+    bodies = grid.point_data["body"]
+    cells, of_cell = corners_of(grid)
+    chains = tetrahedra.sharp_edges(grid.points, facets)
+    edges = np.concatenate([chains[:, :2], chains[:, 1:]]).reshape(-1, 2)
+    for name, values, kind in (("points", grid.points - centre, "f4"), ("triangles", triangles, "u4"), ("body", bodies, "u4"),
+                               ("cells", cells, "u4"), ("cell_body", of_cell, "u4"), ("edges", edges, "u4")):
+        arrays.add(f"space_{name}", values, kind)
+    chosen = add_values(results, numbers, keys, arrays, budget)
+    shown = sorted(chosen)
+    what = f"This page has the fields of {len(shown)} of {results.count} increments ({listed(shown)}), which keeps its size within bounds."
+    return {"centre": centre.tolist(), "low": grid.points.min(axis=0).tolist(), "high": grid.points.max(axis=0).tolist(),
+            "bodies": [body["name"] for body in results.summary["model"].get("bodies", [])] or [f"body {k + 1}" for k in range(int(bodies.max()))],
+            "increments": shown, "ranges": chosen, "magnification": tetrahedra.magnification_of(results.fields(shown[-1])),
+            "quantities": [{"key": key, "name": tetrahedra.COMPONENTS[key][0], "dimension": tetrahedra.COMPONENTS[key][1]} for key in keys],
+            "note": "" if len(shown) == results.count else what, "faces": add_faces(results, arrays, shown)}
+
+
+def keys_of(asked):
+    groups = list(NAMES) if asked is None else [name.strip() for name in asked.split(",")]
+    wanted = {key for name in groups for key in NAMES[name]}
+    return [key for key in tetrahedra.COMPONENTS if key in wanted]
+
+
+def corners_of(grid):
+    """Corners of all tetrahedra, and their bodies."""
+    corners, bodies = [], []
+    for kind in (vtu.TETRAHEDRON, vtu.QUADRATIC_TETRAHEDRON):
+        cells = grid.cells(kind)
+        if len(cells):
+            corners.append(cells[:, :4])
+            bodies.append(grid.point_data["body"][cells[:, 0]])
+    return np.concatenate(corners), np.concatenate(bodies)
+
+
+def add_values(results, numbers, keys, arrays, budget):
+    """Returns, for each increment that found a place, the typical and the extreme range of every quantity."""
+    steps = [entry["step"] for entry in results.increments]
+    ends = [numbers.index(k) + 1 for k in range(1, results.count) if steps[k] != steps[k - 1] and k in numbers]
+    chosen, spent = {}, 0
+    rigid = [number for number, body in enumerate(results.summary["model"].get("bodies", []), start=1) if body["rigid"]]
+    for number in (numbers[k - 1] for k in in_order_of_importance(len(numbers), ends)):
+        if chosen and spent + spent / len(chosen) > budget:
+            break
+        grid, before, ranges = results.fields(number), arrays.size, {}
+        weights, deforms = np.ones(len(grid.points)), ~np.isin(grid.point_data["body"], rigid)
+        largest_stress = float(np.abs(grid.point_data["von_mises"]).max())
+        for key in [*keys, *(["displacement"] if "ux" in keys else [])]:
+            values, is_stress = tetrahedra.values_of(grid, key), tetrahedra.COMPONENTS[key][1] == "stress"
+            if is_stress:
+                values[~deforms] = np.nan  # rigid bodies have none
+            low, high = geometry.typical_range(values, weights)
+            if is_stress and max(abs(low), abs(high)) <= 1e-6 * largest_stress:
+                low = high = 0.0
+            known = values[np.isfinite(values)]
+            ranges[key] = [low, high, float(known.min(initial=0.0 if len(known) == 0 else np.inf)), float(known.max(initial=0.0 if len(known) == 0 else -np.inf))]
+            if key != "displacement":
+                arrays.add(f"{key}_{number}", values.astype("f4"))
+        spent += arrays.size - before
+        chosen[number] = ranges
+    return chosen
+
+
+def add_faces(results, arrays, increments):
+    """The contact faces as maps: for each its name, the names of its two coordinates and how many pairs it has."""
+    if not results.increments[-1]["contacts"]:
+        return []
+    maps = tetrahedra.maps_of(results, increments[-1])
+    for k, of in enumerate(maps):
+        arrays.add(f"face_{k}_places", of.places, "f4")
+        arrays.add(f"face_{k}_corners", of.corners, "u4")
+    for number in increments:
+        for k, of in enumerate(tetrahedra.maps_of(results, number)):
+            if len(of.places) != len(maps[k].places):
+                raise ResultsError(f"{results.directory}: the increments have different pairs; run the model again")
+            for key in ON_FACES:
+                arrays.add(f"face_{k}_{key}_{number}", of.values[key].astype("f4"))
+            arrays.add(f"face_{k}_state_{number}", np.select([of.states == name for name in ("open", "stick", "slip")], range(3)), "u1")
+    grid = results.faces(increments[-1])
+    centre = 0.5 * (results.fields(increments[-1]).points.min(axis=0) + results.fields(increments[-1]).points.max(axis=0))
+    for k in range(len(maps)):
+        arrays.add(f"face_{k}_points", grid.points[grid.point_data["contact"] == k + 1] - centre, "f4")
+    return [{"name": of.name, "axes": list(of.axes), "pairs": len(of.places)} for of in maps]

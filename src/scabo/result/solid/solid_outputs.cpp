@@ -1,0 +1,103 @@
+#include "scabo/result/solid/solid_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "scabo/result/contact_table.hpp"
+#include "scabo/result/solid/solid_stress.hpp"
+
+namespace scabo::result {
+
+SolidOutputs::SolidOutputs(const model::SpaceModel& model, const analysis::PosedSolids& posed)
+    : model_(model), posed_(posed) {
+  std::vector<Diagnostic> mistakes;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<int> only;
+  for (const model::SpacePoint& point : model.points) {
+    points.push_back(point.at);
+    only.push_back(point.body);
+  }
+  const auto places = places_of(posed.model, points, only);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const SolidPlace& place : places[i]) {
+      places_.push_back(place);
+      point_of_.push_back(i);
+    }
+    const std::string where =
+        only[i] < 0 ? "in no body"
+                    : fmt::format("outside of body '{}'", model.bodies[static_cast<std::size_t>(only[i])].name);
+    if (places[i].empty())
+      mistakes.push_back({model.points[i].source, fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) lies {}: move it",
+                                                              points[i].x(), points[i].y(), points[i].z(), where)});
+  }
+  for (const model::SpaceSection& section : model.sections) {
+    sections_.push_back(section_of(posed.model, section));
+    if (sections_.back().points.empty())
+      mistakes.push_back(
+          {section.source,
+           fmt::format("the plane of section '{}' cuts no elastic body: move its 'point'", section.name)});
+  }
+  if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+}
+
+std::string SolidOutputs::header_of_points() const {
+  return "step,increment,name,body,x,y,z,ux,uy,uz,stress_xx,stress_yy,stress_zz,stress_xy,stress_yz,stress_xz,"
+         "principal_1,principal_2,principal_3,von_mises\n";
+}
+
+std::string SolidOutputs::rows_of_points(const analysis::SolidIncrement& increment, std::size_t number) const {
+  const auto& [step, of_step] = posed_.step_and_number[number];
+  const std::vector<SolidPointValues> values = values_at(posed_.model, increment, places_);
+  fmt::memory_buffer rows;
+  const auto add = [&](const auto& numbers) {
+    for (const double value : numbers) fmt::format_to(std::back_inserter(rows), ",{}", value);
+  };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const model::SpacePoint& point = model_.points[point_of_[i]];
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{}", step + 1, of_step, csv_quoted(point.name),
+                   csv_quoted(model_.bodies[static_cast<std::size_t>(places_[i].body)].name));
+    add(point.at);
+    add(values[i].displacement);
+    if (!values[i].stress) {
+      fmt::format_to(std::back_inserter(rows), ",,,,,,,,,,\n");
+      continue;
+    }
+    const auto& s = *values[i].stress;
+    const StressInSpace measures(s);
+    add(s);
+    add(measures.principal);
+    fmt::format_to(std::back_inserter(rows), ",{}\n", measures.von_mises);
+  }
+  return fmt::to_string(rows);
+}
+
+std::string SolidOutputs::header_of_history() const {
+  std::string header = "step,increment,time";
+  for (const model::SpaceSection& section : model_.sections)
+    for (const char* column : {"normal", "force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"})
+      header += fmt::format(",{}.{}", section.name, column);
+  return header + '\n';
+}
+
+std::string SolidOutputs::row_of_history(const analysis::SolidIncrement& increment, std::size_t number) const {
+  const auto& [step, of_step] = posed_.step_and_number[number];
+  std::string row =
+      fmt::format("{},{},{}", step + 1, of_step, static_cast<double>(step) + reached_by(model_, posed_, number));
+  for (const SolidSection& section : sections_) {
+    const SolidResultant resultant = resultant_of(posed_.model, increment, section);
+    row += fmt::format(",{}", resultant.force.dot(section.normal));
+    for (const double value : resultant.force) row += fmt::format(",{}", value);
+    for (const double value : resultant.moment) row += fmt::format(",{}", value);
+  }
+  return row + '\n';
+}
+
+double reached_by(const model::SpaceModel& model, const analysis::PosedSolids& posed, std::size_t number) {
+  const auto& [step, of_step] = posed.step_and_number[number];
+  const model::Step& of = model.steps[step];
+  return of.ends.empty() ? static_cast<double>(of_step) / of.increments
+                         : of.ends[static_cast<std::size_t>(of_step - 1)];
+}
+
+}  // namespace scabo::result

@@ -1,0 +1,37 @@
+// Resultants of the stress over plane sections of bodies in space.
+//
+// With the normal n of the plane, force = int stress n dA, moment = int (x - c) x (stress n) dA: what the side to which
+// n points exerts on the other one, tension along n. Every tetrahedron is seen as eight with straight edges between its
+// nodes, whose sections are triangles; on these the stress of the element is integrated by a rule of degree 2, which is
+// exact where edges are straight and the stress is linear.
+#pragma once
+
+#include <vector>
+
+#include "scabo/analysis/space/solid_analysis.hpp"
+#include "scabo/model/solid_model.hpp"
+
+namespace scabo::result {
+
+/// Points of an integral over a section.
+struct SolidSection {
+  struct Point {
+    std::size_t body = 0, cell = 0;
+    Vector lambda;  ///< barycentric
+    Eigen::Vector3d x;
+    double area = 0.0;
+  };
+  std::vector<Point> points;  ///< none: the plane cuts no elastic body
+  Eigen::Vector3d normal, about;
+};
+
+/// The elements next to a face of a body that lies in the plane count if they are below it.
+SolidSection section_of(const analysis::SolidModel& model, const model::SpaceSection& section);
+
+struct SolidResultant {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+};
+SolidResultant resultant_of(const analysis::SolidModel& model, const analysis::SolidIncrement& increment,
+                            const SolidSection& section);
+
+}  // namespace scabo::result
