@@ -38,7 +38,7 @@ void check_edge(Checking& checking, const std::string& path, const Place& on) {
                                body.name));
 }
 
-void check_corner(Checking& checking, const std::string& path, const Place& on) {
+void check_place_of_mass(Checking& checking, const std::string& path, const Place& on) {
   if (!check_place(checking, path + ".on", on)) return;
   const Body& body = checking.body(on.body);
   if (on.kind != Place::Kind::corner)
@@ -70,7 +70,7 @@ void check_point_masses(Checking& checking) {
     if (model.analysis.revolved()) checking.error(path, "", "is for plane models: bodies of revolution have none");
     checking.positive(path, "mass", point.mass);
     if (point.on)
-      check_corner(checking, path, *point.on);
+      check_place_of_mass(checking, path, *point.on);
     else if (!checking.gaps.places && !checking.gaps.bodies)
       checking.error(path, "on", "names no corner");
   }
