@@ -7,9 +7,11 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "scabo/element/plane/point_operator.hpp"
 #include "scabo/geometry/box.hpp"
+#include "scabo/linalg/symmetric_positive_solver.hpp"
 #include "scabo/mesh/plane/crack_faces.hpp"
 
 namespace scabo::analysis {
@@ -24,7 +26,9 @@ constexpr double wide = std::numbers::pi / 6, widest = std::numbers::pi;
 struct Exchange {
   std::vector<std::size_t> cells;
   mesh::Cell closed;
-  std::map<int, element::ScaledPoint> inside = {};  ///< nodes that the closed one does not have
+  // Nodes that the closed one does not have:
+  std::map<int, element::ScaledPoint> on_faces = {};
+  std::vector<int> between = {};
 };
 
 /// What growth of the cracks of a body changes.
@@ -37,8 +41,10 @@ class ClosedCracks {
 
   /// Whether it is known.
   bool close(const model::Model& model, const Tip& tip, const Vec2& before) {
-    return close_faces(tip, before) && join_at(tip, before, position_of(model, tip)) &&
-           close_at(position_of(model, tip));
+    const std::vector<int> ringed = mesh::cracks_with_tractions(model, tip.body);
+    const bool has_rings = std::find(ringed.begin(), ringed.end(), tip.crack) != ringed.end();
+    const Vec2 now = position_of(model, tip);
+    return close_faces(tip, before) && join_at(tip, before, now) && close_at(now, has_rings);
   }
 
   int same(int node) const {
@@ -52,7 +58,7 @@ class ClosedCracks {
   const Vec2& at(int node) const { return mesh_.nodes[static_cast<std::size_t>(node)]; }
   bool close_faces(const Tip& tip, const Vec2& before);
   bool join_at(const Tip& tip, const Vec2& before, const Vec2& now);
-  bool close_at(const Vec2& tip);
+  bool close_at(const Vec2& tip, bool has_rings);
   std::vector<int> same_nodes(const mesh::LineElement& element) const {
     std::vector<int> nodes;
     for (const int node : element.nodes) nodes.push_back(same(node));
@@ -63,6 +69,11 @@ class ClosedCracks {
   bool is_all_around(const mesh::Cell& cell) const;
   bool add_beyond(Exchange& joined, double angle) const;
   bool add_inside(Exchange& joined, int crack) const;
+  /// Cell and number of every side, by its nodes.
+  using Sides = std::map<std::vector<int>, std::pair<std::size_t, std::size_t>>;
+  Sides sides() const;
+  std::vector<std::size_t> ring_around(const Sides& sides, const Vec2& tip, std::vector<mesh::LineElement>& copy) const;
+  std::set<int> nodes_of(const std::vector<std::size_t>& cells) const;
 
   const model::Body& body_;
   const mesh::BodyMesh& mesh_;
@@ -103,7 +114,7 @@ bool ClosedCracks::join_at(const Tip& tip, const Vec2& before, const Vec2& now) 
   for (int round = 0; round < most_rounds; ++round) {
     joined.closed = {};
     joined.closed.centre = before;
-    joined.inside.clear();
+    joined.on_faces.clear(), joined.between.clear();
     if (!set_boundary(joined, faces, now)) break;
     const auto& boundary = joined.closed.boundary;
     const auto all_seen = [&](double angle) {
@@ -135,11 +146,6 @@ bool ClosedCracks::add_beyond(Exchange& joined, double angle) const {
 
 /// Where the nodes lie that are not on the boundary: at the tip, on one of the side faces or between them.
 bool ClosedCracks::add_inside(Exchange& joined, int crack) const {
-  std::set<int> nodes;
-  for (const std::size_t c : joined.cells) {
-    const std::vector<int> of_cell = mesh_.cells[c].nodes();
-    nodes.insert(of_cell.begin(), of_cell.end());
-  }
   const std::vector<int> kept = joined.closed.nodes();
   const std::set<int> boundary(kept.begin(), kept.end());
   std::array<std::set<int>, 2> on_face;
@@ -150,7 +156,7 @@ bool ClosedCracks::add_inside(Exchange& joined, int crack) const {
   if (on_face[0].count(kept.front()) == 0 || on_face[1].count(kept.back()) == 0) return false;
   const auto last = static_cast<int>(joined.closed.boundary.size()) - 1;
   const element::Ring ring = element::ring_of(joined.closed, mesh_.nodes);
-  for (const int node : nodes) {
+  for (const int node : nodes_of(joined.cells)) {
     if (boundary.count(same(node)) > 0) continue;
     const Vec2 arm = at(node) - joined.closed.centre;
     const bool is_tip = old_tip_.count(node) > 0, is_new = on_new_.count(node) > 0;
@@ -162,9 +168,12 @@ bool ClosedCracks::add_inside(Exchange& joined, int crack) const {
       point = element::ScaledPoint{arm.norm() / end.norm(), k == 0 ? 0 : last, k == 0 ? -1.0 : 1.0};
     }
     if (is_tip) point = element::ScaledPoint{0.0, 0, -1.0};
-    if (!point) point = element::locate(ring, arm);
-    if (!point) return false;
-    joined.inside[node] = *point;
+    if (is_new) point = element::locate(ring, arm);
+    if (is_new && !point) return false;
+    if (point)
+      joined.on_faces[node] = *point;
+    else
+      joined.between.push_back(node);
   }
   return true;
 }
@@ -224,20 +233,84 @@ bool ClosedCracks::is_all_around(const mesh::Cell& cell) const {
   return std::abs(around - 2.0 * std::numbers::pi) < 1e-6;
 }
 
-/// The cell around a new tip has no crack.
-bool ClosedCracks::close_at(const Vec2& tip) {
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-    const mesh::Cell& open = mesh_.cells[c];
-    if (!open.is_open() || open.held || open.centre != tip) continue;
-    const std::vector<std::size_t>& joined = exchanges_.back().cells;
-    if (std::find(joined.begin(), joined.end(), c) != joined.end()) return true;
-    Exchange closed{{c}, open};
-    for (mesh::LineElement& element : closed.closed.boundary) element.nodes = same_nodes(element);
-    if (closed.closed.is_open()) return false;
-    exchanges_.push_back(std::move(closed));
-    return true;
+std::set<int> ClosedCracks::nodes_of(const std::vector<std::size_t>& cells) const {
+  std::set<int> nodes;
+  for (const std::size_t c : cells) {
+    const std::vector<int> of_cell = mesh_.cells[c].nodes();
+    nodes.insert(of_cell.begin(), of_cell.end());
   }
-  return false;
+  return nodes;
+}
+
+ClosedCracks::Sides ClosedCracks::sides() const {
+  Sides sides;
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    for (std::size_t e = 0; e < mesh_.cells[c].boundary.size(); ++e) sides[mesh_.cells[c].boundary[e].nodes] = {c, e};
+  return sides;
+}
+
+/// The cells around a copy of the boundary of a tip's cell, if they are a ring between it and the next copy
+/// (mesh/plane/tip_rings.hpp), which takes its place.
+std::vector<std::size_t> ClosedCracks::ring_around(const Sides& sides, const Vec2& tip,
+                                                   std::vector<mesh::LineElement>& copy) const {
+  const auto is_radial = [&](const mesh::LineElement& element) {
+    const Vec2 first = at(element.nodes.front()) - tip, last = at(element.nodes.back()) - tip;
+    return std::abs(cross(first, last)) <= tolerance_ * std::max(first.norm(), last.norm());
+  };
+  std::vector<std::size_t> cells;
+  std::vector<mesh::LineElement> next;
+  for (const mesh::LineElement& element : copy) {
+    const auto beyond = sides.find({element.nodes.rbegin(), element.nodes.rend()});
+    if (beyond == sides.end()) return {};
+    const auto [c, e] = beyond->second;
+    const std::vector<mesh::LineElement>& boundary = mesh_.cells[c].boundary;
+    const std::size_t count = boundary.size();
+    if (!is_radial(boundary[(e + 1) % count]) || !is_radial(boundary[(e + count - 1) % count])) return {};
+    cells.push_back(c);
+    for (std::size_t k = 2; k + 1 < count; ++k) next.push_back(boundary[(e + k) % count]);
+  }
+  copy = std::move(next);
+  return cells;
+}
+
+/// The cell around a new tip, with its rings if there are any, has no crack.
+bool ClosedCracks::close_at(const Vec2& tip, bool has_rings) {
+  const auto open = std::find_if(mesh_.cells.begin(), mesh_.cells.end(), [&](const mesh::Cell& cell) {
+    return cell.is_open() && !cell.held && cell.centre == tip;
+  });
+  if (open == mesh_.cells.end()) return false;
+  const auto number = static_cast<std::size_t>(open - mesh_.cells.begin());
+  const std::vector<std::size_t>& joined = exchanges_.back().cells;
+  if (std::find(joined.begin(), joined.end(), number) != joined.end()) return true;
+  Exchange whole{{number}, *open};
+  const Sides all = has_rings ? sides() : Sides();
+  const auto is_joined = [&](std::size_t cell) {
+    return std::find(joined.begin(), joined.end(), cell) != joined.end();
+  };
+  for (std::vector<mesh::LineElement> copy = open->boundary; has_rings;) {
+    const std::vector<std::size_t> ring = ring_around(all, tip, copy);
+    if (ring.empty() || std::any_of(ring.begin(), ring.end(), is_joined)) break;
+    whole.cells.insert(whole.cells.end(), ring.begin(), ring.end());
+    whole.closed.boundary = copy;
+  }
+  whole.closed.materials = {open->materials.front()};
+  for (mesh::LineElement& element : whole.closed.boundary) element.nodes = same_nodes(element);
+  if (whole.closed.is_open()) return false;
+  const std::vector<int> kept = whole.closed.nodes();
+  const std::set<int> boundary(kept.begin(), kept.end());
+  const element::Ring outer = element::ring_of(whole.closed, mesh_.nodes);
+  for (const int node : nodes_of(whole.cells)) {
+    if (boundary.count(same(node)) > 0) continue;
+    if (on_new_.count(node) == 0) {
+      whole.between.push_back(node);
+      continue;
+    }
+    const auto point = element::locate(outer, at(node) - tip);
+    if (!point) return false;
+    whole.on_faces[node] = *point;
+  }
+  exchanges_.push_back(std::move(whole));
+  return true;
 }
 
 /// Degrees of freedom of a part, numbered as they are asked for.
@@ -267,7 +340,7 @@ class ClosedPart {
  public:
   ClosedPart(const Prepared& prepared, std::size_t part) : prepared_(prepared), part_(part) {}
 
-  void add(int body, const ClosedCracks& cracks);
+  void add(int body, const ClosedCracks& cracks, const Vector& acting);
   bool is_empty() const { return open_.size() == 0; }
   /// Adds the part to `closed`, whose displacements are those of the open body.
   void solve(ClosedGrowth& closed) const;
@@ -277,6 +350,7 @@ class ClosedPart {
     Eigen::Index row, column;
     double value;
   };
+  Matrix condensed(const std::vector<int>& kept) const;
   int dof(int body, int node, int component) const { return prepared_.structure.dofs.of(body, node, component); }
   void add_stiffness(int body, const mesh::Cell& cell, const Matrix& K, Numbered& of, std::vector<Entry>& to) const;
   static Matrix matrix_of(const std::vector<Entry>& entries, Eigen::Index rows, Eigen::Index columns) {
@@ -287,6 +361,7 @@ class ClosedPart {
 
   const Prepared& prepared_;
   std::size_t part_;
+  std::set<int> inner_;     // degrees of freedom of S that are eliminated
   Numbered open_, closed_;  // S, and v by the numbers of the nodes that are left
   std::vector<Entry> K_p_, K_c_, T_;
 };
@@ -301,7 +376,7 @@ void ClosedPart::add_stiffness(int body, const mesh::Cell& cell, const Matrix& K
       to.push_back({places[i], places[j], K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))});
 }
 
-void ClosedPart::add(int body, const ClosedCracks& cracks) {
+void ClosedPart::add(int body, const ClosedCracks& cracks, const Vector& acting) {
   const mesh::BodyMesh& mesh = prepared_.mesh.bodies[static_cast<std::size_t>(body)];
   std::set<int> nodes, inside;
   for (const auto& [right, left] : cracks.joined()) nodes.insert({right, left});
@@ -315,9 +390,18 @@ void ClosedPart::add(int body, const ClosedCracks& cracks) {
     element::SolvedSuperElement closed;
     set_shape(closed, prepared_, body, exchange.closed);
     add_stiffness(body, exchange.closed, closed.K(), closed_, K_c_);
+    const auto follows = [&](int node) {
+      inside.insert(node);
+      for (const int c : {0, 1}) inner_.insert(dof(body, node, c));
+    };
+    for (const int node : exchange.between) follows(node);
     const std::vector<int> boundary = exchange.closed.nodes();
     const element::PointCondensation field(closed.ring, closed.solution());
-    for (const auto& [node, point] : exchange.inside) {
+    for (const auto& [node, point] : exchange.on_faces) {
+      if (acting[dof(body, node, 0)] == 0.0 && acting[dof(body, node, 1)] == 0.0) {
+        follows(node);
+        continue;
+      }
       inside.insert(node);
       const element::PointOperator of_point = field.at(point);
       for (const int k : {0, 1})
@@ -333,24 +417,59 @@ void ClosedPart::add(int body, const ClosedCracks& cracks) {
         T_.push_back({open_.of(dof(body, node, c)), closed_.of(dof(body, cracks.same(node), c)), 1.0});
 }
 
+/// K_p of the degrees of freedom `kept`, the others eliminated.
+Matrix ClosedPart::condensed(const std::vector<int>& kept) const {
+  std::vector<int> place(static_cast<std::size_t>(open_.size()), -1), inner(place);
+  for (std::size_t i = 0; i < kept.size(); ++i) place[static_cast<std::size_t>(kept[i])] = static_cast<int>(i);
+  int left = 0;
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    if (place[i] < 0) inner[i] = left++;
+  const auto n = static_cast<Eigen::Index>(kept.size());
+  Matrix K = Matrix::Zero(n, n), between = Matrix::Zero(left, n);
+  std::vector<Eigen::Triplet<double>> inside;
+  for (const Entry& entry : K_p_) {
+    const auto row = static_cast<std::size_t>(entry.row), column = static_cast<std::size_t>(entry.column);
+    if (place[row] >= 0 && place[column] >= 0) K(place[row], place[column]) += entry.value;
+    if (inner[row] >= 0 && place[column] >= 0) between(inner[row], place[column]) += entry.value;
+    if (inner[row] >= 0 && inner[column] >= 0) inside.emplace_back(inner[row], inner[column], entry.value);
+  }
+  if (left == 0) return K;
+  linalg::SparseMatrix of_inner(left, left);
+  of_inner.setFromTriplets(inside.begin(), inside.end());
+  return K - between.transpose() * linalg::SymmetricPositiveSolver(of_inner).solve(between);
+}
+
 void ClosedPart::solve(ClosedGrowth& closed) const {
   const system::BodySystem& part = *prepared_.structure.parts[part_];
-  const Eigen::Index n = open_.size(), m = closed_.size();
-  const Matrix T = matrix_of(T_, n, m), K_p = matrix_of(K_p_, n, n), K_c = matrix_of(K_c_, m, m);
-  const Matrix less = T.transpose() * K_p * T - K_c;
+  std::vector<int> kept, dofs;
+  for (std::size_t i = 0; i < open_.dofs().size(); ++i)
+    if (inner_.count(open_.dofs()[i]) == 0) kept.push_back(static_cast<int>(i)), dofs.push_back(open_.dofs()[i]);
+  const auto n = static_cast<Eigen::Index>(kept.size()), m = closed_.size();
+  const Matrix K_p = condensed(kept), T = matrix_of(T_, open_.size(), m)(kept, Eigen::all);
+  const Matrix less = T.transpose() * K_p * T - matrix_of(K_c_, m, m);
   const double scale = K_p.diagonal().maxCoeff();  // forces over displacements
   Matrix system(n + m, n + m);
-  system << scale * part.flexibility(open_.dofs()), -T, T.transpose(), -less / scale;
+  system << scale * part.flexibility_by_factor(dofs), -T, T.transpose(), -less / scale;
   Vector right = Vector::Zero(n + m);
-  const Vector u_0 = closed.u[part_](open_.dofs());
+  const Vector u_0 = closed.u[part_](dofs);
   right.head(n) = -u_0;
   const Vector found = system.partialPivLu().solve(right);  // eq. (1)
   const Vector q = scale * found.head(n), v = found.tail(m);
   closed.released -= 0.5 * q.dot(u_0);  // eq. (2)
   Vector forces = Vector::Zero(part.size());
-  forces(open_.dofs()) = q;
+  forces(dofs) = q;
   closed.u[part_] += part.displacement(forces, Vector::Zero(static_cast<Eigen::Index>(part.constraints().size())));
   closed.elastic -= 0.5 * v.dot(less * v);
+}
+
+/// Forces on the degrees of freedom of a part, and something where a support or springs hold it.
+Vector acting_on(const Prepared& prepared, const State& state, std::size_t p) {
+  const system::BodySystem& part = *prepared.structure.parts[p];
+  Vector acting = state.forces[p];
+  if (state.p.size() > 0) acting += prepared.contact.motion[p].transpose() * state.p;
+  for (const system::Constraint& constraint : part.constraints()) acting[constraint.dof] = 1.0;
+  if (part.has_springs()) acting.setOnes();
+  return acting;
 }
 
 }  // namespace
@@ -368,7 +487,7 @@ std::optional<ClosedGrowth> closed_growth(const Prepared& prepared, const State&
   for (std::size_t p = 0; p < open.u.size(); ++p) {
     ClosedPart part(prepared, p);
     for (const auto& [body, cracks] : bodies)
-      if (prepared.structure.dofs.part_of(body) == p) part.add(body, cracks);
+      if (prepared.structure.dofs.part_of(body) == p) part.add(body, cracks, acting_on(prepared, open, p));
     if (!part.is_empty()) part.solve(closed);
     closed.elastic += prepared.structure.parts[p]->elastic_energy(closed.u[p]);
   }

@@ -5,7 +5,7 @@
 //
 //  - All cells at an old tip together are one open super-element with the tip as its scaling centre, as it is on the
 //    mesh before: it has the singular field of the closed body.
-//  - The cell around a new tip is one without a crack.
+//  - The cell around a new tip, with its rings if the faces are in contact, is one without a crack.
 //
 // K_c: stiffness of these. The displacements v of the closed body give those of the open one on the degrees of freedom
 // of the cells and of the new faces, S, as u = T v: opposite nodes of the new faces have the same, and nodes inside the
@@ -13,9 +13,13 @@
 //
 //     u_0 + A q = T v,      T'q = (T'K_p T - K_c) v                                                                (1)
 //
+// Nodes inside on which nothing acts are eliminated from K_p and not among S.
 // The second line is the balance of the closed body. Both under the same loads, its potential energy is larger by
 //
 //     Pi_c - Pi_0 = 1/2 q'A q - 1/2 v'T'K_p T v + 1/2 v'K_c v = -1/2 q'u_0                                          (2)
+//
+// Nodes inside these cells are first eliminated from K_p and not among S, but for those on faces on which something
+// acts.
 #pragma once
 
 #include <optional>
