@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Courses of cracks beside loads, notches, inclusions and each other: runs five models and draws their paths, courses.png.
+"""Courses of cracks beside loads, notches, inclusions and each other: runs five models and draws their paths, courses.png and half_disc.png.
 
     benchmarks/growth/courses.py --scabo build/bin/scabo
 """
@@ -109,9 +109,9 @@ def main():
     options = pictures.options_of(__doc__, HERE, "courses.results")
     options.output = HERE if options.output == HERE / "figures" else options.output
     options.results.mkdir(parents=True, exist_ok=True)
-    figure = plt.figure(figsize=(11.0, 9.8), layout="constrained")
-    axes = figure.subplot_mosaic([["beam", "notches"], ["inclusion", "hooks"], ["disc", "legend"]], height_ratios=(1.0, 1.0, 1.1))
-    beam, notches, inclusion, hooks, disc = (axes[name] for name in ("beam", "notches", "inclusion", "hooks", "disc"))
+    draw_half_disc(options)
+    figure = plt.figure(figsize=(11.0, 6.4), layout="constrained")
+    (beam, notches), (inclusion, hooks) = figure.subplots(2, 2)
     draw(options, beam, "in_shear", IN_SHEAR, (480, 850), (0, 306), "mm", "notched beam in shear")
     for x, y, down in ((600, 0, False), (722, 306, True)):
         arrow(beam, x, y, down, 22)
@@ -122,13 +122,18 @@ def main():
         draw(options, inclusion, name, INCLUSION, (0, 2), (-0.6, 0.6), "m", "inclusion a tenth (dashed) and ten times as stiff", colour, dashes,
              (f"materials.core.young={young}",))
     draw(options, hooks, "hooks", HOOKS, (-2.4, 2.4), (-1.2, 1.2), "m", "two cracks beside each other")
-    draw(options, disc, "half_disc", HALF_DISC, (-30, 30), (0, 51), "mm", "notched half disc in bending")
-    for points, mark, label in ((COMPUTED, "s", "computed by Ayatollahi and others"), (MEASURED, "o", "measured by them")):
-        disc.plot(*np.array(points).T, mark, color="k", mfc="none", ms=4, label=label)
-    axes["legend"].axis("off")
-    axes["legend"].legend(*disc.get_legend_handles_labels(), loc="center left")
     figure.savefig(options.output / "courses.png")
     print(options.output / "courses.png")
+
+
+def draw_half_disc(options):
+    figure, axis = plt.subplots(figsize=(7.6, 4.2), layout="constrained")
+    draw(options, axis, "half_disc", HALF_DISC, (-52, 52), (-1, 51), "mm", "notched half disc in bending")
+    for points, mark, label in ((COMPUTED, "s", "computed by Ayatollahi and others"), (MEASURED, "o", "measured by them")):
+        axis.plot(*np.array(points).T, mark, color="k", mfc="none", ms=4, label=label)
+    axis.legend(loc="upper right")
+    figure.savefig(options.output / "half_disc.png")
+    print(options.output / "half_disc.png")
 
 
 def draw(options, axis, name, model, across, up, unit, title, colour=pictures.RED, dashes="-", settings=()):
