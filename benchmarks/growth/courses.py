@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Courses of cracks beside loads, notches, inclusions and each other: runs four models and draws their paths, courses.png.
+"""Courses of cracks beside loads, notches, inclusions and each other: runs five models and draws their paths, courses.png and half_disc.png.
 
     benchmarks/growth/courses.py --scabo build/bin/scabo
 """
@@ -78,10 +78,38 @@ steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.2, cracks: [plate.left.end, pl
 """
 
 
+# Half a disc with an inclined notch in three-point bending (Ayatollahi, Aliha, Hassani 2006), millimetres and newtons. Points of the path that they
+# computed and of the one that they measured, read off their figure by F. Loiseau (github.com/floiseau/gcrack).
+HALF_DISC = """
+scabo: 1
+analysis: {plane: stress, thickness: 5}
+materials: {acrylic: {young: 3e3, poisson: 0.38}}
+bodies:
+  disc:
+    material: acrylic
+    shape:
+      outline:
+        - {line: {from: [-50, 0], to: [-21.5, 0]}}
+        - {line: {to: [0, 0]}}
+        - {line: {to: [21.5, 0]}}
+        - {line: {to: [50, 0]}}
+        - {arc: {to: [0, 50], centre: [0, 0]}}
+        - {arc: {to: [-50, 0], centre: [0, 0]}}
+    mesh: {kind: quadtree, size: 4}
+    cracks: [{path: [[0, 0], [7.5, "${7.5 * sqrt(3)}"]], name: notch}]
+supports: [{on: disc.vertex_2, fix: [x, y]}, {on: disc.vertex_4, fix: [y]}]
+loads: {P: {on: disc.vertex_6, force: [0, -100]}}
+steps: [{growth: {toughness: {K_Ic: 40}, step: 1}}]
+"""
+COMPUTED = ((6.3, 14.9), (4.8, 18), (3.8, 21.2), (2.95, 24), (2.35, 27), (1.97, 30), (1.57, 33), (1.17, 36), (0.97, 40), (0.75, 44), (0.6, 48))
+MEASURED = ((6.2, 15), (4.2, 18), (2.64, 21), (1.5, 24), (0.9, 27), (0.5, 30), (0.29, 33), (0.05, 36), (-0.2, 40), (-0.3, 44), (-0.43, 48))
+
+
 def main():
     options = pictures.options_of(__doc__, HERE, "courses.results")
     options.output = HERE if options.output == HERE / "figures" else options.output
     options.results.mkdir(parents=True, exist_ok=True)
+    draw_half_disc(options)
     figure = plt.figure(figsize=(11.0, 6.4), layout="constrained")
     (beam, notches), (inclusion, hooks) = figure.subplots(2, 2)
     draw(options, beam, "in_shear", IN_SHEAR, (480, 850), (0, 306), "mm", "notched beam in shear")
@@ -96,6 +124,16 @@ def main():
     draw(options, hooks, "hooks", HOOKS, (-2.4, 2.4), (-1.2, 1.2), "m", "two cracks beside each other")
     figure.savefig(options.output / "courses.png")
     print(options.output / "courses.png")
+
+
+def draw_half_disc(options):
+    figure, axis = plt.subplots(figsize=(7.6, 4.2), layout="constrained")
+    draw(options, axis, "half_disc", HALF_DISC, (-52, 52), (-1, 51), "mm", "notched half disc in bending")
+    for points, mark, label in ((COMPUTED, "s", "computed by Ayatollahi and others"), (MEASURED, "o", "measured by them")):
+        axis.plot(*np.array(points).T, mark, color="k", mfc="none", ms=4, label=label)
+    axis.legend(loc="upper right")
+    figure.savefig(options.output / "half_disc.png")
+    print(options.output / "half_disc.png")
 
 
 def draw(options, axis, name, model, across, up, unit, title, colour=pictures.RED, dashes="-", settings=()):

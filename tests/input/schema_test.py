@@ -30,7 +30,7 @@ BEYOND_SCHEMA = re.compile(
     r"|revolution_|load_spin_|stage_|fit_|restart_|symmetry_(?!of_nothing)"
     r"|body_thickness_(in_plane|of_rev)|image_|tie_(all_|with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named|too_)|regions?_(of_unknown|of_the_same|outside|overlap|in_a_hole|too_)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"
-    r"|dynamic_(?!damping)|added_mass_|point_mass_|growth_(?!toughness|nothing|law|criterion|distance_zero|break)|limit_(?!of_nothing|too_wide)|initial_without_time|space_"
+    r"|dynamic_(?!damping)|added_mass_|point_mass_|growth_(?!toughness(?!_of_(?:region_missing|material))|nothing|law|criterion|distance_zero|break)|limit_(?!of_nothing|too_wide)|initial_without_time|space_"
     r"|cad_runs_|solver_tolerance_below_"
     r"|imported_(no_|folded|cut_off|empty|apart|unknown_(region|material|edge)|material_of|region_without|polygon_as|cell_without)"
     r"|forces_per_radian_|support_(conflict|name_|formula_(of_a_point|unknown|without))|load_(on_unknown|moving_|force_on|pressure_on|traction_on|gravity_|none|section_empty)"

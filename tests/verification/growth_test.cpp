@@ -49,9 +49,9 @@ steps: [{growth: {toughness: {G_c: 10}, step: 0.5, until: {steps: 3}}}]
   EXPECT_EQ(solution.grown->ended, "3 growth steps done");
 }
 
-/// The double cantilever opened by end forces P, cells of `size`: the load at which it grows from 4.
-double end_force(double size) {
-  return growth_at(run(fmt::format(R"(scabo: 1
+/// The double cantilever opened by end forces, cells of `size`.
+std::string end_forces(double size, const std::string& growth) {
+  return fmt::format(R"(scabo: 1
 analysis: {{plane: strain}}
 materials: {{steel: {{young: 200e9, poisson: 0.3}}}}
 bodies:
@@ -64,11 +64,14 @@ supports: [{{on: beam.vertex_2, fix: [x, y]}}, {{on: beam.vertex_3, fix: [x]}}]
 loads:
   upper: {{on: beam.edge_4, traction: [0, 1e3]}}
   lower: {{on: beam.edge_5, traction: [0, -1e3]}}
-steps: [{{growth: {{toughness: {{G_c: 10}}, step: 0.5, until: {{steps: 1}}}}}}]
+steps: [{{growth: {{toughness: {{G_c: 10}}, {}}}}}]
 )",
-                                   size)),
-                   1)
-      .load_factor;
+                     size, growth);
+}
+
+/// The load at which it grows from 4.
+double end_force(double size) {
+  return growth_at(run(end_forces(size, "step: 0.5, until: {steps: 1}")), 1).load_factor;
 }
 
 TEST(Growth, ADoubleCantileverUnderEndForcesAndTwiceAsFine) {
@@ -204,8 +207,9 @@ TEST(Growth, MirroredAndInOtherUnitsThePathIsTheSame) {
   }
 }
 
-// What growth releases by the energies of the body, on two meshes, is the integral of G by the factors of the tips;
-// behind the kink their difference falls faster than with the square of the step.
+// What growth releases by the energies of the body, between the old and the new tip on one mesh, is the integral of G
+// by the factors of the tips; behind the kink their difference falls faster than with the square of the step. What the
+// new mesh takes before is less than that.
 TEST(Growth, ReleasedIsTheIntegralOfG) {
   std::vector<double> differences;
   for (const double step : {0.16, 0.08, 0.04}) {
@@ -227,11 +231,26 @@ steps: [{{growth: {{toughness: {{K_Ic: 1e6}}, step: {}, until: {{steps: 2}}}}}}]
     const analysis::GrowthEnergy& energy = growth_at(solution, 2).energy.value();
     expect_balance(energy);
     differences.push_back(std::abs(energy.released / energy.integral - 1.0));
+    EXPECT_LT(std::abs(energy.remeshing / energy.integral), 1e-5);
   }
   EXPECT_LT(differences[0], 5e-3);
   EXPECT_LT(differences[1], differences[0] / 4.0);
   EXPECT_LT(differences[2], differences[1] / 4.0);
   EXPECT_LT(differences[2], 2e-5);
+}
+
+// A double cantilever under end forces that grows by a fiftieth of its crack: both to 1e-3 of each other, and what the
+// new mesh takes below that.
+TEST(Growth, ReleasedOverAFiftiethOfTheCrack) {
+  const auto solution = run(end_forces(0.25, "step: 0.08, until: {steps: 3}"));
+  ASSERT_EQ(last(solution).increment, 4);
+  for (std::size_t k = 1; k < 4; ++k) {
+    const analysis::GrowthEnergy& energy = growth_at(solution, k).energy.value();
+    EXPECT_NEAR(energy.released / energy.integral, 1.0, 1e-3);
+    EXPECT_NEAR(energy.released / 0.8, 1.0, 0.02);  // G_c da under the load that grows it, which falls
+    EXPECT_LT(std::abs(energy.remeshing / energy.integral), 1e-3);
+    expect_balance(energy);
+  }
 }
 
 /// The same crack for 0.25 on, of step `step`; `turned`: everything by 90 degrees counter-clockwise, (x, y) -> (-y, x).
@@ -300,6 +319,34 @@ steps: [{growth: {toughness: {K_Ic: 1e6}, step: 0.2, cracks: [plate.left.end, pl
   }
   EXPECT_LT(lowest, -0.205);
   EXPECT_GT(left.back().y(), -0.1);
+}
+
+// Two cracks that face each other, one in a region of the same stiffness that resists twice as much: it waits, and
+// would be critical at twice the load.
+TEST(Growth, EveryMaterialHasItsToughness) {
+  for (const char* weak : {"stone: 1e6, core: 2e6", "stone: 2e6, core: 1e6"}) {
+    const auto solution = run(fmt::format(R"(scabo: 1
+analysis: {{plane: strain}}
+materials: {{stone: {{young: 30e9, poisson: 0.2}}, core: {{young: 30e9, poisson: 0.2}}}}
+bodies:
+  strip:
+    material: stone
+    shape: {{rectangle: {{corner: [0, 0], size: [2, 2]}}}}
+    regions: {{right: {{material: core, shape: {{rectangle: {{corner: [1, 0], size: [1, 2]}}}}}}}}
+    mesh: {{kind: quadtree, size: 0.25}}
+    cracks: [{{path: [[0, 1], [0.25, 1]], name: left}}, {{path: [[2, 1], [1.75, 1]], name: right}}]
+supports: [{{on: strip.bottom, fix: [y]}}, {{on: strip.bottom_left, fix: [x]}}]
+loads: {{pull: {{on: strip.top, traction: [0, 1e6]}}}}
+steps: [{{growth: {{toughness: {{K_Ic: {{{}}}}}, step: 0.1, until: {{steps: 1}}}}}}]
+)",
+                                          weak));
+    ASSERT_EQ(last(solution).increment, 2);
+    const analysis::GrowthResult& first = growth_at(solution, 0);
+    const std::size_t leads = weak == std::string("stone: 1e6, core: 2e6") ? 0 : 1;
+    EXPECT_TRUE(first.tips.at(leads).grows && !first.tips.at(1 - leads).grows);
+    EXPECT_NEAR(first.tips[1 - leads].load_factor / first.load_factor, 2.0, 1e-3);
+    EXPECT_NEAR(growth_at(solution, 1).tips[leads].length, 0.35, 1e-12);
+  }
 }
 
 // Two cracks that share every step reach the length that is wanted in whole steps.

@@ -40,11 +40,36 @@ std::optional<GrowingCrack> read_growing_crack(Reading& reading, const Value& va
   return {};
 }
 
+/// A number, or one for each of the materials that are named.
+Toughness read_toughness(Reading& reading, const Value& value) {
+  Toughness toughness;
+  if (value.node->kind != Node::Kind::map) {
+    toughness.of_all = number_or_unread(reading, value);
+    return toughness;
+  }
+  const std::vector<Material>& materials = reading.model.materials;
+  toughness.of_material.resize(materials.size());
+  for (const MapEntry& entry : value.node->entries) {
+    const Value number{entry.value, value.path + "." + entry.key};
+    const auto named = std::find_if(materials.begin(), materials.end(),
+                                    [&](const Material& material) { return material.name == entry.key; });
+    if (named != materials.end()) {
+      toughness.of_material[static_cast<std::size_t>(named - materials.begin())] = number_or_unread(reading, number);
+      continue;
+    }
+    std::vector<std::string> known;
+    for (const Material& material : materials) known.push_back(material.name);
+    reading.report.error(
+        number, fmt::format("there is no material named {}{}", quoted_name(entry.key), suggestion(entry.key, known)));
+  }
+  return toughness;
+}
+
 void read_toughness(Reading& reading, const Value& value, GrowthStep& growth) {
   const MapReader map(reading.report, value, {"K_Ic", "G_c"}, "{K_Ic: 1e6}");
-  if (const auto K_Ic = map.get("K_Ic")) growth.K_Ic = number_or_unread(reading, K_Ic);
-  if (const auto G_c = map.get("G_c")) growth.G_c = number_or_unread(reading, G_c);
-  if (!map.is_map() || !map.all_known()) growth.K_Ic = unread;
+  if (const auto K_Ic = map.get("K_Ic")) growth.K_Ic = read_toughness(reading, *K_Ic);
+  if (const auto G_c = map.get("G_c")) growth.G_c = read_toughness(reading, *G_c);
+  if (!map.is_map() || !map.all_known()) growth.K_Ic = Toughness{unread, {}};
 }
 
 void read_until(Reading& reading, const Value& value, GrowthStep& growth) {
@@ -171,7 +196,7 @@ void read_growth(Reading& reading, const Value& value, const Index& supports, co
   if (const auto toughness = growth.cycles ? map.get("toughness") : map.need("toughness"))
     read_toughness(reading, *toughness, growth);
   else if (!growth.cycles)
-    growth.K_Ic = unread;
+    growth.K_Ic = Toughness{unread, {}};
   growth.step = number_or_unread(reading, map.need("step"));
   if (const auto cracks = map.get("cracks"))
     for (const Value& item : read_list(reading.report, *cracks, "[plate.flaw]").value_or(std::vector<Value>{}))

@@ -176,6 +176,7 @@ Mesh divide_bodies(const model::Model& model, const Division& division, const Si
       }
       mesh.bodies[b] = std::get<BodyMesh>(std::move(divided));
       if (body.mesh.kind == model::MeshKind::parts && add(too_large_parts(body, mesh.bodies[b]))) continue;
+      divide_faces_alike(mesh.bodies[b], growing_cracks(model, static_cast<int>(b)));
       if (const std::vector<int> cracks = cracks_with_tractions(model, static_cast<int>(b)); !cracks.empty()) {
         divide_faces_alike(mesh.bodies[b], cracks);
         add_tip_rings(mesh.bodies[b], body, cracks);

@@ -115,6 +115,70 @@ void check_cycles(Checking& checking, const std::string& path, const Step& step)
     checking.error(path, "", "a factor follows a curve, which it cannot under cycles of load: give a number");
 }
 
+/// A crack from one end to the other, and one of its ends.
+struct CrackEnd {
+  const Crack* crack = nullptr;
+  bool last = false;
+  const Vec2& at() const { return last ? crack->path.back() : crack->path.front(); }
+  std::string name(const Body& body) const { return body.name + "." + crack->name + (last ? ".end" : ".start"); }
+};
+
+/// Ends of two cracks in one place, of which one is to grow.
+void check_apart(Checking& checking, const std::string& path, const GrowthStep& growth) {
+  for (std::size_t b = 0; b < checking.model.bodies.size(); ++b) {
+    const Body& body = checking.model.bodies[b];
+    if (!bodies_of(checking.model, growth)[b] || !checking.sound_shape(static_cast<int>(b))) continue;
+    const double tolerance = 3e-9 * geometry::outline_size(body.outline);
+    const auto grows = [&](std::size_t crack, bool last) {
+      return growth.cracks.empty() || std::any_of(growth.cracks.begin(), growth.cracks.end(), [&](const auto& one) {
+               return one.body == static_cast<int>(b) && one.crack == static_cast<int>(crack) &&
+                      (last ? one.at_end : one.at_start);
+             });
+    };
+    for (std::size_t c = 0; c < body.cracks.size(); ++c)
+      for (std::size_t d = c + 1; d < body.cracks.size(); ++d)
+        for (const bool last : {false, true})
+          for (const bool other_last : {false, true}) {
+            if (body.cracks[c].path.empty() || body.cracks[d].path.empty()) continue;
+            const CrackEnd end{&body.cracks[c], last}, other{&body.cracks[d], other_last};
+            if ((end.at() - other.at()).norm() > tolerance || !(grows(c, last) || grows(d, other_last))) continue;
+            return checking.error(path, "",
+                                  fmt::format("the tips '{}' and '{}' meet at {}, where neither can grow: make them "
+                                              "one crack, or name in 'cracks' the ends that may grow",
+                                              end.name(body), other.name(body), point_text(end.at())));
+          }
+  }
+}
+
+/// Positive, and known of all materials of the bodies in which cracks grow.
+void check_toughness(Checking& checking, const std::string& path, const std::string& key, const GrowthStep& growth,
+                     const Toughness& toughness) {
+  const Model& model = checking.model;
+  if (toughness.of_all) {
+    checking.positive(path, key, *toughness.of_all);
+    return;
+  }
+  if (toughness.of_material.size() != model.materials.size())
+    return checking.error(path, key, "must be a number, or one for each material, as in {stone: 1e6, core: 2e6}");
+  for (std::size_t m = 0; m < model.materials.size(); ++m)
+    if (const auto& one = toughness.of_material[m]) checking.positive(path, key + "." + model.materials[m].name, *one);
+  const std::vector<char> bodies = bodies_of(model, growth);
+  const auto need = [&](int material, const std::string& of) {
+    if (material < 0 || material >= static_cast<int>(model.materials.size()) ||
+        toughness.of_material[static_cast<std::size_t>(material)])
+      return;
+    checking.error(path, key,
+                   fmt::format("has no number for '{}', the material of {}, where cracks may grow",
+                               model.materials[static_cast<std::size_t>(material)].name, of));
+  };
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]) continue;
+    need(model.bodies[b].material, fmt::format("body '{}'", model.bodies[b].name));
+    for (const Region& region : model.bodies[b].regions)
+      need(region.material, fmt::format("region '{}' of body '{}'", region.name, model.bodies[b].name));
+  }
+}
+
 /// The distance from the tip at which T counts.
 void check_distance(Checking& checking, const std::string& path, const GrowthStep& growth) {
   if (!checking.positive(path, "distance", *growth.distance)) return;
@@ -225,8 +289,9 @@ void check_growth_steps(Checking& checking) {
     if (growth.cycles ? growth.K_Ic && growth.G_c : growth.K_Ic.has_value() == growth.G_c.has_value())
       checking.error(path, "toughness", "must be one of K_Ic and G_c, as in {K_Ic: 1e6}");
     if (growth.distance) check_distance(checking, path, growth);
-    if (growth.K_Ic) checking.positive(path, "toughness.K_Ic", *growth.K_Ic);
-    if (growth.G_c) checking.positive(path, "toughness.G_c", *growth.G_c);
+    if (growth.K_Ic) check_toughness(checking, path, "toughness.K_Ic", growth, *growth.K_Ic);
+    check_apart(checking, path, growth);
+    if (growth.G_c) check_toughness(checking, path, "toughness.G_c", growth, *growth.G_c);
     if (checking.positive(path, "step", growth.step)) check_shortest(checking, path, growth);
     if (!check_names(checking, path, growth)) continue;
     if (growth.cycles)

@@ -34,12 +34,20 @@ struct LoadCycles {
   std::array<std::vector<double>, 2> loads, supports;
 };
 
+/// What a material resists: one number for all of them, or one for each.
+struct Toughness {
+  std::optional<double> of_all;
+  std::vector<std::optional<double>> of_material;  ///< for each of the model, if there is none for all
+
+  double of(int material) const { return of_all ? *of_all : of_material[static_cast<std::size_t>(material)].value(); }
+};
+
 /// Loads are lambda times a pattern plus constants. In every state lambda is such that the leading tip is critical;
 /// then the crack grows by a given length.
 struct GrowthStep {
   GrowthCriterion criterion = GrowthCriterion::hoop_stress;
-  std::optional<double> K_Ic, G_c;   ///< force / length^(3/2), force / length; > 0, one of the two; of cycles at most
-  std::optional<LoadCycles> cycles;  ///< instead of growth under a load; `loads` and `supports` have no meaning then
+  std::optional<Toughness> K_Ic, G_c;  ///< force / length^(3/2), force / length; > 0, one of the two; of cycles at most
+  std::optional<LoadCycles> cycles;    ///< instead of growth under a load; `loads` and `supports` have no meaning then
   /// Of hoop_stress: distance from the tip at which the stress is taken, so that the T-stress counts; length, > 0.
   std::optional<double> distance;
   double step = 0.0;                  ///< length, > 0: the largest sum of the growth of all tips between two states

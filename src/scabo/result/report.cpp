@@ -149,7 +149,8 @@ std::string report_state_of(const analysis::GrowthResult& growth) {
   if (growth.cycles) return fmt::format("{:.7g} cycles, ", *growth.cycles);
   std::string text = fmt::format("load factor {:.6g}, ", growth.load_factor);
   if (growth.energy)
-    text += fmt::format("released {:.5g} (by G {:.5g}), ", growth.energy->released, growth.energy->integral);
+    text += fmt::format("released {:.5g} (by G {:.5g}; remeshing {:.1e}), ", growth.energy->released,
+                        growth.energy->integral, growth.energy->remeshing);
   return text;
 }
 

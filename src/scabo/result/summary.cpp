@@ -133,7 +133,8 @@ Json json_of(const analysis::GrowthResult& growth) {
                       {"elastic", number_or_null(energy->elastic)},
                       {"contact", number_or_null(energy->contact)},
                       {"released", number_or_null(energy->released)},
-                      {"integral", number_or_null(energy->integral)}};
+                      {"integral", number_or_null(energy->integral)},
+                      {"remeshing", number_or_null(energy->remeshing)}};
   for (const analysis::TipResult& tip : growth.tips) {
     Json& of = json["tips"][tip.name];
     of = {{"position", json_of(tip.position)},

@@ -17,7 +17,7 @@ IncrementResult with_growth() {
   growth.load_factor = 1.25;
   growth.cycles = 1e5;
   growth.displacement = 0.5;
-  growth.energy = GrowthEnergy{1.0, 2.0, 5.0, 3.0, 4.0};
+  growth.energy = GrowthEnergy{1.0, 2.0, 5.0, 3.0, 4.0, 6.0};
   TipResult tip;
   tip.name = "plate.flaw.end";
   tip.position = Vec2(0.1, -0.2);
@@ -48,6 +48,7 @@ TEST(IncrementRecord, GrowthIsReadBackAsItWas) {
   EXPECT_FALSE(read.growth->reaction.has_value());
   EXPECT_EQ(read.growth->energy->contact, 5.0);
   EXPECT_EQ(read.growth->energy->integral, 4.0);
+  EXPECT_EQ(read.growth->energy->remeshing, 6.0);
   ASSERT_EQ(read.growth->tips.size(), 2u);
   const TipResult& tip = read.growth->tips[0];
   EXPECT_EQ(tip.name, "plate.flaw.end");

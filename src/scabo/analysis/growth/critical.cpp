@@ -17,13 +17,13 @@ namespace scabo::analysis {
 namespace {
 
 /// The material around a tip.
-const model::Material& material_at(const Prepared& prepared, const Tip& tip) {
+int material_at(const Prepared& prepared, const Tip& tip) {
   const mesh::BodyMesh& mesh = prepared.mesh.bodies[static_cast<std::size_t>(tip.body)];
   const Vec2 here = position_of(prepared.model, tip);
   const auto cell = std::find_if(mesh.cells.begin(), mesh.cells.end(),
                                  [&](const mesh::Cell& one) { return one.is_open() && one.centre == here; });
   ensure(cell != mesh.cells.end(), "a tip with factors has a cell");
-  return prepared.model.materials[static_cast<std::size_t>(cell->materials.front())];
+  return cell->materials.front();
 }
 
 }  // namespace
@@ -35,10 +35,12 @@ bool is_loaded(const Factors& factors) {
 }
 
 MaterialConstants material_constants(const Prepared& prepared, const Tip& tip) {
-  const model::Material& material = material_at(prepared, tip);
+  const int at = material_at(prepared, tip);
+  const model::Material& material = prepared.model.materials[static_cast<std::size_t>(at)];
   const double nu = material.poisson;
-  if (prepared.model.analysis.plane == model::Plane::strain) return {3.0 - 4.0 * nu, material.young / (1.0 - nu * nu)};
-  return {(3.0 - nu) / (1.0 + nu), material.young};
+  if (prepared.model.analysis.plane == model::Plane::strain)
+    return {3.0 - 4.0 * nu, material.young / (1.0 - nu * nu), at};
+  return {(3.0 - nu) / (1.0 + nu), material.young, at};
 }
 
 Factors factors_at(const model::Model& model, double lambda) {
@@ -116,8 +118,8 @@ std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& 
   const std::vector<TipFactors>& whole = std::get<std::vector<TipFactors>>(found);
   std::vector<TipPattern> patterns;
   for (std::size_t t = 0; t < tips.size(); ++t) {
-    const auto [kappa, modulus] = material_constants(prepared, tips[t]);
-    patterns.push_back({constant[t], whole[t] - constant[t], kappa, modulus, toughness_of(growth, modulus)});
+    const MaterialConstants material = material_constants(prepared, tips[t]);
+    patterns.push_back({constant[t], whole[t] - constant[t], material, toughness_of(growth, material)});
   }
   return patterns;
 }
@@ -127,12 +129,15 @@ double equivalent_factor(model::GrowthCriterion criterion, const TipFactors& fac
   return open.K.norm() > 0.0 ? kink_of(criterion, open, kappa).equivalent : 0.0;
 }
 
-double toughness_of(const model::GrowthStep& growth, double modulus) {
-  return growth.K_Ic ? *growth.K_Ic : std::sqrt(modulus * *growth.G_c);
+double toughness_of(const model::GrowthStep& growth, const MaterialConstants& material) {
+  return growth.K_Ic ? growth.K_Ic->of(material.material)
+                     : std::sqrt(material.modulus * growth.G_c->of(material.material));
 }
 
 double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip) {
-  const auto equivalent = [&](double lambda) { return equivalent_factor(criterion, tip.at(lambda), tip.kappa); };
+  const auto equivalent = [&](double lambda) {
+    return equivalent_factor(criterion, tip.at(lambda), tip.material.kappa);
+  };
   if (tip.constant.K == Vec2(0.0, 0.0) && tip.constant.T == 0.0) {
     const double at_one = equivalent(1.0);
     return at_one > 0.0 ? tip.toughness / at_one : std::numeric_limits<double>::infinity();

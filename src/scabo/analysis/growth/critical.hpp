@@ -31,6 +31,7 @@ Reached reach_from_rest(const Prepared& prepared, const Factors& factors, const 
 struct MaterialConstants {
   double kappa = 0.0;    ///< criteria.hpp
   double modulus = 0.0;  ///< E', force / length^2
+  int material = -1;     ///< index into Model::materials
 };
 MaterialConstants material_constants(const Prepared& prepared, const Tip& tip);
 
@@ -47,8 +48,8 @@ TipFactors tip_factors(const model::GrowthStep& growth, const element::StressInt
 /// Factors at a tip: constant + lambda per_lambda.
 struct TipPattern {
   TipFactors constant, per_lambda;
-  double kappa = 0.0, modulus = 0.0;  ///< MaterialConstants
-  double toughness = 0.0;             ///< K_Ic
+  MaterialConstants material;
+  double toughness = 0.0;  ///< K_Ic
 
   TipFactors at(double lambda) const { return constant + lambda * per_lambda; }
 };
@@ -63,6 +64,6 @@ double critical_factor(model::GrowthCriterion criterion, const TipPattern& tip);
 /// K* by which a tip is compared with its toughness; a tip that its load closes counts with K_I = 0.
 double equivalent_factor(model::GrowthCriterion criterion, const TipFactors& factors, double kappa);
 /// Toughness as a factor K_Ic.
-double toughness_of(const model::GrowthStep& growth, double modulus);
+double toughness_of(const model::GrowthStep& growth, const MaterialConstants& material);
 
 }  // namespace scabo::analysis

@@ -37,7 +37,8 @@ double kink_or_none(double kink) {
 
 /// What the next state needs of the growth that leads to it.
 struct Growth {
-  std::vector<double> lengths;  // of each tip
+  std::vector<double> lengths;            // of each tip
+  std::vector<std::optional<Vec2>> from;  // where the tips that grow were
   // Under a load:
   Factors factors;  // of the state before
   double load_factor = 0.0;
@@ -65,13 +66,6 @@ struct Next {
   std::string failed;
   Growth growth;
 };
-
-std::vector<Tip> without_met(const std::vector<Tip>& tips, const std::vector<std::optional<Vec2>>& met) {
-  std::vector<Tip> left;
-  for (std::size_t t = 0; t < tips.size(); ++t)
-    if (!met[t]) left.push_back(tips[t]);
-  return left;
-}
 
 class Growing {
  public:
@@ -226,6 +220,8 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
   State longer;
   if (has_contacts()) {
     longer = *from_;
+  } else if (state.p.size() == 0 && !is_loaded(factors_at(model(), 0.0))) {
+    longer = times(last_->load_factor / now.at.load_factor, state);
   } else {
     Reached reached = reach_from_rest(prepared, last_->factors, options_);
     if (!reached.reason.empty()) return {};
@@ -237,7 +233,9 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
   for (std::size_t t = 0; t < tips_.size(); ++t)
     integral += model::thickness_of(model(), tips_[t].body) * last_->lengths[t] / 6.0 *
                 std::get<std::vector<TipFactors>>(found)[t].K.squaredNorm() / now.materials[t].modulus;
-  return energy_of_growth(prepared, last_->before, longer, state, integral);
+  const auto closed = closed_growth(prepared, longer, tips_, last_->from);
+  if (!closed) return {};
+  return energy_of_growth(prepared, last_->before, *closed, longer, state, integral);
 }
 
 /// What tips are like where the cracks have gone half of a step in these directions, under the load before it.
@@ -372,6 +370,7 @@ Next Growing::next(const Prepared& prepared, Sought& now, const State& state, in
   if (const auto met = meetings(model(), tips_, now.at, directions, by.lengths))
     return after_meeting(*met, now, std::move(by));
   after.model = longer(directions, now.at, by.lengths);
+  for (const TipResult& tip : now.at.tips) by.from.push_back(tip.grows ? std::optional(tip.position) : std::nullopt);
   after.growth = std::move(by);
   return after;
 }

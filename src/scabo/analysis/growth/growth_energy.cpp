@@ -11,27 +11,34 @@ RestEnergy rest_energy(const Prepared& prepared, const State& state) {
     energy.of_loads += state.forces[p].dot(state.u[p]);
     energy.of_supports += state.reactions[p].dot(state.prescribed[p]);
     if (state.p.size() > 0) energy.of_pairs += state.p.dot(prepared.contact.motion[p] * state.u[p]);
-    energy.elastic += prepared.structure.parts[p]->elastic_energy(state.u[p]);
   }
   return energy;
 }
 
-GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const State& O, const State& B,
-                              double integral) {
+State times(double by, State state) {
+  for (std::vector<Vector>* values : {&state.u, &state.forces, &state.reactions, &state.prescribed})
+    for (Vector& of_part : *values) of_part *= by;
+  return state;
+}
+
+GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const ClosedGrowth& C, const State& O,
+                              const State& B, double integral) {
   const RestEnergy longer = rest_energy(prepared, O);
   GrowthEnergy energy;
-  energy.external = longer.of_loads - A.of_loads;
-  energy.contact = A.of_pairs - longer.of_pairs;
   for (std::size_t p = 0; p < B.u.size(); ++p) {
-    const Vector moved = B.u[p] - O.u[p];
-    energy.external += 0.5 * (O.forces[p] + B.forces[p]).dot(moved);
+    const Vector opened = O.u[p] - C.u[p], moved = B.u[p] - O.u[p];
+    energy.external += O.forces[p].dot(opened) + 0.5 * (O.forces[p] + B.forces[p]).dot(moved);
     energy.external += 0.5 * (O.reactions[p] + B.reactions[p]).dot(B.prescribed[p] - O.prescribed[p]);
-    if (B.p.size() > 0) energy.contact -= 0.5 * (O.p + B.p).dot(prepared.contact.motion[p] * moved);
+    if (B.p.size() > 0) {
+      const auto& motion = prepared.contact.motion[p];
+      energy.contact -= O.p.dot(motion * opened) + 0.5 * (O.p + B.p).dot(motion * moved);
+    }
     energy.elastic += prepared.structure.parts[p]->elastic_energy(B.u[p]);
   }
-  energy.elastic -= A.elastic;
-  energy.released = A.potential() - longer.potential();
+  energy.elastic -= C.elastic;
+  energy.released = C.released;
   energy.integral = integral;
+  energy.remeshing = A.potential() - longer.potential() - C.released;
   return energy;
 }
 

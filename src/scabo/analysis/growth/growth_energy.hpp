@@ -5,16 +5,19 @@
 //
 //     Pi = 1/2 (r d - f u)                                                                                          (1)
 //
-// The forces of contact pairs, p with the relative motions w, act as loads do: f u includes p w in (1). Growth under
-// the load and the pair forces of a state A, on another mesh with the longer crack, releases Pi_A - Pi_O, and f u
-// becomes larger by the work of the loads. From there, on the same mesh, loads, prescribed displacements and pair
-// forces change to those of the next state, and work with their means (the trapezoidal rule, exact for a linear body).
-// What the pairs take is the work against their forces.
+// The forces of contact pairs, p with the relative motions w, act as loads do: f u includes p w in (1). Growth from a
+// state A goes over C, its cracks on the mesh of the longer ones, closed along their new parts (closed_growth.hpp), and
+// O, where these have opened under the load and the pair forces of A. The step from A to C is that of another mesh,
+// Pi_A - Pi_C: remeshing. The one to O releases Pi_C - Pi_O, and f u becomes larger by the work of the loads. From
+// there, on the same mesh, loads, prescribed displacements and pair forces change to those of the next state, B, and
+// work with their means (the trapezoidal rule, exact for a linear body). What the pairs take is the work against their
+// forces.
 //
 // The same from the factors: the integral of G over the growth, by Simpson's rule from its beginning along the kink,
 // its middle and its end, all under the load of A.
 #pragma once
 
+#include "scabo/analysis/growth/closed_growth.hpp"
 #include "scabo/analysis/state/state.hpp"
 
 namespace scabo::analysis {
@@ -24,15 +27,17 @@ struct RestEnergy {
   double of_loads = 0.0;     ///< f u
   double of_supports = 0.0;  ///< r d
   double of_pairs = 0.0;     ///< p w
-  double elastic = 0.0;      ///< 1/2 u'K u
 
   double potential() const { return 0.5 * (of_supports - of_loads - of_pairs); }  // eq. (1)
 };
 RestEnergy rest_energy(const Prepared& prepared, const State& state);
 
+/// The state under loads and prescribed displacements that are all `by` times those of `state`, without contacts.
+State times(double by, State state);
+
 /// From a state A over O, the longer crack under its load and pair forces, to B.
-GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const State& O, const State& B,
-                              double integral);
+GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const ClosedGrowth& C, const State& O,
+                              const State& B, double integral);
 
 /// What the scaled loads and supports would work at factor 1 (GrowthResult::displacement, reaction).
 void add_conjugates(const Prepared& prepared, const State& state, GrowthResult& growth);

@@ -97,6 +97,13 @@ std::optional<Meetings> meetings(const model::Model& model, const std::vector<Ti
   return met;
 }
 
+std::vector<Tip> without_met(const std::vector<Tip>& tips, const std::vector<std::optional<Vec2>>& met) {
+  std::vector<Tip> left;
+  for (std::size_t t = 0; t < tips.size(); ++t)
+    if (!met[t]) left.push_back(tips[t]);
+  return left;
+}
+
 double length_until(const Meetings& met, const GrowthResult& at) {
   double sum = 0.0;
   for (std::size_t t = 0; t < met.at.size(); ++t)

@@ -38,6 +38,9 @@ struct Meetings {
 std::optional<Meetings> meetings(const model::Model& model, const std::vector<Tip>& tips, const GrowthResult& at,
                                  const std::vector<Vec2>& directions, const std::vector<double>& lengths);
 
+/// The tips that go on.
+std::vector<Tip> without_met(const std::vector<Tip>& tips, const std::vector<std::optional<Vec2>>& met);
+
 /// How far tips go until they meet something, and in which direction: in place of `lengths`.
 double length_until(const Meetings& met, const GrowthResult& at);
 

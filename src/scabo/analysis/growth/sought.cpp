@@ -49,17 +49,18 @@ GrowthResult critical_tips(const model::Model& model, const std::vector<Tip>& ti
 }
 
 /// The tips at the highest load of a cycle.
-GrowthResult tips_in_cycle(const model::Model& model, const std::vector<Tip>& tips,
+GrowthResult tips_in_cycle(const Prepared& prepared, const std::vector<Tip>& tips,
                            const std::vector<CycledTip>& cycled) {
-  const model::GrowthStep& growth = *model.steps.back().growth;
-  const double breaks_at = std::min(growth.K_Ic.value_or(infinite), growth.cycles->K_c.value_or(infinite));
-  GrowthResult result = tips_of(model, tips);
+  const model::GrowthStep& growth = *prepared.model.steps.back().growth;
+  GrowthResult result = tips_of(prepared.model, tips);
   result.load_factor = 1.0;
   double fastest = 0.0;
   for (const CycledTip& tip : cycled) fastest = std::max(fastest, tip.rate);
   for (std::size_t t = 0; t < tips.size(); ++t) {
     TipResult& tip = result.tips[t];
     tip.range = cycled[t].range;
+    double breaks_at = growth.cycles->K_c.value_or(infinite);
+    if (growth.K_Ic) breaks_at = std::min(breaks_at, toughness_of(growth, material_constants(prepared, tips[t])));
     tip.load_factor = breaks_at / cycled[t].highest;
     tip.grows = cycled[t].rate > 0.0 && cycled[t].rate >= least_rate * fastest;
   }
@@ -113,8 +114,8 @@ class Trials {
       if (is_stuck(prepared_, reached.state, tips_[t])) continue;
       trial.failed = closed(prepared_.model, tips_[t], at_tip.K);
       if (!trial.failed.empty()) return trial;
-      trial.part[t] = equivalent_factor(growth.criterion, at_tip, materials_[t].kappa) /
-                      toughness_of(growth, materials_[t].modulus);
+      trial.part[t] =
+          equivalent_factor(growth.criterion, at_tip, materials_[t].kappa) / toughness_of(growth, materials_[t]);
     }
     trial.reached = std::move(reached);
     return trial;
@@ -169,7 +170,7 @@ Sought sought_without_contact(const Prepared& prepared, const std::vector<Tip>& 
   else if (!std::isfinite(now.at.load_factor))
     now.failed = never_critical;
   for (std::size_t t = 0; t < tips.size(); ++t) {
-    now.materials.push_back({patterns[t].kappa, patterns[t].modulus});
+    now.materials.push_back(patterns[t].material);
     if (now.failed.empty()) now.failed = closed(prepared.model, tips[t], patterns[t].at(now.at.load_factor).K);
   }
   return now;
@@ -217,7 +218,7 @@ Sought sought_in_cycle(const Prepared& prepared, const std::vector<Tip>& tips, c
   if (auto* reason = std::get_if<std::string>(&found)) return now.failed = std::move(*reason), now;
   now.cycled = std::get<Cycled>(found).tips;
   now.reached = std::get<Cycled>(std::move(found)).highest;
-  now.at = tips_in_cycle(prepared.model, tips, now.cycled);
+  now.at = tips_in_cycle(prepared, tips, now.cycled);
   if (rate_of(now.at, now.cycled) == 0.0) now.failed = "no tip grows: the loads of the cycle do not reach any";
   now.factors = factors_in_cycle(prepared.model, 1);
   return now;

@@ -179,7 +179,7 @@ void exchange(Io& io, TipResult& of) {
 }
 template <typename Io>
 void exchange(Io& io, GrowthEnergy& of) {
-  io(of.external), io(of.elastic), io(of.contact), io(of.released), io(of.integral);
+  io(of.external), io(of.elastic), io(of.contact), io(of.released), io(of.integral), io(of.remeshing);
 }
 template <typename Io>
 void exchange(Io& io, GrowthResult& of) {

@@ -160,14 +160,18 @@ struct TipResult {
   std::optional<Vec2> meets;    ///< where it ends in the step that follows, while others go on
 };
 
-/// Of the growth between two states, force times length. First the crack grows under the load and the pair forces of
-/// the first, then these become those of the second: external = elastic + contact + released.
+/// Of the growth between two states on the mesh of the second, force times length. First the crack, whose new part is
+/// closed, opens under the load and the pair forces of the first, then these become those of the second: external =
+/// elastic + contact + released.
 struct GrowthEnergy {
   double external = 0.0;  ///< work of loads, and of supports that move
   double elastic = 0.0;   ///< by which the stored energy becomes larger
   double contact = 0.0;   ///< taken by contact pairs: mean forces times changes of gap and slip
   double released = 0.0;  ///< by which growth under the load of the first state makes the potential energy smaller
   double integral = 0.0;  ///< of G over the growth of all tips under that load: what is released, from the factors
+  /// By which the potential energy of the first state becomes smaller on the mesh of the second, its tips where they
+  /// were; not in `external` and `elastic`.
+  double remeshing = 0.0;
 };
 
 /// Where cracks stand in an increment of a step in which they grow.

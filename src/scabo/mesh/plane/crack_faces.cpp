@@ -144,6 +144,18 @@ std::vector<int> cracks_in_contact(const model::Model& model, int body) {
   return {cracks.begin(), cracks.end()};
 }
 
+std::vector<int> growing_cracks(const model::Model& model, int body) {
+  if (!model::has_growth(model)) return {};
+  const std::vector<model::GrowingCrack>& named = model.steps.back().growth->cracks;
+  std::vector<int> cracks;
+  for (int crack = 0; crack < static_cast<int>(model.bodies[static_cast<std::size_t>(body)].cracks.size()); ++crack)
+    if (named.empty() || std::any_of(named.begin(), named.end(), [&](const model::GrowingCrack& one) {
+          return one.body == body && one.crack == crack;
+        }))
+      cracks.push_back(crack);
+  return cracks;
+}
+
 std::vector<int> cracks_held(const model::Model& model, int body) {
   std::set<int> cracks;
   for (const model::Support& support : model.supports)

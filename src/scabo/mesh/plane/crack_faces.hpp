@@ -53,6 +53,8 @@ std::map<int, Vec2> normals_of_face(const BodyMesh& mesh, int face);
 
 /// The cracks of a body whose faces are in contact with each other.
 std::vector<int> cracks_in_contact(const model::Model& model, int body);
+/// The cracks of a body that may grow in the last step: the energy that this releases needs nodes that face each other.
+std::vector<int> growing_cracks(const model::Model& model, int body);
 /// The cracks of a body of which a face is held by a support.
 std::vector<int> cracks_held(const model::Model& model, int body);
 /// The cracks of a body whose faces carry tractions that are not known before: in contact, held, or on springs. Their
