@@ -22,6 +22,14 @@ std::vector<int> corners_of(const ImportedSolidCell& cell, int side) {
   return {cell.nodes[a], cell.nodes[b], cell.nodes[c]};
 }
 
+std::vector<int> nodes_of_side(const ImportedSolidCell& cell, int side) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> middles{{{6, 5, 4}, {4, 8, 7}, {5, 9, 8}, {6, 7, 9}}};
+  std::vector<int> nodes = corners_of(cell, side);
+  if (cell.nodes.size() == 10)
+    for (const std::size_t middle : middles[static_cast<std::size_t>(side)]) nodes.push_back(cell.nodes[middle]);
+  return nodes;
+}
+
 void SolidBuilder::add_node(std::int64_t number, double x, double y, double z, const FilePlace& at) {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
     files_.fail(at, fmt::format("node {} has a coordinate that is not finite; correct it", number));

@@ -40,6 +40,7 @@ struct SpacePreload {
 struct SpaceBody {
   std::string name;
   std::shared_ptr<const files::ImportedSolidMesh> mesh;  ///< either this or `shape`
+  bool made_of_shape = false;                            ///< `mesh` is that of a CAD shape, not of a file
   std::optional<SolidShape> shape;
   SolidSizes sizes;  ///< of a shape
   int material = -1;

@@ -78,10 +78,11 @@ void Posing::add_body(const model::SpaceBody& of) {
   for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
     if (const double least = element::least_jacobian(mesh::nodes_of(body.mesh, body.mesh.cells[c])); !(least > 0.0)) {
       mistakes_.push_back(
-          {of.source, of.mesh ? fmt::format("element {} of its mesh file has a Jacobian of {:.3g}, which must be "
-                                            "positive everywhere: correct its nodes",
-                                            of.mesh->cells[c].number, least)
-                              : "its curved face folds elements of this size: give it a smaller 'size'"});
+          {of.source, of.mesh && !of.made_of_shape
+                          ? fmt::format("element {} of its mesh file has a Jacobian of {:.3g}, which must be "
+                                        "positive everywhere: correct its nodes",
+                                        of.mesh->cells[c].number, least)
+                          : "its curved face folds elements of this size: give it a smaller 'size'"});
       break;
     }
   boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});

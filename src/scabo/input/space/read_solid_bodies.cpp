@@ -91,10 +91,15 @@ void SpaceReader::body(const Entry& entry) {
     if (const auto given = map.get("preload")) body.preload = preload(*given);
   }
   const auto shape = map.get("shape"), mesh = map.need("mesh");
-  if (shape) body.shape = read_solid_shape(report_, *shape);
   if (mesh && !shape) return add_bodies_of_file(*mesh, std::move(body));
+  const std::string folder = std::filesystem::path(model_.file).parent_path().string();
+  const auto of = shape ? read_solid_shape(report_, *shape, folder) : std::nullopt;
+  const std::size_t before = report_.count();
   if (mesh) body.sizes = read_solid_sizes(report_, *mesh);
-  model_.bodies.push_back(body);
+  if (const auto* simple = of ? std::get_if<SolidShape>(&*of) : nullptr) body.shape = *simple;
+  const auto* cad = of ? std::get_if<CadShape>(&*of) : nullptr;
+  if (cad == nullptr || !mesh || report_.count() > before) return model_.bodies.push_back(body);
+  add_bodies_of_cad(*shape, *cad, std::move(body));
 }
 
 /// Index of a set of cells.
@@ -120,7 +125,29 @@ void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
   const auto file = name ? mesh_of_file(*name) : nullptr;
   const auto choice = file && region ? region_of(*region, *file) : std::optional(-1);
   if (!file || !choice) return model_.bodies.push_back(body);
-  std::vector<files::ImportedSolidMesh> parts = solid_bodies(*file, *choice);
+  add_parts(mesh, solid_bodies(*file, *choice), std::move(body));
+}
+
+/// Gmsh divides the shape now, so that the names of its faces are known.
+void SpaceReader::add_bodies_of_cad(const Value& shape, const CadShape& cad, SpaceBody body) {
+  body.made_of_shape = true;
+  try {
+    const files::ImportedSolidMesh mesh = divided_cad_shape(cad, body.sizes, model_.file);
+    for (const std::string& remark : mesh.remarks) model_.warnings.push_back({WarningKind::input, body.name, remark});
+    for (const std::string& path : files_of(cad))
+      if (std::find(model_.files.begin(), model_.files.end(), path) == model_.files.end()) model_.files.push_back(path);
+    return add_parts(shape, solid_bodies(mesh, -1), std::move(body));
+  } catch (const InputError& error) {
+    const std::string message = error.diagnostics().front().message;
+    report_.error(shape, error.file() == model_.file
+                             ? message
+                             : fmt::format("{}: {}", std::filesystem::path(error.file()).filename().string(), message));
+  }
+  model_.bodies.push_back(body);
+}
+
+/// Each part is a body: `wall_1`, `wall_2` and so on where there are several.
+void SpaceReader::add_parts(const Value& value, std::vector<files::ImportedSolidMesh> parts, SpaceBody body) {
   std::vector<std::string> told;
   const std::string whole = body.name;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -133,14 +160,14 @@ void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
     for (const SpaceBody& other : model_.bodies)
       if (other.name == body.name)
         report_.error(
-            mesh,
+            value,
             fmt::format("a part of this file is called '{0}', as is another body: give that another name", body.name));
     model_.bodies.push_back(body);
   }
   if (parts.size() > 1 && body.preload)
-    report_.error(mesh, fmt::format("has {} parts that have no side in common, and a preload is that of one: take the "
-                                    "cells of one of them by 'region'",
-                                    parts.size()));
+    report_.error(value, fmt::format("has {} parts that have no side in common, and a preload is that of one: give "
+                                     "one of them to a body of its own",
+                                     parts.size()));
   if (parts.size() > 1)
     model_.warnings.push_back(
         {WarningKind::input, whole + " parts",
