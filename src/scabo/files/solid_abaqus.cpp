@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <map>
 #include <set>
 
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/abaqus_sets.hpp"
 #include "scabo/files/solid_builder.hpp"
+#include "scabo/files/split_solid.hpp"
 
 namespace scabo::files {
 
@@ -16,7 +18,8 @@ namespace {
 /// Nodes of an element type; 0 for one that is not read.
 std::size_t nodes_of_solid(const std::string& type) {
   if (type == "C3D4") return 4;
-  return type == "C3D10" || type == "C3D10M" ? 10 : 0;
+  if (type == "C3D10" || type == "C3D10M") return 10;
+  return nodes_of_split(type).value_or(0);
 }
 
 /// Elements that bound solids in files of Gmsh, or join nodes.
@@ -49,6 +52,7 @@ class SolidReader {
   void keyword(const AbaqusKeyword& key);
   void nodes(const AbaqusKeyword& key);
   void elements(const AbaqusKeyword& key);
+  void split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at);
   void set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter);
   void surface(const AbaqusKeyword& key);
   bool next_data(std::vector<std::string_view>& fields);
@@ -63,6 +67,12 @@ class SolidReader {
   AbaqusLines lines_;
   std::int64_t most_entries_, entries_ = 0;  // of all sets together: sets of sets grow faster than the file
   AbaqusSets node_sets_, element_sets_;
+  struct Whole {
+    std::vector<std::int64_t> nodes;
+    std::vector<int> parts;  // cells
+  };
+  std::map<std::int64_t, Whole> split_;                        // by number
+  std::map<std::vector<std::int64_t>, std::int64_t> between_;  // nodes that are added, by their corners
   std::vector<Surface> surfaces_;
   std::vector<std::string> remarks_;
   std::set<std::string> left_out_;  // types
@@ -113,8 +123,8 @@ void SolidReader::elements(const AbaqusKeyword& key) {
   if (type.empty()) builder_.fail(key.at, "*ELEMENT has no TYPE; write for example TYPE=C3D10");
   const std::size_t wanted = nodes_of_solid(type);
   if (wanted == 0 && !is_not_solid(type))
-    builder_.fail(key.at, fmt::format("elements of type {} are not read; use tetrahedra, C3D4 or C3D10, and take "
-                                      "others out of the file",
+    builder_.fail(key.at, fmt::format("elements of type {} are not read; use C3D4, C3D6, C3D8, C3D10, C3D15 or "
+                                      "C3D20, and take others out of the file",
                                       printable(type)));
   if (wanted == 0 && left_out_.insert(type).second)
     remarks_.push_back(fmt::format("{}:{}: elements of type {} are no solids and are left out", builder_.file(key.at),
@@ -135,9 +145,26 @@ void SolidReader::elements(const AbaqusKeyword& key) {
       builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line", number,
                                     nodes.size(), type, wanted));
     numbers.push_back(number);
-    solid_.add_cell(number, nodes, at);
+    nodes_of_split(type) ? split(number, nodes, at) : static_cast<void>(solid_.add_cell(number, nodes, at));
   }
   if (key.has("ELSET") && wanted > 0) add_all(element_sets_.named(key.value("ELSET")), std::move(numbers));
+}
+
+void SolidReader::split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at) {
+  const auto [of, is_new] = split_.try_emplace(number, Whole{nodes, {}});
+  if (!is_new) builder_.fail(at, fmt::format("cell {} is there twice; number every one differently", number));
+  SplitSolid made = split_solid(nodes);
+  std::vector<std::int64_t> added;
+  for (AddedNode& node : made.added) {
+    const auto [known, is_first] = between_.try_emplace(node.corners, -1 - static_cast<std::int64_t>(between_.size()));
+    if (is_first) solid_.add_between(known->second, std::move(node.nodes), std::move(node.weights));
+    added.push_back(known->second);
+  }
+  for (std::vector<std::int64_t>& cell : made.tetrahedra) {
+    for (std::int64_t& node : cell)
+      if (node < 0) node = added[static_cast<std::size_t>(-node - 1)];
+    of->second.parts.push_back(solid_.add_part(number, cell, at));
+  }
 }
 
 void SolidReader::set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter) {
@@ -207,10 +234,13 @@ void SolidReader::keyword(const AbaqusKeyword& key) {
 void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cells) {
   const int set = solid_.side_set(surface.name);
   for (const SurfaceEntry& entry : surface.entries) {
-    const bool is_side = entry.side.size() == 2 && entry.side[0] == 'S' && entry.side[1] >= '1' && entry.side[1] <= '4';
-    if (!is_side)
-      builder_.fail(entry.at, fmt::format("surface '{}': '{}' is no side of a tetrahedron; write S1, S2, S3 or S4",
+    const bool is_side = entry.side.size() == 2 && entry.side[0] == 'S' && entry.side[1] >= '1' && entry.side[1] <= '6';
+    const auto no_side = [&] {
+      builder_.fail(entry.at, fmt::format("surface '{}': '{}' is no side of this element; write S1 to S4 of a "
+                                          "tetrahedron, S1 to S5 of a wedge or S1 to S6 of a hexahedron",
                                           printable(surface.name), printable(entry.side)));
+    };
+    if (!is_side) no_side();
     std::vector<std::int64_t> numbers(1, 0);
     if (!parse_number(std::string_view(entry.of), numbers[0])) {
       const AbaqusSet* of = element_sets_.find(entry.of);
@@ -220,6 +250,14 @@ void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cel
       numbers = of->numbers;
     }
     for (const std::int64_t number : numbers) {
+      if (const auto whole = split_.find(number); whole != split_.end()) {
+        const bool wedge = whole->second.nodes.size() == 6 || whole->second.nodes.size() == 15;
+        if (wedge && entry.side[1] == '6') no_side();
+        for (const std::vector<std::int64_t>& corners : triangles_of_side(whole->second.nodes, entry.side[1] - '0'))
+          solid_.add_facet(set, corners);
+        continue;
+      }
+      if (entry.side[1] > '4') no_side();
       const SolidSide side{cells.find(number), entry.side[1] - '1'};
       if (side.cell < 0)
         builder_.fail(entry.at, fmt::format("surface '{}': there is no cell {}; correct its number",
@@ -237,8 +275,13 @@ void SolidReader::hand_over_sets() {
   }
   for (const AbaqusSet& set : element_sets_.all()) {
     const int to = solid_.cell_set(set.name);
-    for (const std::int64_t number : set.numbers)
-      if (const int cell = cells.find(number); cell >= 0) solid_.add_cell_to_set(to, cell);
+    for (const std::int64_t number : set.numbers) {
+      const auto whole = split_.find(number);
+      if (whole != split_.end())
+        for (const int part : whole->second.parts) solid_.add_cell_to_set(to, part);
+      else if (const int cell = cells.find(number); cell >= 0)
+        solid_.add_cell_to_set(to, cell);
+    }
   }
   for (const Surface& surface : surfaces_) hand_over_sides(surface, cells);
 }
@@ -247,9 +290,15 @@ ImportedSolidMesh SolidReader::read() {
   AbaqusKeyword key;
   while (lines_.next_keyword(key)) keyword(key);
   if (solid_.cells() == 0)
-    fail_in_file(builder_.file({}), 0, 0, "the file has no solid elements; save the mesh with C3D4 or C3D10 elements");
+    fail_in_file(builder_.file({}), 0, 0,
+                 "the file has no solid elements; save the mesh with elements C3D4, C3D8, C3D10 or C3D20");
   hand_over_sets();
   ImportedSolidMesh mesh = solid_.finish();
+  if (!split_.empty())
+    remarks_.push_back(
+        fmt::format("{}: {} hexahedra and wedges are divided into quadratic tetrahedra of the same "
+                    "corners",
+                    builder_.file({}), split_.size()));
   mesh.remarks = remarks_;
   return mesh;
 }

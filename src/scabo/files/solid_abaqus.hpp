@@ -1,4 +1,5 @@
-// Meshes of tetrahedra in input files of Abaqus and CalculiX (.inp): nodes, elements C3D4 and C3D10, sets and surfaces.
+// Meshes of solids in input files of Abaqus and CalculiX (.inp): nodes, elements C3D4 and C3D10, C3D6, C3D8, C3D15 and
+// C3D20, which are divided into tetrahedra, sets and surfaces.
 #pragma once
 
 #include <string>

@@ -50,9 +50,33 @@ int SolidBuilder::add_cell(std::int64_t number, std::span<const std::int64_t> no
   }
   if (cells_.size() >= most_solid_entries) files_.fail(at, "the mesh has more than 5e8 cells");
   cell_numbers_.push_back(number);
+  written_numbers_.push_back(number);
   cell_places_.push_back(at);
   cells_.emplace_back(nodes.begin(), nodes.end());
   return index;
+}
+
+int SolidBuilder::add_part(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at) {
+  const int index = add_cell(-1 - static_cast<std::int64_t>(cells_.size()), nodes, at);
+  written_numbers_.back() = number;
+  return index;
+}
+
+void SolidBuilder::add_between(std::int64_t number, std::vector<std::int64_t> nodes, std::vector<double> weights) {
+  between_.push_back({number, std::move(nodes), std::move(weights)});
+}
+
+/// A node that the file does not have is told with its cell.
+void SolidBuilder::place_between() {
+  const NumberIndex nodes(node_numbers_);
+  for (const Between& between : between_) {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < between.nodes.size(); ++i)
+      if (const int node = nodes.find(between.nodes[i]); node >= 0)
+        at += between.weights[i] *
+              Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * static_cast<std::size_t>(node));
+    add_node(between.number, at.x(), at.y(), at.z(), {});
+  }
 }
 
 void SolidBuilder::add_side(int set, const SolidSide& side) {
@@ -97,7 +121,7 @@ void SolidBuilder::check_cell(ImportedSolidCell& cell, const FilePlace& at) cons
 
 void SolidBuilder::make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh) const {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    ImportedSolidCell cell{{}, static_cast<long>(cell_numbers_[c])};
+    ImportedSolidCell cell{{}, static_cast<long>(written_numbers_[c])};
     for (const std::int64_t number : cells_[c]) {
       const int node = nodes.find(number);
       if (node < 0)
@@ -180,6 +204,7 @@ NumberIndex SolidBuilder::cell_index() const {
 }
 
 ImportedSolidMesh SolidBuilder::finish() {
+  place_between();
   const NumberIndex nodes(node_numbers_);
   check_numbers(nodes, node_places_, "node");
   cell_index();
