@@ -38,6 +38,7 @@ class SolidReader {
         most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())) {}
 
   ImportedSolidMesh read();
+  AbaqusDeck read_deck();
 
  private:
   struct SurfaceEntry {
@@ -55,6 +56,8 @@ class SolidReader {
   void split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at);
   void set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter);
   void surface(const AbaqusKeyword& key);
+  void nodes_of_surface(const std::string& name);
+  void block(const AbaqusKeyword& key);
   bool next_data(std::vector<std::string_view>& fields);
   std::int64_t integer(std::string_view field, const char* what) const;
   void add(AbaqusSet& target, std::int64_t number);
@@ -76,6 +79,8 @@ class SolidReader {
   std::vector<Surface> surfaces_;
   std::vector<std::string> remarks_;
   std::set<std::string> left_out_;  // types
+  bool whole_ = false;              // what is not part of the mesh is kept
+  AbaqusDeck deck_;
 };
 
 bool SolidReader::next_data(std::vector<std::string_view>& fields) {
@@ -147,6 +152,10 @@ void SolidReader::elements(const AbaqusKeyword& key) {
     numbers.push_back(number);
     nodes_of_split(type) ? split(number, nodes, at) : static_cast<void>(solid_.add_cell(number, nodes, at));
   }
+  if (whole_ && wanted > 0) {
+    deck_.elements.push_back({type, {builder_.file(key.at), key.at.line}});
+    for (const std::int64_t number : numbers) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
+  }
   if (key.has("ELSET") && wanted > 0) add_all(element_sets_.named(key.value("ELSET")), std::move(numbers));
 }
 
@@ -204,6 +213,7 @@ void SolidReader::set(const AbaqusKeyword& key, AbaqusSets& sets, const char* pa
 void SolidReader::surface(const AbaqusKeyword& key) {
   const std::string name = key.value("NAME"), type = upper(key.value("TYPE"));
   if (name.empty()) builder_.fail(key.at, "*SURFACE has no name; write *SURFACE, NAME=name");
+  if (whole_ && type == "NODE") return nodes_of_surface(name);
   if (!type.empty() && type != "ELEMENT") {
     remarks_.push_back(fmt::format("{}:{}: the surface '{}' of TYPE={} has no sides of cells and is left out",
                                    builder_.file(key.at), key.at.line, printable(name), printable(type)));
@@ -216,7 +226,45 @@ void SolidReader::surface(const AbaqusKeyword& key) {
         {without_quotes(fields[0]), fields.size() > 1 ? upper(fields[1]) : std::string(), lines_.at()});
 }
 
+/// Of a deck: those of sets and numbers, on which contact may act.
+void SolidReader::nodes_of_surface(const std::string& name) {
+  std::vector<std::string_view> fields;
+  node_sets_.named(name);
+  while (next_data(fields)) {
+    const std::string entry = without_quotes(fields[0]);
+    std::int64_t number = 0;
+    if (parse_number(std::string_view(entry), number))
+      add(node_sets_.named(name), number);
+    else if (const AbaqusSet* other = node_sets_.find(entry))
+      add_all(node_sets_.named(name), std::vector(other->numbers));
+    else
+      builder_.fail(lines_.at(), fmt::format("surface '{}': there is no node set '{}'; correct its name",
+                                             printable(name), printable(entry)));
+  }
+}
+
+/// What is not part of the mesh, of a deck. Sides that *DLOAD names become a surface.
+void SolidReader::block(const AbaqusKeyword& key) {
+  if (!whole_) return;
+  if (key.has("INPUT")) lines_.insert(key);
+  std::vector<std::string_view> fields;
+  while (next_data(fields)) {
+    DeckLine line{{}, {builder_.file(lines_.at()), lines_.at().line}, {}};
+    for (const std::string_view field : fields)
+      line.fields.push_back(key.name == "HEADING" ? std::string(field) : without_quotes(field));
+    const std::string label = fields.size() > 1 ? upper(fields[1]) : "";
+    if (key.name == "DLOAD" && label.size() == 2 && label[0] == 'P' && label[1] >= '1' && label[1] <= '6') {
+      line.sides = fmt::format("*DLOAD {}", surfaces_.size());
+      surfaces_.push_back({line.sides, {{line.fields[0], "S" + label.substr(1), lines_.at()}}});
+    }
+    deck_.blocks.back().lines.push_back(std::move(line));
+  }
+  deck_.blocks.back().has_data = !deck_.blocks.back().lines.empty();
+}
+
 void SolidReader::keyword(const AbaqusKeyword& key) {
+  if (whole_)
+    deck_.blocks.push_back({key.name, key.written, key.parameters, {builder_.file(key.at), key.at.line}, {}, true, -1});
   if (key.name == "NODE") return nodes(key);
   if (key.name == "ELEMENT") return elements(key);
   if (key.name == "NSET") return set(key, node_sets_, "NSET");
@@ -229,6 +277,7 @@ void SolidReader::keyword(const AbaqusKeyword& key) {
   for (const char* maker : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"})
     if (key.name == maker)
       builder_.fail(key.at, fmt::format("{} makes nodes or elements and is not read; write them out", key.written));
+  block(key);
 }
 
 void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cells) {
@@ -303,7 +352,42 @@ ImportedSolidMesh SolidReader::read() {
   return mesh;
 }
 
+AbaqusDeck SolidReader::read_deck() {
+  whole_ = true;
+  ImportedSolidMesh solid = read();
+  deck_.node_numbers = solid_.kept_numbers();
+  deck_.mesh.node_sets = solid.node_sets;
+  deck_.mesh.cell_sets = solid.cell_sets;
+  deck_.mesh.remarks = solid.remarks;
+  for (const ImportedSolidCell& cell : solid.cells) {
+    deck_.mesh.cells.emplace_back();
+    deck_.mesh.cells.back().number = cell.number;
+  }
+  for (const SolidSideSet& set : solid.side_sets) {
+    FacetSet& facets = deck_.mesh.facet_sets.emplace_back();
+    facets.name = set.name;
+    for (const SolidSide& side : set.sides) facets.facets.push_back(facet_of_solid(side));
+  }
+  deck_.solid = std::move(solid);
+  return std::move(deck_);
+}
+
 }  // namespace
+
+bool is_solid_deck(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string line = upper(text.substr(0, end));
+    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+    if (line.starts_with("*ELEMENT,") && line.find("TYPE=C3D") != std::string::npos) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+AbaqusDeck parse_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include) {
+  return SolidReader(text, file, read_include).read_deck();
+}
 
 ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include) {
   return SolidReader(text, file, read_include).read();

@@ -210,7 +210,10 @@ ImportedSolidMesh SolidBuilder::finish() {
   cell_index();
   ImportedSolidMesh mesh;
   make_cells(nodes, mesh);
-  make_sets(nodes, keep_used_nodes(mesh), mesh);
+  const std::vector<int> place = keep_used_nodes(mesh);
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] >= 0) kept_numbers_.push_back(node_numbers_[i]);
+  make_sets(nodes, place, mesh);
   return mesh;
 }
 

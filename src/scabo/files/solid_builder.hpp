@@ -55,6 +55,8 @@ class SolidBuilder {
 
   /// Throws InputError for what the header of ImportedSolidMesh excludes.
   ImportedSolidMesh finish();
+  /// After `finish`: of every node of the mesh; those that were added are negative.
+  const std::vector<std::int64_t>& kept_numbers() const { return kept_numbers_; }
 
  private:
   struct Between {
@@ -100,6 +102,7 @@ class SolidBuilder {
   std::vector<std::int64_t> node_numbers_, cell_numbers_;
   std::vector<std::int64_t> written_numbers_;  // of cells: those of parts are that of the whole, many times
   std::vector<Between> between_;
+  std::vector<std::int64_t> kept_numbers_;
   std::vector<FilePlace> node_places_, cell_places_;
   std::vector<double> coordinates_;  // three of each node
   std::vector<std::vector<std::int64_t>> cells_;

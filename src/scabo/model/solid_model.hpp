@@ -78,8 +78,9 @@ struct SpaceSupport {
 
 struct SpaceLoad {
   /// Force: the total over a face, as a constant traction, or on a rigid body at its centroid. Moment: on a face as the
-  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body.
-  enum class Kind { pressure, traction, force, moment, gravity, temperature };
+  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body. Nodal force:
+  /// at every node of a set.
+  enum class Kind { pressure, traction, force, nodal_force, moment, gravity, temperature };
   std::string name;
   Kind kind = Kind::pressure;
   SpaceFace on;           ///< of gravity and temperature a body; without one, all of them
