@@ -96,32 +96,41 @@ Eigen::Vector3d point_of(std::string_view arguments) {
   return point;
 }
 
-/// Vertices below an entity of a face; each path has few entities.
-void add_vertices(const StepFile& file, long number, int depth, std::vector<Eigen::Vector3d>& vertices) {
-  const StepEntity* entity = file.find(number);
-  if (entity == nullptr || depth > 5) return;
-  if (entity->type == "VERTEX_POINT") {
-    for (const long point : references(entity->arguments))
-      if (const StepEntity* of = file.find(point); of != nullptr && of->type == "CARTESIAN_POINT")
-        vertices.push_back(point_of(of->arguments));
-    return;
-  }
-  const bool leads_on = entity->type == "FACE_BOUND" || entity->type == "FACE_OUTER_BOUND" ||
-                        entity->type == "EDGE_LOOP" || entity->type == "ORIENTED_EDGE" ||
-                        entity->type == "EDGE_CURVE" || entity->type == "VERTEX_LOOP";
-  if (leads_on)
-    for (const long next : references(entity->arguments)) add_vertices(file, next, depth + 1, vertices);
+/// Place of an entity between a face and its vertices: one only leads to others further down, so that no circle of
+/// broken files is followed.
+int rank_of(std::string_view type) {
+  if (type == "FACE_BOUND" || type == "FACE_OUTER_BOUND") return 1;
+  if (type == "EDGE_LOOP" || type == "VERTEX_LOOP") return 2;
+  if (type == "ORIENTED_EDGE") return 3;
+  if (type == "EDGE_CURVE") return 4;
+  return type == "VERTEX_POINT" ? 5 : 0;
 }
 
-void add_faces(const StepFile& file, long number, std::vector<StepFace>& faces) {
+void add_vertices(const StepFile& file, long number, int above, std::vector<Eigen::Vector3d>& vertices) {
   const StepEntity* entity = file.find(number);
+  const int rank = entity == nullptr ? 0 : rank_of(entity->type);
+  if (rank <= above) return;
+  for (const long next : references(entity->arguments)) {
+    const StepEntity* point = file.find(next);
+    if (rank < 5)
+      add_vertices(file, next, rank, vertices);
+    else if (point != nullptr && point->type == "CARTESIAN_POINT")
+      vertices.push_back(point_of(point->arguments));
+  }
+}
+
+/// Of a shell, or of one that is turned over.
+void add_faces(const StepFile& file, long shell, bool may_be_turned, std::vector<StepFace>& faces) {
+  const StepEntity* entity = file.find(shell);
   if (entity == nullptr) return;
-  if (entity->type == "ADVANCED_FACE" || entity->type == "FACE_SURFACE") {
-    StepFace face{first_text(entity->arguments), {}};
-    for (const long bound : references(entity->arguments)) add_vertices(file, bound, 0, face.vertices);
-    faces.push_back(std::move(face));
-  } else if (entity->type == "CLOSED_SHELL" || entity->type == "ORIENTED_CLOSED_SHELL") {
-    for (const long next : references(entity->arguments)) add_faces(file, next, faces);
+  if (entity->type == "ORIENTED_CLOSED_SHELL" && may_be_turned)
+    for (const long next : references(entity->arguments)) add_faces(file, next, false, faces);
+  if (entity->type != "CLOSED_SHELL") return;
+  for (const long number : references(entity->arguments)) {
+    const StepEntity* of = file.find(number);
+    if (of == nullptr || (of->type != "ADVANCED_FACE" && of->type != "FACE_SURFACE")) continue;
+    faces.push_back({first_text(of->arguments), {}});
+    for (const long bound : references(of->arguments)) add_vertices(file, bound, 0, faces.back().vertices);
   }
 }
 
@@ -133,7 +142,7 @@ std::vector<std::vector<StepFace>> step_solids(std::string_view text) {
   for (const auto& [number, entity] : file.entities()) {
     if (entity.type != "MANIFOLD_SOLID_BREP" && entity.type != "BREP_WITH_VOIDS") continue;
     solids.emplace_back();
-    for (const long shell : references(entity.arguments)) add_faces(file, shell, solids.back());
+    for (const long shell : references(entity.arguments)) add_faces(file, shell, true, solids.back());
   }
   return solids;
 }

@@ -43,6 +43,17 @@ ENDSEC;
   EXPECT_EQ(solids[1].size(), 3u);
 }
 
+TEST(StepNames, GoRoundInNoCircle) {
+  const std::string circles =
+      R"(#1=BREP_WITH_VOIDS('',#2,(#7));#2=CLOSED_SHELL('',(#2,#3));#3=ADVANCED_FACE('one',(#4));
+#4=FACE_BOUND('',#5);#5=EDGE_LOOP('',(#5,#4,#6));#6=ORIENTED_EDGE('',#6,#5);#7=ORIENTED_CLOSED_SHELL('',#7,#2);)";
+  const auto solids = step_solids(circles);
+  ASSERT_EQ(solids.size(), 1u);
+  EXPECT_EQ(solids[0].size(), 2u);  // of the shell, and of it turned over
+  EXPECT_TRUE(solids[0][0].vertices.empty());
+  for (std::size_t k = 0; k < circles.size(); ++k) step_solids(circles.substr(0, k));
+}
+
 TEST(StepNames, OfBrokenTextAreNone) {
   for (const char* text :
        {"", "#1", "#1=", "#1=MANIFOLD_SOLID_BREP('',#1);", "#1=MANIFOLD_SOLID_BREP('',#2);#2=CLOSED_SHELL('",
