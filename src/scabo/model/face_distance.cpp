@@ -1,4 +1,4 @@
-// How far points are from faces of shapes: by the longest of the ways back to the face in its own coordinates.
+// How far points are from faces of shapes: by the ways back to the face along its own coordinates.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,10 +28,10 @@ Polar polar(const Vector3d& from, const Vector3d& to, const Vector3d& point) {
 }
 
 double to_tube_face(const Polar& at, double inner, double outer, const std::string& name) {
-  if (name == "bottom") return std::max(std::abs(at.along), beyond(at.radius, inner, outer));
-  if (name == "top") return std::max(std::abs(at.along - at.length), beyond(at.radius, inner, outer));
+  if (name == "bottom") return std::hypot(at.along, beyond(at.radius, inner, outer));
+  if (name == "top") return std::hypot(at.along - at.length, beyond(at.radius, inner, outer));
   const double radius = name == "inside" ? inner : outer;
-  return std::max(std::abs(at.radius - radius), beyond(at.along, 0.0, at.length));
+  return std::hypot(at.radius - radius, beyond(at.along, 0.0, at.length));
 }
 
 double to_edge(const geometry::Outline& outline, const std::string& name, const Vec2& at) {
@@ -53,13 +53,12 @@ struct ToFace {
   double operator()(const SolidBox& box) const {
     const std::vector<std::string> names = face_names(SolidShape(box));
     const auto face = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-    double most = 0.0;
+    Vector3d ways;
     for (int k = 0; k < 3; ++k) {
       const double low = box.corner[k], high = low + box.size[k];
-      most = std::max(most,
-                      face / 2 != k ? beyond(point[k], low, high) : std::abs(point[k] - (face % 2 == 0 ? low : high)));
+      ways[k] = face / 2 != k ? beyond(point[k], low, high) : point[k] - (face % 2 == 0 ? low : high);
     }
-    return most;
+    return ways.norm();
   }
   double operator()(const SolidCylinder& of) const {
     return to_tube_face(polar(of.from, of.to, point), 0.0, of.radius, name);
@@ -69,22 +68,20 @@ struct ToFace {
   }
   double operator()(const SolidSphere& of) const {
     const Vector3d x = point - of.centre;
-    double most = name == "surface" ? std::abs(x.norm() - of.radius) : std::max(0.0, x.norm() - of.radius);
+    const double outside = x.norm() - of.radius;
+    double square = std::pow(name == "surface" ? outside : std::max(0.0, outside), 2);
     for (int k = 0; k < 3; ++k) {
       const int kept = of.kept[static_cast<std::size_t>(k)];
-      if (name == std::string("cut_") + "xyz"[k])
-        most = std::max(most, std::abs(x[k]));
-      else if (kept != 0)
-        most = std::max(most, -kept * x[k]);
+      if (name == std::string("cut_") + "xyz"[k] || kept * x[k] < 0.0) square += x[k] * x[k];
     }
-    return most;
+    return std::sqrt(square);
   }
   double operator()(const SolidExtrusion& of) const {
     const Vec2 at = PlaneFrame{of.axes}.in_plane(point);
     const double across = point[of.axes[2]];
     if (name == "start" || name == "end")
-      return std::max(std::abs(across - (name == "start" ? of.from : of.to)), outside_of(of.outline, at));
-    return std::max(to_edge(of.outline, name, at), beyond(across, of.from, of.to));
+      return std::hypot(across - (name == "start" ? of.from : of.to), outside_of(of.outline, at));
+    return std::hypot(to_edge(of.outline, name, at), beyond(across, of.from, of.to));
   }
   double operator()(const SolidRevolution& of) const;
   double operator()(const CadFile&) const { return std::numeric_limits<double>::max(); }
@@ -118,10 +115,10 @@ double ToFace::operator()(const SolidRevolution& of) const {
     return 2.0 * radius * std::abs(std::sin(0.5 * (angle - other)));
   };
   if (name == "start" || name == "end")
-    return std::max(to_angle(name == "start" ? 0.0 : end), outside_of(of.outline, in_plane));
+    return std::hypot(to_angle(name == "start" ? 0.0 : end), outside_of(of.outline, in_plane));
   if (angle < 0.0) angle += whole;
   const double turned = of.is_whole() || angle <= end ? 0.0 : std::min(to_angle(0.0), to_angle(end));
-  return std::max(to_edge(of.outline, name, in_plane), turned);
+  return std::hypot(to_edge(of.outline, name, in_plane), turned);
 }
 
 }  // namespace

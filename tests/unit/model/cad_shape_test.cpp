@@ -10,6 +10,7 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/files/cad.hpp"
+#include "scabo/model/nearest_face.hpp"
 
 namespace scabo::model {
 namespace {
@@ -99,6 +100,33 @@ TEST(FaceDistance, IsZeroOnTheFaceAlone) {
   const AnyShape both = CadShape(plate_with_a_bore(SolidCombination::Kind::united));
   EXPECT_DOUBLE_EQ(distance_to_face(both, "plate_top", {3, 2, 1}), 0.0);
   EXPECT_DOUBLE_EQ(distance_to_face(both, "bore_side", {3, 2, 1}), 0.0);
+}
+
+TEST(NearestFaces, OfASimpleShape) {
+  const SolidShape box = SolidBox{Vector3d(0, 0, 0), Vector3d(2, 3, 4)};
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(nearest_faces(box, {1, 1, 4}), Names{"top"});
+  EXPECT_EQ(nearest_faces(box, {1, 1, 9}), Names{"top"});
+  EXPECT_EQ(nearest_faces(box, {0.1, 1, 2}), Names{"left"});  // inside
+  EXPECT_EQ(nearest_faces(box, {2, 1, 4}), (Names{"right", "top"}));
+  SolidExtrusion drawn;
+  drawn.outline = rectangle({0, 0}, {1, 1});
+  drawn.outline.edges[0].names = {"edge_1", "base"};
+  drawn.to = 1.0;
+  EXPECT_EQ(nearest_faces(drawn, {0.5, 0, 0.5}), Names{"edge_1"});
+}
+
+TEST(NearestFaces, OfAMesh) {
+  files::ImportedSolidMesh mesh;
+  mesh.nodes = Matrix::Zero(3, 4);
+  mesh.nodes.rightCols(3).setIdentity();
+  mesh.cells = {{{0, 1, 2, 3}, 1}};
+  mesh.side_sets = {{"bottom", {{0, 0}}}, {"other name", {{0, 0}}}, {"oblique", {{0, 2}}}};
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(nearest_faces(mesh, {0.2, 0.2, 0.0}), Names{"bottom"});
+  EXPECT_EQ(nearest_faces(mesh, {0.4, 0.4, 0.4}), Names{"oblique"});
+  EXPECT_EQ(nearest_faces(mesh, {-1, -1, 0.1}), Names{"bottom"});  // beside it: a corner of it is nearer
+  EXPECT_EQ(nearest_faces(mesh, {0.5, 0.5, 0.0}), (Names{"bottom", "oblique"}));
 }
 
 class MadeByGmsh : public testing::Test {

@@ -8,6 +8,7 @@
 #include "scabo/input/space/space_reader.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/model/imported_body.hpp"
+#include "scabo/model/nearest_face.hpp"
 #include "scabo/model/solid_bodies.hpp"
 #include "scabo/model/wording.hpp"
 
@@ -176,7 +177,41 @@ void SpaceReader::add_parts(const Value& value, std::vector<files::ImportedSolid
                      whole, parts.size(), fmt::join(told, ", "), parts.size() > told.size() ? ", ..." : "")});
 }
 
+/// `{body: block, near: [0, 0, 1]}`: the face that is nearest to the point.
+std::optional<SpaceFace> SpaceReader::face_near(const Value& value) {
+  const MapReader map(report_, value, {"body", "near"}, "{body: block, near: [0, 0, 1]}",
+                      only_in_the_plane({"normal", "face", "edge"}));
+  const auto name = map.need("body"), near = map.need("near");
+  const std::size_t before = report_.count();
+  const auto text = name ? read_text(report_, *name) : std::nullopt;
+  const Eigen::Vector3d point = near ? vector(*near) : Eigen::Vector3d::Zero();
+  if (!text || !near || report_.count() > before) return {};
+  std::vector<std::string> bodies;
+  for (const SpaceBody& body : model_.bodies) bodies.push_back(body.name);
+  SpaceFace face;
+  face.body = static_cast<int>(std::find(bodies.begin(), bodies.end(), *text) - bodies.begin());
+  face.source = value.source();
+  if (face.body == static_cast<int>(bodies.size())) {
+    report_.error(*name, fmt::format("there is no body named {}{}", quoted_name(*text), suggestion(*text, bodies)));
+    return {};
+  }
+  const SpaceBody& of = body_at(face.body);
+  if (!of.mesh && !of.shape) return {};  // told with the body
+  std::vector<std::string> names = of.mesh ? nearest_faces(*of.mesh, point) : nearest_faces(*of.shape, point);
+  for (std::string& one : names) one = name_from(one);
+  if (names.size() != 1) {
+    report_.error(*near, names.empty() ? "the body has no faces: name a set of nodes"
+                                       : fmt::format("is as near to the faces {} of body '{}': give a point within one",
+                                                     fmt::join(names, " and "), *text));
+    return {};
+  }
+  face.text = *text + "." + names.front();
+  find_face(value, names.front(), face);
+  return face;
+}
+
 std::optional<SpaceFace> SpaceReader::face(const Value& value, const char* or_body) {
+  if (value.node->kind == Node::Kind::map) return face_near(value);
   const auto text = read_text(report_, value);
   if (!text) return {};
   const std::size_t dot = text->find('.');

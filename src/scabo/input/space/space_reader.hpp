@@ -38,6 +38,7 @@ class SpaceReader {
   std::optional<int> region_of(const Value& value, const files::ImportedSolidMesh& mesh) const;
   /// A face of a body; or the body, where `or_body` names what may be on a whole one, as in `a load`.
   std::optional<model::SpaceFace> face(const Value& value, const char* or_body = nullptr);
+  std::optional<model::SpaceFace> face_near(const Value& value);
   void find_face(const Value& value, const std::string& part, model::SpaceFace& face);
 
   // read_solid_conditions.cpp
