@@ -2,6 +2,7 @@
 #ifdef SCABO_GMSH
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -180,6 +181,33 @@ std::vector<SolidSideSet> numbered_faces(const ImportedSolidMesh& mesh, const st
   return numbered;
 }
 
+/// Whether the Jacobian of a quadratic cell is not positive at one of its nodes.
+bool is_folded(const ImportedSolidMesh& mesh, const ImportedSolidCell& cell) {
+  constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+  const auto jacobian_at = [&](const Eigen::Vector4d& at) {  // barycentric
+    Eigen::Matrix<double, 3, 4> along = Eigen::Matrix<double, 3, 4>::Zero();
+    for (int k = 0; k < 4; ++k)
+      along.col(k) = (4.0 * at[k] - 1.0) * mesh.nodes.col(cell.nodes[static_cast<std::size_t>(k)]);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto middle = mesh.nodes.col(cell.nodes[4 + e]);
+      const auto [a, b] = edges[e];
+      along.col(a) += 4.0 * at[b] * middle;
+      along.col(b) += 4.0 * at[a] * middle;
+    }
+    return (along.rightCols<3>().colwise() - along.col(0)).determinant();
+  };
+  for (int k = 0; k < 4; ++k)
+    if (!(jacobian_at(Eigen::Vector4d::Unit(k)) > 0.0)) return true;
+  return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    return !(jacobian_at(0.5 * (Eigen::Vector4d::Unit(edge[0]) + Eigen::Vector4d::Unit(edge[1]))) > 0.0);
+  });
+}
+
+bool has_folded_cells(const ImportedSolidMesh& mesh) {
+  return std::any_of(mesh.cells.begin(), mesh.cells.end(),
+                     [&](const ImportedSolidCell& cell) { return cell.nodes.size() == 10 && is_folded(mesh, cell); });
+}
+
 }  // namespace
 
 ImportedSolidMesh SolidCad::mesh(const SolidCadSizes& sizes) {
@@ -193,9 +221,15 @@ ImportedSolidMesh SolidCad::mesh(const SolidCadSizes& sizes) {
   double least = sizes.size;
   for (const SolidCadSizes::Near& near : sizes.near) least = std::min(least, near.size);
   of.session.generate(3, of.scaled(least), of.scaled(sizes.size), of.stl_volume > 0.0 ? 1 : 2);
-  if (of.stl_volume == 0.0) of.solids.optimize("HighOrder", 0, 1, nullptr, 0, &error);
-  of.session.forget_errors();  // a cell that stays folded is found with its body
   ImportedSolidMesh mesh = parse_solid_gmsh(of.session.written(true), of.session.file());
+  if (has_folded_cells(mesh)) {  // a cell that stays folded is found with its body
+    of.solids.optimize("HighOrder", 0, 1, nullptr, 0, &error);
+    of.session.forget_errors();
+    mesh = parse_solid_gmsh(of.session.written(true), of.session.file());
+    mesh.remarks.push_back(
+        "a curved face would fold cells of this size, and Gmsh has moved nodes of their edges, not by the same amounts "
+        "in every run: a smaller 'size' makes runs repeat to the last digit");
+  }
   mesh.nodes /= of.factor();
   mesh.node_sets.clear();
   for (CellSet& set : mesh.cell_sets)
