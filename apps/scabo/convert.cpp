@@ -5,10 +5,12 @@
 #include <system_error>
 
 #include "commands.hpp"
+#include "scabo/analysis/space/posed_solids.hpp"
 #include "scabo/analysis/static_analysis.hpp"
 #include "scabo/convert/convert_abaqus.hpp"
 #include "scabo/files/read_deck_file.hpp"
 #include "scabo/input/read_model.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/run/sizes.hpp"
@@ -65,9 +67,17 @@ ExitStatus convert_deck(const ConvertOptions& options) {
   result::replace_file(mesh_file, made.mesh);
   std::string sizes;
   try {
-    const model::Model model = input::read_model(file.string(), {});
-    sizes = run::describe_sizes(run::sizes_of(model, analysis::check(model)));
-    for (const Warning& warning : model.warnings) print_warning(warning.text);
+    if (made.in_space) {
+      const auto model = std::get<model::SpaceModel>(input::read_any_model(file.string()));
+      Eigen::Index nodes = 0;
+      for (const auto& body : analysis::pose_solids(model).model.bodies) nodes += body.mesh.nodes.cols();
+      sizes = model::counted(nodes, "node");
+      for (const Warning& warning : model.warnings) print_warning(warning.text);
+    } else {
+      const model::Model model = input::read_model(file.string(), {});
+      sizes = run::describe_sizes(run::sizes_of(model, analysis::check(model)));
+      for (const Warning& warning : model.warnings) print_warning(warning.text);
+    }
   } catch (const InputError& error) {
     print_mistakes(error);
     print_error("the deck is converted, but Scabo cannot analyse the model: correct it, or the deck");

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "scabo/base/interruption.hpp"
+#include "scabo/model/imported_body.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/report.hpp"
 #include "scabo/result/solid/solid_outputs.hpp"
@@ -27,17 +30,45 @@ std::string bodies_of(const model::SpaceModel& model, const analysis::PosedSolid
   return result::table(rows);
 }
 
+/// Faces of bodies from files and of shapes that a library divides: their names cannot be known otherwise, and are told
+/// before a contact of wrong ones is.
+std::string faces_of(const model::SpaceModel& model) {
+  std::vector<std::vector<std::string>> rows = {{"face", "area", "centre"}};
+  for (const model::SpaceBody& body : model.bodies) {
+    if (!body.mesh) continue;
+    for (const files::SolidSideSet& set : body.mesh->side_sets) {
+      double area = 0.0;
+      Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+      for (const files::SolidSide& side : set.sides) {
+        const auto corners = files::corners_of(body.mesh->cells[static_cast<std::size_t>(side.cell)], side.side);
+        const Eigen::Matrix3d x = body.mesh->nodes(Eigen::all, corners);
+        const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
+        const double of_side = 0.5 * a.cross(b).norm();
+        area += of_side;
+        centre += of_side * x.rowwise().mean();
+      }
+      if (!(area > 0.0)) continue;
+      centre = (centre / area).unaryExpr([&](double c) { return c * c < 1e-12 * area ? 0.0 : c; });
+      rows.push_back({body.name + "." + model::name_from(set.name), fmt::format("{:.4g}", area),
+                      fmt::format("{:.4g}, {:.4g}, {:.4g}", centre.x(), centre.y(), centre.z())});
+    }
+  }
+  return rows.size() > 1 ? result::table(rows) + "\n" : "";
+}
+
 }  // namespace
 
 ExitStatus check_solids(const model::SpaceModel& model) {
+  for (const Warning& warning : model.warnings) print_warning(warning.text);
+  print_output(
+      fmt::format("{}: {}\n\n{}", model.file, model.title.empty() ? "(no title)" : model.title, faces_of(model)));
   const analysis::PosedSolids posed = analysis::pose_solids(model);
   const result::SolidOutputs outputs(model, posed);  // checks them
-  for (const Warning& warning : model.warnings) print_warning(warning.text);
-  print_output(fmt::format(
-      "{}: {}\n\n{}\n{}, {}, {}.\n{}No mistakes found.\n", model.file, model.title.empty() ? "(no title)" : model.title,
-      bodies_of(model, posed), model::counted(static_cast<long>(model.contacts.size()), "contact or tie"),
-      model::counted(static_cast<long>(model.steps.size()), "step"),
-      model::counted(static_cast<long>(posed.increments.size()), "increment"), run::describe(run::plan_of(posed))));
+  print_output(fmt::format("{}\n{}, {}, {}.\n{}No mistakes found.\n", bodies_of(model, posed),
+                           model::counted(static_cast<long>(model.contacts.size()), "contact or tie"),
+                           model::counted(static_cast<long>(model.steps.size()), "step"),
+                           model::counted(static_cast<long>(posed.increments.size()), "increment"),
+                           run::describe(run::plan_of(posed))));
   return ExitStatus::solved;
 }
 

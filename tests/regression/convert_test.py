@@ -286,7 +286,7 @@ LOST_IN_STEP = {
 }
 
 REFUSED_MESHES = {
-    "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n": "is three-dimensional",
+    "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D5, ELSET=E\n1, 1, 2, 3, 4\n": "elements of type C3D5 are not read",
     "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=SAX1, ELSET=E\n1, 1, 2\n": "is an axisymmetric shell, membrane or thermal element",
     "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=S3, ELSET=E\n1, 1, 2, 3\n": "elements of type S3 are not taken",
     "": "the mesh is empty",

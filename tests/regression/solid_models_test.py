@@ -499,5 +499,60 @@ loads:
         self.assertRegex(done.stderr, r"bodies.block: its mesh would have .* nodes, and at most 4e\+06 are possible")
 
 
+@unittest.skipIf(support.SANITIZED, "numbers")
+class MadeShapes(support.InTemporaryDirectory):
+    """A ring with a hole across, turned and cut by Gmsh's library, on a block: the same in other units, with its sides and bodies swapped."""
+
+    def solve(self, unit=1.0, swapped=False, name="model"):
+        def at(*x):
+            return "[" + ", ".join(repr(unit * value) for value in x) + "]"
+        block = f"  block: {{material: steel, shape: {{box: {{corner: {at(-41.3, -43.1, -20)}, size: {at(85, 87, 20)}}}}}, mesh: {{size: {unit * 20}}}}}\n"
+        ring = f"""  ring:
+    material: steel
+    shape:
+      subtract:
+        body:
+          revolve:
+            profile: {{rectangle: {{corner: {at(15, 0)}, size: {at(15, 20)}}}}}
+            plane: xz
+            axis: {{from: [0, 0], to: [0, 1]}}
+        hole: {{cylinder: {{from: {at(0, 0, 12)}, to: {at(40, 0, 12)}, radius: {unit * 4}}}}}
+    mesh: {{size: {unit * 8}}}
+"""
+        sides = "[ring.body_bottom, block.top]" if swapped else "[block.top, ring.body_bottom]"
+        text = f"""scabo: 1
+analysis: {{space: true}}
+materials: {{steel: {{young: {200e3 / unit**2!r}, poisson: 0.3}}}}
+bodies:
+{ring + block if swapped else block + ring}supports:
+  - {{on: block.bottom, fix: [x, y, z], name: ground}}
+loads:
+  press: {{on: ring.body_top, force: [300, 0, -1000]}}
+contacts:
+  joint: {{between: {sides}, friction: 0.4}}
+"""
+        (self.directory / f"{name}.yaml").write_text(text, encoding="utf-8")
+        done = scabo("run", self.directory / f"{name}.yaml", "-o", self.directory / name, "--quiet")
+        if "built without Gmsh's library" in done.stderr:
+            self.skipTest("built without Gmsh's library")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        increment, = summary_of(self.directory / name)["increments"]
+        self.assertLessEqual(certificate_of(increment), 1e-10)
+        return increment["contacts"]["joint"]
+
+    def test_balance_and_twins(self):
+        one, small, turned_about = self.solve(), self.solve(unit=1e-3, name="small"), self.solve(swapped=True, name="swapped")
+        for wanted, found in zip([-300, 0, 1000], [a + b for a, b in zip(one["normal_force"], one["tangential_force"])]):
+            self.assertAlmostEqual(wanted, found, delta=1e-6)
+        self.assertAlmostEqual(small["max_pressure"], 1e6 * one["max_pressure"], delta=1e-3 * one["max_pressure"])
+        self.assertAlmostEqual(turned_about["max_pressure"], one["max_pressure"], delta=1e-9 * one["max_pressure"])
+        for key in ("open", "stick", "slip"):
+            self.assertEqual(one[key], small[key])
+            self.assertEqual(one[key], turned_about[key])
+        for wanted, found, swapped in zip(one["tangential_force"], small["tangential_force"], turned_about["tangential_force"]):
+            self.assertAlmostEqual(wanted, found, delta=1e-6)
+            self.assertAlmostEqual(wanted, -swapped, delta=1e-6)
+
+
 if __name__ == "__main__":
     support.main()

@@ -38,7 +38,11 @@ void tell(double softness, const files::DeckPlace& at, const char* what, const c
 void tell_softness(const files::ImportedMesh& mesh, const DeckBodies& bodies, const std::vector<double>& young, int a,
                    int b, const DeckInteraction& interaction, Remarks& remarks) {
   // The softer body, whose displacements are the larger ones.
-  const double body = std::min(stiffness_of(mesh, bodies, young, a), stiffness_of(mesh, bodies, young, b));
+  tell_softness(std::min(stiffness_of(mesh, bodies, young, a), stiffness_of(mesh, bodies, young, b)), interaction,
+                remarks);
+}
+
+void tell_softness(double body, const DeckInteraction& interaction, Remarks& remarks) {
   if (!std::isfinite(body)) return;  // without a material, which is told elsewhere
   const auto softness = [body](double stiffness) { return stiffness > 0.0 ? body / stiffness : HUGE_VAL; };
   if (interaction.stiffness)

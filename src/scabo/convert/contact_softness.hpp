@@ -12,5 +12,7 @@ namespace scabo::convert {
 /// cell. `a`, `b`: the two bodies.
 void tell_softness(const files::ImportedMesh& mesh, const DeckBodies& bodies, const std::vector<double>& young, int a,
                    int b, const DeckInteraction& interaction, Remarks& remarks);
+/// `body`: E / L of the softer one; infinite without a material.
+void tell_softness(double body, const DeckInteraction& interaction, Remarks& remarks);
 
 }  // namespace scabo::convert

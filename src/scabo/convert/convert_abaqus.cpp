@@ -10,6 +10,7 @@
 #include <set>
 
 #include "scabo/convert/contact_softness.hpp"
+#include "scabo/convert/convert_solids.hpp"
 #include "scabo/convert/deck_adjust.hpp"
 #include "scabo/convert/deck_bodies.hpp"
 #include "scabo/convert/deck_content.hpp"
@@ -490,6 +491,7 @@ bool Conversion::complete() const {
 }
 
 Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name) {
+  if (deck.solid) return convert_solids(std::move(deck), deck_name, mesh_name);
   return Converter(std::move(deck), deck_name, mesh_name).convert();
 }
 

@@ -19,13 +19,15 @@ struct Conversion {
   std::string model;  ///< YAML
   std::string mesh;   ///< .inp
   std::vector<Remark> remarks;
+  bool in_space = false;
   int bodies = 0, supports = 0, loads = 0, contacts = 0, ties = 0, steps = 0;
 
   /// False if something essential was lost, so that the model is not that of the deck.
   bool complete() const;
 };
 
-/// `deck_name` for the head of both files; `mesh_name` as the model names the mesh file, relative to its own folder.
+/// Of plane elements, or of solids (convert_solids.hpp). `deck_name` for the head of both files; `mesh_name` as the
+/// model names the mesh file, relative to its own folder.
 Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name);
 
 }  // namespace scabo::convert

@@ -55,8 +55,9 @@ class ContentReader {
         if (table == &displacements_ || !is_zero(growing.given.course)) to.emplace(key, std::move(growing.given));
     }
     for (auto& load : body_loads_) {
-      if (is_zero(load.x.given.course) && is_zero(load.y.given.course)) continue;
-      content_.body_loads.push_back({load.set, load.kind, std::move(load.x.given), std::move(load.y.given)});
+      if (is_zero(load.x.given.course) && is_zero(load.y.given.course) && is_zero(load.z.given.course)) continue;
+      content_.body_loads.push_back(
+          {load.set, load.kind, std::move(load.x.given), std::move(load.y.given), std::move(load.z.given)});
     }
     tell_left_out();
     return std::move(content_);
@@ -66,7 +67,7 @@ class ContentReader {
   struct GrowingBodyLoad {
     std::string set;
     DeckBodyLoad::Kind kind;
-    Growing x, y;
+    Growing x, y, z;
   };
 
   // ---- numbers and sets
@@ -86,10 +87,9 @@ class ContentReader {
                                               "correct its name",
                                               files::printable(name), what));
     else
-      remarks_.essential(line.at,
-                         fmt::format("{} at node {}, which belongs to no plane element, is lost; give it at a node "
-                                     "of a body",
-                                     what, files::printable(name)));
+      remarks_.essential(
+          line.at, fmt::format("{} at node {}, which belongs to no {}, is lost; give it at a node of a body", what,
+                               files::printable(name), element_));
     return {};
   }
 
@@ -195,10 +195,8 @@ class ContentReader {
     for (auto& [key, growing] : displacements_) finish(growing, false);
     for (auto& [key, growing] : forces_) finish(growing, new_forces_);
     for (auto& [key, growing] : pressures_) finish(growing, new_pressures_);
-    for (GrowingBodyLoad& load : body_loads_) {
-      finish(load.x, new_pressures_);
-      finish(load.y, new_pressures_);
-    }
+    for (GrowingBodyLoad& load : body_loads_)
+      for (Growing* component : {&load.x, &load.y, &load.z}) finish(*component, new_pressures_);
     tell_what_is_removed(dload_, dsload_, "*DSLOAD");
     tell_what_is_removed(dsload_, dload_, "*DLOAD");
     for (DistributedLoads* loads : {&dload_, &dsload_}) *loads = {loads->before || loads->here, false, {}};
@@ -252,14 +250,10 @@ class ContentReader {
         remarks_.essential(line.at, "the degree of freedom is missing on this line; add it");
         continue;
       }
-      static const std::map<std::string, std::vector<int>> kinds = {
-          {"XSYMM", {0}},  {"YSYMM", {1}},     {"ZSYMM", {}},        {"XASYMM", {1}},
-          {"YASYMM", {0}}, {"ZASYMM", {0, 1}}, {"ENCASTRE", {0, 1}}, {"PINNED", {0, 1}}};
-      std::vector<int> components;
+      const auto kind = components_of(line.fields[1], dimension_);
+      std::vector<int> components = kind.value_or(std::vector<int>{});
       double value = 0.0;
-      if (const auto kind = kinds.find(upper(line.fields[1])); kind != kinds.end()) {
-        components = kind->second;
-      } else {
+      if (!kind) {
         const auto first = number(remarks_, line, 1, "the first degree of freedom");
         const auto last = number(remarks_, line, 2, "the last degree of freedom", first);
         const auto given = number(remarks_, line, 3, "the displacement", 0.0);
@@ -272,12 +266,11 @@ class ContentReader {
         }
         value = *given;
         for (int dof = static_cast<int>(*first); dof <= static_cast<int>(*last); ++dof) {
-          if (dof <= 2) components.push_back(dof - 1);
-          if (dof > 2 && value != 0.0)
+          if (dof <= dimension_) components.push_back(dof - 1);
+          if (dof > dimension_ && value != 0.0)
             remarks_.essential(
-                line.at,
-                fmt::format("degree of freedom {} is not one of a plane body, and its displacement {:g} is lost", dof,
-                            value));
+                line.at, fmt::format("degree of freedom {} is not one of a {}, and its displacement {:g} is lost", dof,
+                                     body_, value));
         }
       }
       if (!in_step_ && value != 0.0) {
@@ -322,15 +315,15 @@ class ContentReader {
       const auto dof = number(remarks_, line, 1, "the degree of freedom"),
                  value = number(remarks_, line, 2, "the force");
       if (!dof || !value) continue;
-      if (*dof != 1.0 && *dof != 2.0) {
+      if (*dof != 1.0 && *dof != 2.0 && !(dimension_ == 3 && *dof == 3.0)) {
         if (*value != 0.0)
           remarks_.essential(
               line.at,
-              fmt::format("a load along degree of freedom {:g} does not act on a plane body and is lost", *dof));
+              fmt::format("a load along degree of freedom {:g} does not act on a {} and is lost", *dof, body_));
         continue;
       }
       for (const int node : nodes_of(line, "the force"))
-        grow(forces_[{node, *dof == 1.0 ? 0 : 1}], *value, *amplitude, line, true);
+        grow(forces_[{node, static_cast<int>(*dof) - 1}], *value, *amplitude, line, true);
     }
   }
 
@@ -343,13 +336,14 @@ class ContentReader {
     for (const files::Facet& side : sides) grow(pressures_[key_of(side)], value, amplitude, line, true);
   }
 
-  void body_load(const DeckLine& line, DeckBodyLoad::Kind kind, const Vec2& value, const std::string& amplitude) {
+  void body_load(const DeckLine& line, DeckBodyLoad::Kind kind, const Eigen::Vector3d& value,
+                 const std::string& amplitude) {
     auto found = std::find_if(body_loads_.begin(), body_loads_.end(), [&](const GrowingBodyLoad& load) {
       return load.kind == kind && upper(load.set) == upper(line.fields[0]);
     });
-    if (found == body_loads_.end()) found = body_loads_.insert(found, {line.fields[0], kind, {}, {}});
-    grow(found->x, value[0], amplitude, line, true);
-    grow(found->y, value[1], amplitude, line, true);
+    if (found == body_loads_.end()) found = body_loads_.insert(found, {line.fields[0], kind, {}, {}, {}});
+    Growing* const components[] = {&found->x, &found->y, &found->z};
+    for (int k = 0; k < 3; ++k) grow(*components[k], value[k], amplitude, line, true);
   }
 
   /// Whether a line of *DLOAD has no more entries than its type takes.
@@ -375,7 +369,8 @@ class ContentReader {
     for (const DeckLine& line : block.lines) {
       const std::string label = line.fields.size() > 1 ? upper(line.fields[1]) : "";
       const bool pressure = !line.sides.empty() || (of_surface && label == "P");
-      const bool taken = pressure || label == "GRAV" || label == "BX" || label == "BY" || label == "CENTRIF";
+      const bool taken = pressure || label == "GRAV" || label == "BX" || label == "BY" || label == "CENTRIF" ||
+                         (dimension_ == 3 && label == "BZ");
       if (taken && !has_its_entries(line, label)) continue;
       if (pressure) {
         const auto value = number(remarks_, line, 2, "the pressure");
@@ -386,25 +381,27 @@ class ContentReader {
                                          "give a *SURFACE, TYPE=ELEMENT",
                                          files::printable(line.fields[0])));
         else if (!sides)
-          remarks_.essential(line.at, fmt::format("there is no surface '{}' with sides of plane elements, and the "
+          remarks_.essential(line.at, fmt::format("there is no surface '{}' with sides of {}s, and the "
                                                   "pressure on it is lost; correct its name",
-                                                  files::printable(line.fields[0])));
+                                                  files::printable(line.fields[0]), element_));
         else if (value)
           press(*sides, *value, *amplitude, line);
       } else if (label == "GRAV") {
-        if (const auto g = gravity_of(remarks_, line)) body_load(line, DeckBodyLoad::Kind::gravity, *g, *amplitude);
-      } else if (label == "BX" || label == "BY") {
+        if (const auto g = gravity_of(remarks_, line, dimension_))
+          body_load(line, DeckBodyLoad::Kind::gravity, *g, *amplitude);
+      } else if (label == "BX" || label == "BY" || (dimension_ == 3 && label == "BZ")) {
         const auto value = number(remarks_, line, 2, "the force per volume");
         if (value)
-          body_load(line, DeckBodyLoad::Kind::body_force, label == "BX" ? Vec2(*value, 0.0) : Vec2(0.0, *value),
-                    *amplitude);
+          body_load(line, DeckBodyLoad::Kind::body_force, *value * Eigen::Vector3d::Unit(label[1] - 'X'), *amplitude);
       } else if (label == "CENTRIF") {
         if (const auto square = rotation_of(remarks_, line))
-          body_load(line, DeckBodyLoad::Kind::rotation, {*square, 0.0}, *amplitude);
+          body_load(line, DeckBodyLoad::Kind::rotation, {*square, 0.0, 0.0}, *amplitude);
       } else {
         remarks_.essential(
             line.at, fmt::format("a distributed load of type '{}' is not taken; there are {}", files::printable(label),
-                                 of_surface ? "P" : "P1 to P4, GRAV, CENTRIF, BX and BY"));
+                                 of_surface        ? "P"
+                                 : dimension_ == 3 ? "P1 to P6 and GRAV"
+                                                   : "P1 to P4, GRAV, CENTRIF, BX and BY"));
       }
     }
   }
@@ -475,6 +472,9 @@ class ContentReader {
 
   const files::AbaqusDeck& deck_;
   const files::ImportedMesh& mesh_;
+  const int dimension_ = deck_.solid ? 3 : 2;
+  const char* const element_ = deck_.solid ? "solid element" : "plane element";
+  const char* const body_ = deck_.solid ? "solid" : "plane body";
   Remarks& remarks_;
   std::unordered_map<std::int64_t, int> node_of_;
   std::unordered_map<std::string, const files::FacetSet*> facet_sets_;

@@ -73,7 +73,7 @@ struct DeckBodyLoad {
   enum class Kind { gravity, body_force, rotation };
   std::string set;
   Kind kind = Kind::gravity;
-  Given x, y;
+  Given x, y, z;  ///< z: of solids
 };
 
 struct DeckContent {
@@ -84,9 +84,9 @@ struct DeckContent {
   std::map<std::string, DeckInteraction> interactions;
   std::vector<DeckContact> contacts;
   std::vector<DeckStep> steps;
-  std::map<std::pair<int, int>, Given> displacements;  ///< node of the mesh and 0 or 1, for x or y
+  std::map<std::pair<int, int>, Given> displacements;  ///< node of the mesh and 0, 1 or 2, for x, y or z
   std::map<std::pair<int, int>, Given> forces;
-  std::map<std::pair<int, int>, Given> pressures;  ///< side of the mesh by its corners, the smaller one first
+  std::map<std::pair<int, int>, Given> pressures;  ///< side of the mesh, by key_of
   std::vector<DeckBodyLoad> body_loads;
 };
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "scabo/files/abaqus_lines.hpp"
 
@@ -58,18 +59,31 @@ std::optional<std::vector<double>> numbers_of(Remarks& remarks, const DeckBlock&
   return std::nullopt;
 }
 
-std::optional<Vec2> gravity_of(Remarks& remarks, const DeckLine& line) {
+std::optional<std::vector<int>> components_of(const std::string& word, int dimension) {
+  static const std::map<std::string, std::vector<int>> kinds = {
+      {"XSYMM", {0}},     {"YSYMM", {1}},     {"ZSYMM", {2}},          {"XASYMM", {1, 2}},
+      {"YASYMM", {0, 2}}, {"ZASYMM", {0, 1}}, {"ENCASTRE", {0, 1, 2}}, {"PINNED", {0, 1, 2}}};
+  const auto kind = kinds.find(files::upper(word));
+  if (kind == kinds.end()) return {};
+  std::vector<int> components = kind->second;
+  std::erase_if(components, [dimension](int component) { return component >= dimension; });
+  return components;
+}
+
+std::optional<Eigen::Vector3d> gravity_of(Remarks& remarks, const DeckLine& line, int dimension) {
   const auto g = number(remarks, line, 2, "the acceleration");
   const auto x = number(remarks, line, 3, "the direction of gravity", 0.0),
              y = number(remarks, line, 4, "the direction of gravity", 0.0),
              z = number(remarks, line, 5, "the direction of gravity", 0.0);
   if (!g || !x || !y || !z) return std::nullopt;
   const double length = std::hypot(*x, *y, *z);
-  if (*g != 0.0 && (!(length > 0.0) || std::abs(*z) > 1e-9 * length)) {
-    remarks.essential(line.at, "gravity needs a direction in the plane; correct the last three numbers");
+  if (*g != 0.0 && (!(length > 0.0) || (dimension == 2 && std::abs(*z) > 1e-9 * length))) {
+    remarks.essential(line.at, fmt::format("gravity needs a direction{}; correct the last three numbers",
+                                           dimension == 2 ? " in the plane" : ""));
     return std::nullopt;
   }
-  return length > 0.0 ? Vec2(*g * *x / length, *g * *y / length) : Vec2(0.0, 0.0);
+  const double scale = length > 0.0 ? *g / length : 0.0;
+  return scale * Eigen::Vector3d(*x, *y, dimension == 2 ? 0.0 : *z);
 }
 
 std::optional<double> rotation_of(Remarks& remarks, const DeckLine& line) {

@@ -22,8 +22,13 @@ std::optional<double> number(Remarks& remarks, const files::DeckLine& line, std:
 std::optional<std::vector<double>> numbers_of(Remarks& remarks, const files::DeckBlock& block, std::size_t count,
                                               const char* what);
 
-/// Acceleration of a line of GRAV. Nothing, with a remark, if it is not in the plane.
-std::optional<Vec2> gravity_of(Remarks& remarks, const files::DeckLine& line);
+/// Components that XSYMM, ENCASTRE and so on hold, 0 for x; nothing for another word. In two dimensions z is held as
+/// it is.
+std::optional<std::vector<int>> components_of(const std::string& word, int dimension);
+
+/// Acceleration of a line of GRAV. Nothing, with a remark, without a direction, and in two dimensions if it is not in
+/// the plane.
+std::optional<Eigen::Vector3d> gravity_of(Remarks& remarks, const files::DeckLine& line, int dimension);
 /// Square of the angular velocity of a line of CENTRIF about the axis of revolution. Nothing, with a remark, if it is
 /// about another axis.
 std::optional<double> rotation_of(Remarks& remarks, const files::DeckLine& line);

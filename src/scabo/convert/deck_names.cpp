@@ -81,6 +81,15 @@ std::optional<std::vector<files::Facet>> sides_named(const AbaqusDeck& deck, con
   if (set == nullptr) return std::nullopt;
   const std::unordered_set<int> nodes(set->nodes.begin(), set->nodes.end());
   std::vector<files::Facet> sides;
+  if (deck.solid) {
+    for (int c = 0; c < static_cast<int>(deck.solid->cells.size()); ++c)
+      for (int side = 0; side < 4; ++side) {
+        const auto corners = files::corners_of(deck.solid->cells[static_cast<std::size_t>(c)], side);
+        if (std::all_of(corners.begin(), corners.end(), [&](int node) { return nodes.contains(node); }))
+          sides.push_back(files::facet_of_solid({c, side}));
+      }
+    return sides;
+  }
   for (const files::BoundaryLoop& loop : files::boundary_facets(deck.mesh))
     for (const files::Facet& side : loop.facets)
       if (nodes.contains(side.start) && nodes.contains(side.end)) sides.push_back(side);
@@ -111,9 +120,10 @@ std::optional<std::vector<int>> cells_named(const AbaqusDeck& deck, const std::s
     const files::CellSet* set = set_in(deck, deck.mesh.cell_sets, meaning->set);
     return set == nullptr ? std::nullopt : std::optional(set->cells);
   }
+  std::vector<int> cells;  // several parts of an element that is divided
   for (std::size_t c = 0; c < deck.mesh.cells.size(); ++c)
-    if (deck.mesh.cells[c].number == *meaning->number) return std::vector<int>{static_cast<int>(c)};
-  return std::nullopt;
+    if (deck.mesh.cells[c].number == *meaning->number) cells.push_back(static_cast<int>(c));
+  return cells.empty() ? std::nullopt : std::optional(std::move(cells));
 }
 
 }  // namespace scabo::convert

@@ -37,7 +37,9 @@ constexpr Group groups[] = {
     {KeywordLoss::essential,
      "joins degrees of freedom, which Scabo's models cannot; use *TIE, or a rigid body in the model",
      "EQUATION MPC RIGIDBODY COUPLING KINEMATIC DISTRIBUTING DISTRIBUTINGCOUPLING NETWORKMPC EMBEDDEDELEMENT "
-     "CYCLICSYMMETRYMODEL PRE-TENSIONSECTION PRETENSIONSECTION"},
+     "CYCLICSYMMETRYMODEL"},
+    {KeywordLoss::essential, "tightens a bolt, and is not converted; a body of a model in space may have a `preload`",
+     "PRE-TENSIONSECTION PRETENSIONSECTION"},
     {KeywordLoss::essential, "makes elements without area, which are not taken; `springs` of a model may replace them",
      "SPRING DASHPOT GAP MASS CONNECTORSECTION ROTARYINERTIA"},
     {KeywordLoss::essential, "gives local axes of nodes, which are not taken; write supports and forces along x and y",

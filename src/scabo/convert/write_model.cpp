@@ -30,13 +30,18 @@ std::string yaml_quoted(const std::string& text) {
 
 std::string yaml_point(const Vec2& x) { return fmt::format("[{}, {}]", number_text(x.x()), number_text(x.y())); }
 
-std::string model_text(const ModelParts& parts, const DeckBodies& bodies, const Remarks& remarks,
-                       const std::string& deck_name, const std::string& mesh_name) {
+std::string head_text(const ModelParts& parts, const Remarks& remarks, const std::string& deck_name) {
   std::string text = fmt::format("# Made by `scabo convert` from {}\n", files::printable(deck_name));
   for (const Remark& remark : remarks.all())
     if (remark.essential) text += fmt::format("# Missing ({}): {}\n", remark.at.line, remark.text);
   text += "scabo: 1\n";
   if (!parts.title.empty()) text += fmt::format("title: {}\n", yaml_quoted(parts.title));
+  return text;
+}
+
+std::string model_text(const ModelParts& parts, const DeckBodies& bodies, const Remarks& remarks,
+                       const std::string& deck_name, const std::string& mesh_name) {
+  std::string text = head_text(parts, remarks, deck_name);
   if (parts.plane == Plane::revolution)
     text += "analysis: {plane: axisymmetric}\n";
   else
@@ -58,6 +63,11 @@ std::string model_text(const ModelParts& parts, const DeckBodies& bodies, const 
     text += fmt::format("    mesh: {{file: {}, region: {}, elements: fem}}\n", yaml_quoted(mesh_name),
                         yaml_word(body.name));
   }
+  return text + sections_text(parts);
+}
+
+std::string sections_text(const ModelParts& parts) {
+  std::string text;
   const auto section = [&](const char* name, const std::string& content) {
     if (!content.empty()) text += fmt::format("{}:\n{}", name, content);
   };

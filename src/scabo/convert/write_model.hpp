@@ -31,6 +31,11 @@ struct ModelParts {
   std::vector<NamedCurve> curves;
 };
 
+/// Where it comes from, what is missing, and its title.
+std::string head_text(const ModelParts& parts, const Remarks& remarks, const std::string& deck_name);
+/// From `supports` on.
+std::string sections_text(const ModelParts& parts);
+
 /// `mesh_name` as the model names the mesh file. Essential remarks become comments at its head.
 std::string model_text(const ModelParts& parts, const DeckBodies& bodies, const Remarks& remarks,
                        const std::string& deck_name, const std::string& mesh_name);

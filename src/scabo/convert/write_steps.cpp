@@ -21,8 +21,10 @@ std::string curve_for(const std::vector<std::pair<double, double>>& table, std::
   return curves.back().name;
 }
 
-std::string increments_of(const DeckStep& step) {
+std::string increments_of(const DeckStep& step, bool counted) {
   if (step.at_once) return "1";
+  if (counted)
+    return fmt::format("{}", static_cast<int>(std::clamp(std::ceil(step.period / step.first - 1e-6), 1.0, 1000.0)));
   const double first = step.first / step.period,
                largest = std::min(1.0, step.largest > 0.0 ? step.largest / step.period : 1.0);
   if (step.equal) {
@@ -48,7 +50,7 @@ std::vector<std::string> names_of_steps(const std::vector<DeckStep>& steps) {
 }
 
 std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& all,
-                       std::vector<NamedCurve>& curves) {
+                       std::vector<NamedCurve>& curves, bool counted) {
   std::string text;
   const std::vector<std::string> names = names_of_steps(steps);
   for (std::size_t s = 0; s < steps.size(); ++s) {
@@ -64,7 +66,7 @@ std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Dri
     }
     if (factors.empty() && !plain && !all.empty())
       factors.push_back(fmt::format("{}: {}", yaml_word(all.front().name), number_text(all.front().factors[s].end)));
-    text += fmt::format("  - {{name: {}, increments: {}{}}}\n", names[s], increments_of(steps[s]),
+    text += fmt::format("  - {{name: {}, increments: {}{}}}\n", names[s], increments_of(steps[s], counted),
                         plain || factors.empty() ? "" : fmt::format(", loads: {{{}}}", fmt::join(factors, ", ")));
   }
   return text;

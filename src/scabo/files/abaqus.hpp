@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scabo/files/imported_mesh.hpp"
+#include "scabo/files/imported_solid_mesh.hpp"
 
 namespace scabo::files {
 
@@ -28,6 +28,13 @@ using ReadInclude = std::function<std::optional<IncludedFile>(const std::string&
 /// InputError.
 ImportedMesh parse_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include = {},
                           std::vector<std::string>* types = nullptr);
+
+inline Facet facet_of_solid(const SolidSide& side) {
+  Facet facet;
+  facet.start = facet.end = 4 * side.cell + side.side;
+  return facet;
+}
+inline SolidSide solid_side_of(const Facet& facet) { return {facet.start / 4, facet.start % 4}; }
 
 struct DeckPlace {
   std::string file;
@@ -74,6 +81,9 @@ struct DeckInstance {
 
 /// A whole deck: its mesh, and all that the mesh does not hold, in the order of the file.
 struct AbaqusDeck {
+  /// Of a deck of solids. `mesh` then has its sets and the numbers of its cells alone; both ends of its facets are 4
+  /// times the cell and the side (facet_of_solid).
+  std::optional<ImportedSolidMesh> solid;
   struct Elements {
     std::string type;  ///< upper case
     DeckPlace at;      ///< of their *ELEMENT line

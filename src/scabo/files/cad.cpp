@@ -36,6 +36,12 @@ void refuse_truncated_brep(const std::string& path) {
 
 }  // namespace
 
+void check_cad_file(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || !std::ifstream(path)) fail_in_file(path, 0, 0, why_unreadable(path));
+  if (extension_of(path) == ".brep") refuse_truncated_brep(path);
+}
+
 bool is_cad_file(const std::string& path) {
   const std::string extension = extension_of(path);
   return extension == ".geo" || extension == ".step" || extension == ".stp" || extension == ".brep";
@@ -45,10 +51,8 @@ bool has_own_sizes(const std::string& path) { return extension_of(path) == ".geo
 
 ImportedMesh mesh_cad_file(const std::string& path, const CadOptions& options) {
   ensure(options.order == 1 || options.order == 2, "the order of a CAD mesh is 1 or 2");
-  std::error_code error;
-  if (!fs::is_regular_file(path, error) || !std::ifstream(path)) fail_in_file(path, 0, 0, why_unreadable(path));
+  check_cad_file(path);
   if (has_own_sizes(path)) refuse_commands(path);
-  if (extension_of(path) == ".brep") refuse_truncated_brep(path);
   return mesh_by_gmsh(path, options);
 }
 

@@ -23,6 +23,9 @@ bool has_own_sizes(const std::string& path);
 /// Whether Scabo was built with Gmsh's library.
 bool reads_cad();
 
+/// Throws InputError for a file that cannot be read, and a .brep that is cut off, which OpenCASCADE never ends reading.
+void check_cad_file(const std::string& path);
+
 struct CadOptions {
   double size = 0.0;  ///< length of the sides of cells, m; 0: the sizes that the file has (.geo), or Gmsh's own
   int order = 1;      ///< of the sides, 1 or 2

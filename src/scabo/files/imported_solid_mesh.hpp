@@ -36,5 +36,7 @@ struct ImportedSolidMesh {
 
 /// Corners of side i of a cell, counter-clockwise seen from outside.
 std::vector<int> corners_of(const ImportedSolidCell& cell, int side);
+/// The corners, and the nodes in the middle of its edges if the cell has them.
+std::vector<int> nodes_of_side(const ImportedSolidCell& cell, int side);
 
 }  // namespace scabo::files

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <map>
 #include <set>
 
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/abaqus_sets.hpp"
 #include "scabo/files/solid_builder.hpp"
+#include "scabo/files/split_solid.hpp"
 
 namespace scabo::files {
 
@@ -16,7 +18,8 @@ namespace {
 /// Nodes of an element type; 0 for one that is not read.
 std::size_t nodes_of_solid(const std::string& type) {
   if (type == "C3D4") return 4;
-  return type == "C3D10" || type == "C3D10M" ? 10 : 0;
+  if (type == "C3D10" || type == "C3D10M") return 10;
+  return nodes_of_split(type).value_or(0);
 }
 
 /// Elements that bound solids in files of Gmsh, or join nodes.
@@ -35,6 +38,7 @@ class SolidReader {
         most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())) {}
 
   ImportedSolidMesh read();
+  AbaqusDeck read_deck();
 
  private:
   struct SurfaceEntry {
@@ -49,8 +53,11 @@ class SolidReader {
   void keyword(const AbaqusKeyword& key);
   void nodes(const AbaqusKeyword& key);
   void elements(const AbaqusKeyword& key);
+  void split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at);
   void set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter);
   void surface(const AbaqusKeyword& key);
+  void nodes_of_surface(const std::string& name);
+  void block(const AbaqusKeyword& key);
   bool next_data(std::vector<std::string_view>& fields);
   std::int64_t integer(std::string_view field, const char* what) const;
   void add(AbaqusSet& target, std::int64_t number);
@@ -63,9 +70,17 @@ class SolidReader {
   AbaqusLines lines_;
   std::int64_t most_entries_, entries_ = 0;  // of all sets together: sets of sets grow faster than the file
   AbaqusSets node_sets_, element_sets_;
+  struct Whole {
+    std::vector<std::int64_t> nodes;
+    std::vector<int> parts;  // cells
+  };
+  std::map<std::int64_t, Whole> split_;                        // by number
+  std::map<std::vector<std::int64_t>, std::int64_t> between_;  // nodes that are added, by their corners
   std::vector<Surface> surfaces_;
   std::vector<std::string> remarks_;
   std::set<std::string> left_out_;  // types
+  bool whole_ = false;              // what is not part of the mesh is kept
+  AbaqusDeck deck_;
 };
 
 bool SolidReader::next_data(std::vector<std::string_view>& fields) {
@@ -113,8 +128,8 @@ void SolidReader::elements(const AbaqusKeyword& key) {
   if (type.empty()) builder_.fail(key.at, "*ELEMENT has no TYPE; write for example TYPE=C3D10");
   const std::size_t wanted = nodes_of_solid(type);
   if (wanted == 0 && !is_not_solid(type))
-    builder_.fail(key.at, fmt::format("elements of type {} are not read; use tetrahedra, C3D4 or C3D10, and take "
-                                      "others out of the file",
+    builder_.fail(key.at, fmt::format("elements of type {} are not read; use C3D4, C3D6, C3D8, C3D10, C3D15 or "
+                                      "C3D20, and take others out of the file",
                                       printable(type)));
   if (wanted == 0 && left_out_.insert(type).second)
     remarks_.push_back(fmt::format("{}:{}: elements of type {} are no solids and are left out", builder_.file(key.at),
@@ -135,9 +150,30 @@ void SolidReader::elements(const AbaqusKeyword& key) {
       builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line", number,
                                     nodes.size(), type, wanted));
     numbers.push_back(number);
-    solid_.add_cell(number, nodes, at);
+    nodes_of_split(type) ? split(number, nodes, at) : static_cast<void>(solid_.add_cell(number, nodes, at));
+  }
+  if (whole_ && wanted > 0) {
+    deck_.elements.push_back({type, {builder_.file(key.at), key.at.line}});
+    for (const std::int64_t number : numbers) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
   }
   if (key.has("ELSET") && wanted > 0) add_all(element_sets_.named(key.value("ELSET")), std::move(numbers));
+}
+
+void SolidReader::split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at) {
+  const auto [of, is_new] = split_.try_emplace(number, Whole{nodes, {}});
+  if (!is_new) builder_.fail(at, fmt::format("cell {} is there twice; number every one differently", number));
+  SplitSolid made = split_solid(nodes);
+  std::vector<std::int64_t> added;
+  for (AddedNode& node : made.added) {
+    const auto [known, is_first] = between_.try_emplace(node.corners, -1 - static_cast<std::int64_t>(between_.size()));
+    if (is_first) solid_.add_between(known->second, std::move(node.nodes), std::move(node.weights));
+    added.push_back(known->second);
+  }
+  for (std::vector<std::int64_t>& cell : made.tetrahedra) {
+    for (std::int64_t& node : cell)
+      if (node < 0) node = added[static_cast<std::size_t>(-node - 1)];
+    of->second.parts.push_back(solid_.add_part(number, cell, at));
+  }
 }
 
 void SolidReader::set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter) {
@@ -177,6 +213,7 @@ void SolidReader::set(const AbaqusKeyword& key, AbaqusSets& sets, const char* pa
 void SolidReader::surface(const AbaqusKeyword& key) {
   const std::string name = key.value("NAME"), type = upper(key.value("TYPE"));
   if (name.empty()) builder_.fail(key.at, "*SURFACE has no name; write *SURFACE, NAME=name");
+  if (whole_ && type == "NODE") return nodes_of_surface(name);
   if (!type.empty() && type != "ELEMENT") {
     remarks_.push_back(fmt::format("{}:{}: the surface '{}' of TYPE={} has no sides of cells and is left out",
                                    builder_.file(key.at), key.at.line, printable(name), printable(type)));
@@ -189,7 +226,45 @@ void SolidReader::surface(const AbaqusKeyword& key) {
         {without_quotes(fields[0]), fields.size() > 1 ? upper(fields[1]) : std::string(), lines_.at()});
 }
 
+/// Of a deck: those of sets and numbers, on which contact may act.
+void SolidReader::nodes_of_surface(const std::string& name) {
+  std::vector<std::string_view> fields;
+  node_sets_.named(name);
+  while (next_data(fields)) {
+    const std::string entry = without_quotes(fields[0]);
+    std::int64_t number = 0;
+    if (parse_number(std::string_view(entry), number))
+      add(node_sets_.named(name), number);
+    else if (const AbaqusSet* other = node_sets_.find(entry))
+      add_all(node_sets_.named(name), std::vector(other->numbers));
+    else
+      builder_.fail(lines_.at(), fmt::format("surface '{}': there is no node set '{}'; correct its name",
+                                             printable(name), printable(entry)));
+  }
+}
+
+/// What is not part of the mesh, of a deck. Sides that *DLOAD names become a surface.
+void SolidReader::block(const AbaqusKeyword& key) {
+  if (!whole_) return;
+  if (key.has("INPUT")) lines_.insert(key);
+  std::vector<std::string_view> fields;
+  while (next_data(fields)) {
+    DeckLine line{{}, {builder_.file(lines_.at()), lines_.at().line}, {}};
+    for (const std::string_view field : fields)
+      line.fields.push_back(key.name == "HEADING" ? std::string(field) : without_quotes(field));
+    const std::string label = fields.size() > 1 ? upper(fields[1]) : "";
+    if (key.name == "DLOAD" && label.size() == 2 && label[0] == 'P' && label[1] >= '1' && label[1] <= '6') {
+      line.sides = fmt::format("*DLOAD {}", surfaces_.size());
+      surfaces_.push_back({line.sides, {{line.fields[0], "S" + label.substr(1), lines_.at()}}});
+    }
+    deck_.blocks.back().lines.push_back(std::move(line));
+  }
+  deck_.blocks.back().has_data = !deck_.blocks.back().lines.empty();
+}
+
 void SolidReader::keyword(const AbaqusKeyword& key) {
+  if (whole_)
+    deck_.blocks.push_back({key.name, key.written, key.parameters, {builder_.file(key.at), key.at.line}, {}, true, -1});
   if (key.name == "NODE") return nodes(key);
   if (key.name == "ELEMENT") return elements(key);
   if (key.name == "NSET") return set(key, node_sets_, "NSET");
@@ -202,15 +277,19 @@ void SolidReader::keyword(const AbaqusKeyword& key) {
   for (const char* maker : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"})
     if (key.name == maker)
       builder_.fail(key.at, fmt::format("{} makes nodes or elements and is not read; write them out", key.written));
+  block(key);
 }
 
 void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cells) {
   const int set = solid_.side_set(surface.name);
   for (const SurfaceEntry& entry : surface.entries) {
-    const bool is_side = entry.side.size() == 2 && entry.side[0] == 'S' && entry.side[1] >= '1' && entry.side[1] <= '4';
-    if (!is_side)
-      builder_.fail(entry.at, fmt::format("surface '{}': '{}' is no side of a tetrahedron; write S1, S2, S3 or S4",
+    const bool is_side = entry.side.size() == 2 && entry.side[0] == 'S' && entry.side[1] >= '1' && entry.side[1] <= '6';
+    const auto no_side = [&] {
+      builder_.fail(entry.at, fmt::format("surface '{}': '{}' is no side of this element; write S1 to S4 of a "
+                                          "tetrahedron, S1 to S5 of a wedge or S1 to S6 of a hexahedron",
                                           printable(surface.name), printable(entry.side)));
+    };
+    if (!is_side) no_side();
     std::vector<std::int64_t> numbers(1, 0);
     if (!parse_number(std::string_view(entry.of), numbers[0])) {
       const AbaqusSet* of = element_sets_.find(entry.of);
@@ -220,6 +299,14 @@ void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cel
       numbers = of->numbers;
     }
     for (const std::int64_t number : numbers) {
+      if (const auto whole = split_.find(number); whole != split_.end()) {
+        const bool wedge = whole->second.nodes.size() == 6 || whole->second.nodes.size() == 15;
+        if (wedge && entry.side[1] == '6') no_side();
+        for (const std::vector<std::int64_t>& corners : triangles_of_side(whole->second.nodes, entry.side[1] - '0'))
+          solid_.add_facet(set, corners);
+        continue;
+      }
+      if (entry.side[1] > '4') no_side();
       const SolidSide side{cells.find(number), entry.side[1] - '1'};
       if (side.cell < 0)
         builder_.fail(entry.at, fmt::format("surface '{}': there is no cell {}; correct its number",
@@ -237,8 +324,13 @@ void SolidReader::hand_over_sets() {
   }
   for (const AbaqusSet& set : element_sets_.all()) {
     const int to = solid_.cell_set(set.name);
-    for (const std::int64_t number : set.numbers)
-      if (const int cell = cells.find(number); cell >= 0) solid_.add_cell_to_set(to, cell);
+    for (const std::int64_t number : set.numbers) {
+      const auto whole = split_.find(number);
+      if (whole != split_.end())
+        for (const int part : whole->second.parts) solid_.add_cell_to_set(to, part);
+      else if (const int cell = cells.find(number); cell >= 0)
+        solid_.add_cell_to_set(to, cell);
+    }
   }
   for (const Surface& surface : surfaces_) hand_over_sides(surface, cells);
 }
@@ -247,14 +339,55 @@ ImportedSolidMesh SolidReader::read() {
   AbaqusKeyword key;
   while (lines_.next_keyword(key)) keyword(key);
   if (solid_.cells() == 0)
-    fail_in_file(builder_.file({}), 0, 0, "the file has no solid elements; save the mesh with C3D4 or C3D10 elements");
+    fail_in_file(builder_.file({}), 0, 0,
+                 "the file has no solid elements; save the mesh with elements C3D4, C3D8, C3D10 or C3D20");
   hand_over_sets();
   ImportedSolidMesh mesh = solid_.finish();
+  if (!split_.empty())
+    remarks_.push_back(
+        fmt::format("{}: {} hexahedra and wedges are divided into quadratic tetrahedra of the same "
+                    "corners",
+                    builder_.file({}), split_.size()));
   mesh.remarks = remarks_;
   return mesh;
 }
 
+AbaqusDeck SolidReader::read_deck() {
+  whole_ = true;
+  ImportedSolidMesh solid = read();
+  deck_.node_numbers = solid_.kept_numbers();
+  deck_.mesh.node_sets = solid.node_sets;
+  deck_.mesh.cell_sets = solid.cell_sets;
+  deck_.mesh.remarks = solid.remarks;
+  for (const ImportedSolidCell& cell : solid.cells) {
+    deck_.mesh.cells.emplace_back();
+    deck_.mesh.cells.back().number = cell.number;
+  }
+  for (const SolidSideSet& set : solid.side_sets) {
+    FacetSet& facets = deck_.mesh.facet_sets.emplace_back();
+    facets.name = set.name;
+    for (const SolidSide& side : set.sides) facets.facets.push_back(facet_of_solid(side));
+  }
+  deck_.solid = std::move(solid);
+  return std::move(deck_);
+}
+
 }  // namespace
+
+bool is_solid_deck(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string line = upper(text.substr(0, end));
+    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+    if (line.starts_with("*ELEMENT,") && line.find("TYPE=C3D") != std::string::npos) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+AbaqusDeck parse_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include) {
+  return SolidReader(text, file, read_include).read_deck();
+}
 
 ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include) {
   return SolidReader(text, file, read_include).read();

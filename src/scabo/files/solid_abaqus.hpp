@@ -1,4 +1,5 @@
-// Meshes of tetrahedra in input files of Abaqus and CalculiX (.inp): nodes, elements C3D4 and C3D10, sets and surfaces.
+// Meshes of solids in input files of Abaqus and CalculiX (.inp): nodes, elements C3D4 and C3D10, C3D6, C3D8, C3D15 and
+// C3D20, which are divided into tetrahedra, sets and surfaces.
 #pragma once
 
 #include <string>
@@ -12,5 +13,11 @@ namespace scabo::files {
 /// The mesh in the text of a file of that name. Keywords that describe no mesh are passed over. Throws InputError.
 ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file,
                                      const ReadInclude& read_include = {});
+
+/// Whether a deck has elements C3D4 and so on, in its own text.
+bool is_solid_deck(std::string_view text);
+
+/// As parse_solid_abaqus, with everything else (abaqus.hpp).
+AbaqusDeck parse_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include = {});
 
 }  // namespace scabo::files

@@ -22,6 +22,14 @@ std::vector<int> corners_of(const ImportedSolidCell& cell, int side) {
   return {cell.nodes[a], cell.nodes[b], cell.nodes[c]};
 }
 
+std::vector<int> nodes_of_side(const ImportedSolidCell& cell, int side) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> middles{{{6, 5, 4}, {4, 8, 7}, {5, 9, 8}, {6, 7, 9}}};
+  std::vector<int> nodes = corners_of(cell, side);
+  if (cell.nodes.size() == 10)
+    for (const std::size_t middle : middles[static_cast<std::size_t>(side)]) nodes.push_back(cell.nodes[middle]);
+  return nodes;
+}
+
 void SolidBuilder::add_node(std::int64_t number, double x, double y, double z, const FilePlace& at) {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
     files_.fail(at, fmt::format("node {} has a coordinate that is not finite; correct it", number));
@@ -42,9 +50,33 @@ int SolidBuilder::add_cell(std::int64_t number, std::span<const std::int64_t> no
   }
   if (cells_.size() >= most_solid_entries) files_.fail(at, "the mesh has more than 5e8 cells");
   cell_numbers_.push_back(number);
+  written_numbers_.push_back(number);
   cell_places_.push_back(at);
   cells_.emplace_back(nodes.begin(), nodes.end());
   return index;
+}
+
+int SolidBuilder::add_part(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at) {
+  const int index = add_cell(-1 - static_cast<std::int64_t>(cells_.size()), nodes, at);
+  written_numbers_.back() = number;
+  return index;
+}
+
+void SolidBuilder::add_between(std::int64_t number, std::vector<std::int64_t> nodes, std::vector<double> weights) {
+  between_.push_back({number, std::move(nodes), std::move(weights)});
+}
+
+/// A node that the file does not have is told with its cell.
+void SolidBuilder::place_between() {
+  const NumberIndex nodes(node_numbers_);
+  for (const Between& between : between_) {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < between.nodes.size(); ++i)
+      if (const int node = nodes.find(between.nodes[i]); node >= 0)
+        at += between.weights[i] *
+              Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * static_cast<std::size_t>(node));
+    add_node(between.number, at.x(), at.y(), at.z(), {});
+  }
 }
 
 void SolidBuilder::add_side(int set, const SolidSide& side) {
@@ -89,7 +121,7 @@ void SolidBuilder::check_cell(ImportedSolidCell& cell, const FilePlace& at) cons
 
 void SolidBuilder::make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh) const {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    ImportedSolidCell cell{{}, static_cast<long>(cell_numbers_[c])};
+    ImportedSolidCell cell{{}, static_cast<long>(written_numbers_[c])};
     for (const std::int64_t number : cells_[c]) {
       const int node = nodes.find(number);
       if (node < 0)
@@ -172,12 +204,16 @@ NumberIndex SolidBuilder::cell_index() const {
 }
 
 ImportedSolidMesh SolidBuilder::finish() {
+  place_between();
   const NumberIndex nodes(node_numbers_);
   check_numbers(nodes, node_places_, "node");
   cell_index();
   ImportedSolidMesh mesh;
   make_cells(nodes, mesh);
-  make_sets(nodes, keep_used_nodes(mesh), mesh);
+  const std::vector<int> place = keep_used_nodes(mesh);
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] >= 0) kept_numbers_.push_back(node_numbers_[i]);
+  make_sets(nodes, place, mesh);
   return mesh;
 }
 

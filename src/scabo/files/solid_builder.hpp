@@ -32,6 +32,11 @@ class SolidBuilder {
   /// entity >= 0 are one cell that the file repeats for each of its sets.
   int add_cell(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at, std::int64_t entity = -1);
 
+  /// A tetrahedron that is a part of cell `number`, which the caller knows to be there once. Returns its index.
+  int add_part(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at);
+  /// A node at the sum of weight * node; its number is negative.
+  void add_between(std::int64_t number, std::vector<std::int64_t> nodes, std::vector<double> weights);
+
   std::size_t nodes() const { return node_numbers_.size(); }
   std::size_t cells() const { return cell_numbers_.size(); }
   /// Throws InputError if two cells have one number.
@@ -50,8 +55,15 @@ class SolidBuilder {
 
   /// Throws InputError for what the header of ImportedSolidMesh excludes.
   ImportedSolidMesh finish();
+  /// After `finish`: of every node of the mesh; those that were added are negative.
+  const std::vector<std::int64_t>& kept_numbers() const { return kept_numbers_; }
 
  private:
+  struct Between {
+    std::int64_t number;
+    std::vector<std::int64_t> nodes;
+    std::vector<double> weights;
+  };
   struct RawNodes {
     std::string name;
     std::vector<std::int64_t> nodes;
@@ -77,6 +89,7 @@ class SolidBuilder {
   }
 
   void check_numbers(const NumberIndex& numbers, const std::vector<FilePlace>& places, const char* what) const;
+  void place_between();
   void make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh) const;
   void check_cell(ImportedSolidCell& cell, const FilePlace& at) const;
   /// Drops nodes without a cell; `place`: of each node of the file, its index in the mesh, or -1.
@@ -87,6 +100,9 @@ class SolidBuilder {
   const MeshBuilder& files_;
   TurnedCells turned_;
   std::vector<std::int64_t> node_numbers_, cell_numbers_;
+  std::vector<std::int64_t> written_numbers_;  // of cells: those of parts are that of the whole, many times
+  std::vector<Between> between_;
+  std::vector<std::int64_t> kept_numbers_;
   std::vector<FilePlace> node_places_, cell_places_;
   std::vector<double> coordinates_;  // three of each node
   std::vector<std::vector<std::int64_t>> cells_;

@@ -40,6 +40,7 @@ struct SpacePreload {
 struct SpaceBody {
   std::string name;
   std::shared_ptr<const files::ImportedSolidMesh> mesh;  ///< either this or `shape`
+  bool made_of_shape = false;                            ///< `mesh` is that of a CAD shape, not of a file
   std::optional<SolidShape> shape;
   SolidSizes sizes;  ///< of a shape
   int material = -1;
@@ -77,8 +78,9 @@ struct SpaceSupport {
 
 struct SpaceLoad {
   /// Force: the total over a face, as a constant traction, or on a rigid body at its centroid. Moment: on a face as the
-  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body.
-  enum class Kind { pressure, traction, force, moment, gravity, temperature };
+  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body. Nodal force:
+  /// at every node of a set.
+  enum class Kind { pressure, traction, force, nodal_force, moment, gravity, temperature };
   std::string name;
   Kind kind = Kind::pressure;
   SpaceFace on;           ///< of gravity and temperature a body; without one, all of them

@@ -1,6 +1,12 @@
 #include "scabo/files/solid_abaqus.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <map>
 
 #include "scabo/base/error.hpp"
 
@@ -106,14 +112,114 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"20, 1, 3, 2, 5", "20, 1, 3, 2, 6", "two.inp:13:1: cell 20 has the node 6, which the file does not"},
         Broken{"20, 1, 3, 2, 5", "10, 1, 3, 2, 5", "two.inp:13:1: this number is also that of the cell in line 10"},
         Broken{"5, 0, 0, -2", "3, 0, 0, -2", "two.inp:7:1: this number is also that of the node in line 5"},
-        Broken{"TYPE=C3D4\n20", "TYPE=C3D8\n20", "two.inp:12:1: elements of type C3D8 are not read; use tetrahedra"},
-        Broken{"Upper, S2", "Upper, S5", "two.inp:19:1: surface 'Outside': 'S5' is no side of a tetrahedron"},
+        Broken{"TYPE=C3D4\n20", "TYPE=C3D5\n20", "two.inp:12:1: elements of type C3D5 are not read; use C3D4, C3D6"},
+        Broken{"TYPE=C3D4\n20", "TYPE=C3D8\n20", "two.inp:13:1: cell 20 has 4 nodes, but type C3D8 has 8"},
+        Broken{"Upper, S2", "Upper, S5", "two.inp:19:1: surface 'Outside': 'S5' is no side of this element"},
         Broken{"Upper, S2", "Uper, S2", "two.inp:19:1: surface 'Outside': there is no element set 'Uper'"},
         Broken{"20, s4", "21, s4", "two.inp:20:1: surface 'Outside': there is no cell 21"},
         Broken{"10, 20, 10", "10, 5, 10", "two.inp:17:1: GENERATE needs a first number"},
         Broken{"1, 3, 14, 5, 9", "Right", "two.inp:15:1: 'Right' is neither a number nor the name of a set"},
         Broken{"*MATERIAL, NAME=Steel", "*PART, NAME=P", "two.inp:23:1: parts and instances of solids are not read"},
         Broken{"*MATERIAL, NAME=Steel", "*NGEN", "two.inp:23:1: *NGEN makes nodes or elements and is not read"}));
+
+/// Nodes of a grid of bricks with sides 1, and its middles where `quadratic`, moved by a map; elements with nodes in
+/// the order of Abaqus.
+std::string bricks(bool quadratic, bool wedges, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map) {
+  const auto number = [](int x, int y, int z) { return 1 + x + 7 * (y + 7 * z); };  // halves, from 0 to 4
+  std::string nodes = "*NODE\n", elements;
+  for (int z = 0; z <= 4; ++z)
+    for (int y = 0; y <= 4; ++y)
+      for (int x = 0; x <= 4; ++x) {
+        if (x % 2 + y % 2 + z % 2 > (quadratic ? wedges ? 2 : 1 : 0)) continue;
+        const Eigen::Vector3d at = map(0.5 * Eigen::Vector3d(x, y, z));
+        nodes += fmt::format("{}, {}, {}, {}\n", number(x, y, z), at.x(), at.y(), at.z());
+      }
+  const std::vector<Eigen::Vector3i> corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
+                                             {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
+  const std::vector<std::vector<std::size_t>> halves{{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+  int element = 0;
+  for (int brick = 0; brick < 8; ++brick) {
+    const Eigen::Vector3i origin = 2 * Eigen::Vector3i(brick % 2, brick / 2 % 2, brick / 4);
+    const auto add = [&](const std::vector<std::size_t>& of) {
+      const std::size_t n = of.size() / 2;
+      std::vector<Eigen::Vector3i> all;
+      for (const std::size_t c : of) all.push_back(origin + corners[c]);
+      for (int level = 0; quadratic && level < 2; ++level)
+        for (std::size_t k = 0; k < n; ++k) all.push_back((all[level * n + k] + all[level * n + (k + 1) % n]) / 2);
+      for (std::size_t k = 0; quadratic && k < n; ++k) all.push_back((all[k] + all[n + k]) / 2);
+      elements += fmt::format("{}", ++element);
+      for (const Eigen::Vector3i& x : all) elements += fmt::format(", {}", number(x[0], x[1], x[2]));
+      elements += "\n";
+    };
+    if (!wedges) add({0, 1, 2, 3, 4, 5, 6, 7});
+    for (const auto& half : halves)
+      if (wedges) add(half);
+  }
+  const int count = wedges ? quadratic ? 15 : 6 : quadratic ? 20 : 8;
+  return nodes + fmt::format("*ELEMENT, TYPE=C3D{}, ELSET=ALL\n", count) + elements;
+}
+
+class SplitElements : public testing::TestWithParam<std::pair<bool, bool>> {};
+
+/// As many tetrahedra as faces without one corner, all of which fit together and fill the block; a surface of sides is
+/// all of it.
+TEST_P(SplitElements, FillTheirBlock) {
+  const auto [quadratic, wedges] = GetParam();
+  std::string text = bricks(quadratic, wedges, [](const Eigen::Vector3d& x) { return x; });
+  text += "*SURFACE, NAME=below\n";
+  for (int k = 1; k <= (wedges ? 8 : 4); ++k) text += fmt::format("{}, S1\n", k);
+  const ImportedSolidMesh mesh = parse_solid_abaqus(text, "bricks.inp");
+  EXPECT_EQ(mesh.cells.size(), wedges ? 16 * 3 : 8 * 6);
+  EXPECT_EQ(mesh.cell_sets.front().cells.size(), mesh.cells.size());
+  EXPECT_EQ(mesh.cells.back().number, wedges ? 16 : 8);
+  EXPECT_EQ(mesh.remarks.size(), 1u);
+  double volume = 0.0, below = 0.0;
+  std::map<std::vector<int>, int> sides;
+  for (const ImportedSolidCell& cell : mesh.cells) {
+    EXPECT_EQ(cell.nodes.size(), quadratic ? 10u : 4u);
+    const Matrix x = mesh.nodes(Eigen::all, cell.nodes);
+    volume +=
+        Eigen::Vector3d(x.col(1) - x.col(0)).cross(Eigen::Vector3d(x.col(2) - x.col(0))).dot(x.col(3) - x.col(0)) / 6.0;
+    if (quadratic) {
+      EXPECT_LT((x.col(4) - 0.5 * (x.col(0) + x.col(1))).norm(), 1e-15);
+      EXPECT_LT((x.col(9) - 0.5 * (x.col(2) + x.col(3))).norm(), 1e-15);
+    }
+    for (int side = 0; side < 4; ++side) {
+      std::vector<int> corners = nodes_of_side(cell, side);
+      std::sort(corners.begin(), corners.end());
+      ++sides[corners];
+    }
+  }
+  EXPECT_NEAR(volume, 8.0, 1e-14);
+  EXPECT_EQ(std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second == 1; }), 6 * 4 * 2);
+  EXPECT_TRUE(std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.second <= 2; }));
+  ASSERT_EQ(mesh.side_sets.size(), 1u);
+  for (const SolidSide& side : mesh.side_sets[0].sides) {
+    const Matrix x = mesh.nodes(Eigen::all, corners_of(mesh.cells[static_cast<std::size_t>(side.cell)], side.side));
+    EXPECT_EQ(x.row(2).cwiseAbs().maxCoeff(), 0.0);
+    below += 0.5 * Eigen::Vector3d(x.col(1) - x.col(0)).cross(Eigen::Vector3d(x.col(2) - x.col(0))).norm();
+  }
+  EXPECT_NEAR(below, 4.0, 1e-14);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SplitElements,
+                         testing::Values(std::pair(false, false), std::pair(true, false), std::pair(false, true),
+                                         std::pair(true, true)));
+
+/// A map of second order in the plane is that of the serendipity functions, so that added nodes lie where it leads.
+TEST(SplitElements, PutAddedNodesWhereACurvedFaceLies) {
+  const auto map = [](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(x.x() + 0.1 * x.y() * x.y(), x.y(), x.z() + 0.2 * x.x() * x.y());
+  };
+  const ImportedSolidMesh mesh = parse_solid_abaqus(bricks(true, false, map), "bricks.inp");
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
+    const Eigen::Vector3d at = mesh.nodes.col(i),
+                          halves = 2.0 * Eigen::Vector3d(at.x() - 0.1 * at.y() * at.y(), at.y(), 0.0);
+    EXPECT_NEAR(halves.x(), std::round(halves.x()), 1e-14);
+    const double z = 2.0 * (at.z() - 0.1 * halves.x() * at.y());
+    EXPECT_NEAR(z, std::round(z), 1e-14);
+  }
+}
 
 TEST(SolidAbaqus, WithoutSolidsIsRefused) {
   EXPECT_THROW(parse_solid_abaqus("*NODE\n1, 0, 0, 0\n", "empty.inp"), InputError);

@@ -121,6 +121,17 @@ TEST_P(Shapes, AreClosedAndNotFolded) {
 INSTANTIATE_TEST_SUITE_P(Simple, Shapes, testing::Range<std::size_t>(0, shapes().size()),
                          [](const auto& info) { return shapes()[info.param].name; });
 
+TEST(ShapedSolid, HasTheSameCellsInOtherUnits) {
+  const auto of = [](double unit) {
+    return solid_of_shape(
+               model::SolidBox{unit * Eigen::Vector3d(-41.3, -43.1, -20), unit * Eigen::Vector3d(85, 87, 20)},
+               {unit * 20, {}})
+        .mesh;
+  };
+  const SolidMesh one = of(1.0);
+  for (const double unit : {1e-3, 1e-4, 3.7, 0.3048}) EXPECT_EQ(of(unit).cells, one.cells) << unit;
+}
+
 TEST(RefinedShapes, HaveTheWantedSizeAtTheirPoint) {
   const model::SolidBox box{{0, 0, 0}, {1, 1, 1}};
   const ShapedSolid solid = solid_of_shape(box, {0.25, {{{0, 0, 0}, 0.01, 0.3}}});

@@ -24,6 +24,8 @@ class Posing {
  private:
   void add_body(const model::SpaceBody& body);
   std::vector<mesh::SolidFacet> facets(const model::SpaceFace& face);
+  const std::vector<int>& set_of_nodes(const model::SpaceFace& at) const;
+  std::set<int> held_nodes(const model::SpaceFace& at);
   void add_support(std::size_t number);
   void add_rigid_support(std::size_t number);
   std::optional<double> displacement_at(const model::SpaceSupport& support, std::size_t axis, int node);
@@ -78,10 +80,11 @@ void Posing::add_body(const model::SpaceBody& of) {
   for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
     if (const double least = element::least_jacobian(mesh::nodes_of(body.mesh, body.mesh.cells[c])); !(least > 0.0)) {
       mistakes_.push_back(
-          {of.source, of.mesh ? fmt::format("element {} of its mesh file has a Jacobian of {:.3g}, which must be "
-                                            "positive everywhere: correct its nodes",
-                                            of.mesh->cells[c].number, least)
-                              : "its curved face folds elements of this size: give it a smaller 'size'"});
+          {of.source, of.mesh && !of.made_of_shape
+                          ? fmt::format("element {} of its mesh file has a Jacobian of {:.3g}, which must be "
+                                        "positive everywhere: correct its nodes",
+                                        of.mesh->cells[c].number, least)
+                          : "its curved face folds elements of this size: give it a smaller 'size'"});
       break;
     }
   boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});
@@ -118,12 +121,26 @@ std::optional<double> Posing::displacement_at(const model::SpaceSupport& support
   return {};
 }
 
+const std::vector<int>& Posing::set_of_nodes(const model::SpaceFace& at) const {
+  const files::ImportedSolidMesh& mesh = *model_.bodies[static_cast<std::size_t>(at.body)].mesh;
+  return mesh.node_sets[static_cast<std::size_t>(at.node_set)].nodes;
+}
+
+/// Of a face, or of a set of nodes with the sides whose corners it has.
+std::set<int> Posing::held_nodes(const model::SpaceFace& at) {
+  std::set<int> nodes;
+  const bool is_set = at.node_set >= 0;
+  if (is_set) nodes.insert(set_of_nodes(at).begin(), set_of_nodes(at).end());
+  const std::vector<mesh::SolidFacet> on =
+      is_set ? mesh::facets_among(boundaries_[static_cast<std::size_t>(at.body)], set_of_nodes(at)) : facets(at);
+  for (const mesh::SolidFacet& facet : on) nodes.insert(facet.begin(), facet.end());
+  return nodes;
+}
+
 void Posing::add_support(std::size_t number) {
   const model::SpaceSupport& support = model_.supports[number];
   if (support.on.is_body()) return add_rigid_support(number);
-  std::set<int> nodes;
-  for (const mesh::SolidFacet& facet : facets(support.on)) nodes.insert(facet.begin(), facet.end());
-  for (const int node : nodes)
+  for (const int node : held_nodes(support.on))
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!support.displacement[axis]) continue;
       const auto value = displacement_at(support, axis, node);
@@ -220,6 +237,11 @@ Vector Posing::load_on_face(const model::SpaceLoad& load) {
   if (load.on.is_body())
     return system::forces_on_rigid(mesh, load.kind == Kind::force ? load.vector : Eigen::Vector3d::Zero(),
                                    load.kind == Kind::moment ? load.vector : Eigen::Vector3d::Zero());
+  if (load.kind == Kind::nodal_force) {
+    Vector forces = Vector::Zero(3 * mesh.nodes.cols());
+    for (const int node : set_of_nodes(load.on)) forces.segment<3>(3 * node) = load.vector;
+    return forces;
+  }
   const std::vector<mesh::SolidFacet> on = facets(load.on);
   if (on.empty()) return {};
   if (load.varies()) return varying_load(load, on);

@@ -8,6 +8,7 @@
 #include "scabo/input/space/space_reader.hpp"
 #include "scabo/input/suggestions.hpp"
 #include "scabo/model/imported_body.hpp"
+#include "scabo/model/nearest_face.hpp"
 #include "scabo/model/solid_bodies.hpp"
 #include "scabo/model/wording.hpp"
 
@@ -91,10 +92,15 @@ void SpaceReader::body(const Entry& entry) {
     if (const auto given = map.get("preload")) body.preload = preload(*given);
   }
   const auto shape = map.get("shape"), mesh = map.need("mesh");
-  if (shape) body.shape = read_solid_shape(report_, *shape);
   if (mesh && !shape) return add_bodies_of_file(*mesh, std::move(body));
+  const std::string folder = std::filesystem::path(model_.file).parent_path().string();
+  const auto of = shape ? read_solid_shape(report_, *shape, folder) : std::nullopt;
+  const std::size_t before = report_.count();
   if (mesh) body.sizes = read_solid_sizes(report_, *mesh);
-  model_.bodies.push_back(body);
+  if (const auto* simple = of ? std::get_if<SolidShape>(&*of) : nullptr) body.shape = *simple;
+  const auto* cad = of ? std::get_if<CadShape>(&*of) : nullptr;
+  if (cad == nullptr || !mesh || report_.count() > before) return model_.bodies.push_back(body);
+  add_bodies_of_cad(*shape, *cad, std::move(body));
 }
 
 /// Index of a set of cells.
@@ -120,7 +126,29 @@ void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
   const auto file = name ? mesh_of_file(*name) : nullptr;
   const auto choice = file && region ? region_of(*region, *file) : std::optional(-1);
   if (!file || !choice) return model_.bodies.push_back(body);
-  std::vector<files::ImportedSolidMesh> parts = solid_bodies(*file, *choice);
+  add_parts(mesh, solid_bodies(*file, *choice), std::move(body));
+}
+
+/// Gmsh divides the shape now, so that the names of its faces are known.
+void SpaceReader::add_bodies_of_cad(const Value& shape, const CadShape& cad, SpaceBody body) {
+  body.made_of_shape = true;
+  try {
+    const files::ImportedSolidMesh mesh = divided_cad_shape(cad, body.sizes, model_.file);
+    for (const std::string& remark : mesh.remarks) model_.warnings.push_back({WarningKind::input, body.name, remark});
+    for (const std::string& path : files_of(cad))
+      if (std::find(model_.files.begin(), model_.files.end(), path) == model_.files.end()) model_.files.push_back(path);
+    return add_parts(shape, solid_bodies(mesh, -1), std::move(body));
+  } catch (const InputError& error) {
+    const std::string message = error.diagnostics().front().message;
+    report_.error(shape, error.file() == model_.file
+                             ? message
+                             : fmt::format("{}: {}", std::filesystem::path(error.file()).filename().string(), message));
+  }
+  model_.bodies.push_back(body);
+}
+
+/// Each part is a body: `wall_1`, `wall_2` and so on where there are several.
+void SpaceReader::add_parts(const Value& value, std::vector<files::ImportedSolidMesh> parts, SpaceBody body) {
   std::vector<std::string> told;
   const std::string whole = body.name;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -133,14 +161,14 @@ void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
     for (const SpaceBody& other : model_.bodies)
       if (other.name == body.name)
         report_.error(
-            mesh,
+            value,
             fmt::format("a part of this file is called '{0}', as is another body: give that another name", body.name));
     model_.bodies.push_back(body);
   }
   if (parts.size() > 1 && body.preload)
-    report_.error(mesh, fmt::format("has {} parts that have no side in common, and a preload is that of one: take the "
-                                    "cells of one of them by 'region'",
-                                    parts.size()));
+    report_.error(value, fmt::format("has {} parts that have no side in common, and a preload is that of one: give "
+                                     "one of them to a body of its own",
+                                     parts.size()));
   if (parts.size() > 1)
     model_.warnings.push_back(
         {WarningKind::input, whole + " parts",
@@ -149,7 +177,41 @@ void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
                      whole, parts.size(), fmt::join(told, ", "), parts.size() > told.size() ? ", ..." : "")});
 }
 
+/// `{body: block, near: [0, 0, 1]}`: the face that is nearest to the point.
+std::optional<SpaceFace> SpaceReader::face_near(const Value& value) {
+  const MapReader map(report_, value, {"body", "near"}, "{body: block, near: [0, 0, 1]}",
+                      only_in_the_plane({"normal", "face", "edge"}));
+  const auto name = map.need("body"), near = map.need("near");
+  const std::size_t before = report_.count();
+  const auto text = name ? read_text(report_, *name) : std::nullopt;
+  const Eigen::Vector3d point = near ? vector(*near) : Eigen::Vector3d::Zero();
+  if (!text || !near || report_.count() > before) return {};
+  std::vector<std::string> bodies;
+  for (const SpaceBody& body : model_.bodies) bodies.push_back(body.name);
+  SpaceFace face;
+  face.body = static_cast<int>(std::find(bodies.begin(), bodies.end(), *text) - bodies.begin());
+  face.source = value.source();
+  if (face.body == static_cast<int>(bodies.size())) {
+    report_.error(*name, fmt::format("there is no body named {}{}", quoted_name(*text), suggestion(*text, bodies)));
+    return {};
+  }
+  const SpaceBody& of = body_at(face.body);
+  if (!of.mesh && !of.shape) return {};  // told with the body
+  std::vector<std::string> names = of.mesh ? nearest_faces(*of.mesh, point) : nearest_faces(*of.shape, point);
+  for (std::string& one : names) one = name_from(one);
+  if (names.size() != 1) {
+    report_.error(*near, names.empty() ? "the body has no faces: name a set of nodes"
+                                       : fmt::format("is as near to the faces {} of body '{}': give a point within one",
+                                                     fmt::join(names, " and "), *text));
+    return {};
+  }
+  face.text = *text + "." + names.front();
+  find_face(value, names.front(), face);
+  return face;
+}
+
 std::optional<SpaceFace> SpaceReader::face(const Value& value, const char* or_body) {
+  if (value.node->kind == Node::Kind::map) return face_near(value);
   const auto text = read_text(report_, value);
   if (!text) return {};
   const std::size_t dot = text->find('.');

@@ -177,11 +177,12 @@ void SpaceReader::load_value(const std::string& kind, const Value& value, SpaceL
     for (int k = 0; k < 3; ++k) load.vector[k] = number(map.get(names_of_axes[static_cast<std::size_t>(k)]));
     return;
   }
-  load.kind = kind == "pressure"   ? Kind::pressure
-              : kind == "traction" ? Kind::traction
-              : kind == "force"    ? Kind::force
-              : kind == "moment"   ? Kind::moment
-                                   : Kind::gravity;
+  load.kind = kind == "pressure"      ? Kind::pressure
+              : kind == "traction"    ? Kind::traction
+              : kind == "force"       ? Kind::force
+              : kind == "nodal_force" ? Kind::nodal_force
+              : kind == "moment"      ? Kind::moment
+                                      : Kind::gravity;
   if (is_map && (load.kind == Kind::pressure || load.kind == Kind::traction)) {
     const MapReader map(report_, value, {"formula"},
                         load.kind == Kind::pressure ? R"text({formula: "10e3 * (4 - z)"})text"
@@ -203,6 +204,10 @@ void SpaceReader::place_of_load(const MapReader& map, const Entry& entry, SpaceL
     const auto on = map.need("on");
     const bool of_bodies = load.kind == Kind::force || load.kind == Kind::moment;
     if (const auto place = on ? face(*on, of_bodies ? "a force or moment" : nullptr) : std::nullopt) load.on = *place;
+    if (load.kind == Kind::nodal_force && load.on.body >= 0 && load.on.node_set < 0)
+      report_.error(*on, "must be a set of nodes of a mesh file: give a face a 'force' or 'traction'");
+    if (load.kind == Kind::nodal_force && load.on.body >= 0 && body_at(load.on.body).rigid)
+      report_.error(*on, "is a set of nodes of a rigid body, on which a 'force' acts: name the body alone");
     return;
   }
   if (const auto on = map.get("on")) {
@@ -218,7 +223,8 @@ void SpaceReader::place_of_load(const MapReader& map, const Entry& entry, SpaceL
 }
 
 void SpaceReader::load(const Entry& entry) {
-  const std::vector<std::string> kinds{"pressure", "traction", "force", "moment", "gravity", "temperature"};
+  const std::vector<std::string> kinds{"pressure", "traction", "force",      "nodal_force",
+                                       "moment",   "gravity",  "temperature"};
   std::vector<std::string> known = kinds;
   known.emplace_back("on");
   const MapReader map(
@@ -234,7 +240,8 @@ void SpaceReader::load(const Entry& entry) {
     load_value(given.front(), *map.get(given.front()), load);
     place_of_load(map, entry, load);
   } else if (map.all_known()) {
-    report_.error(entry.value, "needs one of 'pressure', 'traction', 'force', 'moment', 'gravity' and 'temperature'");
+    report_.error(entry.value,
+                  "needs one of 'pressure', 'traction', 'force', 'nodal_force', 'moment', 'gravity' and 'temperature'");
   }
   model_.loads.push_back(load);
 }

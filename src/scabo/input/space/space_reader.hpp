@@ -33,9 +33,12 @@ class SpaceReader {
   std::optional<model::SpacePreload> preload(const Value& value);
   std::shared_ptr<const files::ImportedSolidMesh> mesh_of_file(const Value& value);
   void add_bodies_of_file(const Value& mesh, model::SpaceBody body);
+  void add_bodies_of_cad(const Value& shape, const model::CadShape& cad, model::SpaceBody body);
+  void add_parts(const Value& value, std::vector<files::ImportedSolidMesh> parts, model::SpaceBody body);
   std::optional<int> region_of(const Value& value, const files::ImportedSolidMesh& mesh) const;
   /// A face of a body; or the body, where `or_body` names what may be on a whole one, as in `a load`.
   std::optional<model::SpaceFace> face(const Value& value, const char* or_body = nullptr);
+  std::optional<model::SpaceFace> face_near(const Value& value);
   void find_face(const Value& value, const std::string& part, model::SpaceFace& face);
 
   // read_solid_conditions.cpp

@@ -298,7 +298,9 @@ bool BrickDivision::is_turned(std::size_t axis, int interval) const {
   const auto at = static_cast<std::size_t>(interval);
   if (bricks_.closed && axis == 0) return at % 2 == 1;
   const bool ends_curved = bricks_.curved[axis][0] || bricks_.curved[axis][1];
-  return lines[at] + lines[at + 1] < (ends_curved ? 0.0 : lines.front() + lines.back());
+  constexpr double rounding = 1e-9;  // the brick in the middle is not turned, in any unit
+  return lines[at] + lines[at + 1] <
+         (ends_curved ? 0.0 : lines.front() + lines.back()) - rounding * (lines.back() - lines.front());
 }
 
 void BrickDivision::divide(const Triple& brick) {

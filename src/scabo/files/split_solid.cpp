@@ -1,0 +1,131 @@
+#include "scabo/files/split_solid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace scabo::files {
+
+namespace {
+
+using Number = std::int64_t;
+using Corners = std::vector<std::size_t>;
+
+/// Sides S1, S2 and so on, counter-clockwise seen from outside; edges in the order of their middle nodes.
+struct Shape {
+  std::size_t corners;
+  std::vector<Corners> faces;
+  std::vector<std::array<std::size_t, 2>> edges;
+};
+
+const Shape& shape_of(std::size_t nodes) {
+  static const Shape wedge{6,
+                           {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
+                           {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+  static const Shape brick{
+      8,
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
+      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+  return nodes == 6 || nodes == 15 ? wedge : brick;
+}
+
+/// Triangles of a face from its corner with the least number.
+std::vector<std::array<Number, 3>> triangles_of(std::span<const Number> nodes, const Corners& face) {
+  std::vector<Number> ring;
+  for (const std::size_t corner : face) ring.push_back(nodes[corner]);
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  std::vector<std::array<Number, 3>> triangles;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+    if (ring[0] != ring[k] && ring[k] != ring[k + 1] && ring[0] != ring[k + 1])
+      triangles.push_back({ring[0], ring[k], ring[k + 1]});
+  return triangles;
+}
+
+/// Of an edge between two corners of a cell with middle nodes.
+class Middles {
+ public:
+  Middles(std::span<const Number> nodes, const Shape& shape, SplitSolid& split)
+      : nodes_(nodes), shape_(shape), split_(split) {
+    for (std::size_t e = 0; e < shape.edges.size(); ++e) middle_[edge_at(e)] = nodes[shape.corners + e];
+  }
+
+  Number of(Number a, Number b) {
+    const auto [at, is_new] = middle_.try_emplace(std::minmax(a, b), 0);
+    if (is_new) at->second = added(a, b);
+    return at->second;
+  }
+
+ private:
+  std::pair<Number, Number> edge_at(std::size_t e) const {
+    return std::minmax(nodes_[shape_.edges[e][0]], nodes_[shape_.edges[e][1]]);
+  }
+
+  /// In the middle of the face that has both, or of the cell: by the functions of its nodes, half of the sum of the
+  /// four middle nodes less a quarter of that of the corners; in a cell, a quarter of both.
+  Number added(Number a, Number b) {
+    Corners face;
+    for (const Corners& of : shape_.faces) {
+      const auto has = [&](Number n) {
+        return std::any_of(of.begin(), of.end(), [&](std::size_t corner) { return nodes_[corner] == n; });
+      };
+      if (of.size() == 4 && has(a) && has(b)) face = of;
+    }
+    const bool whole = face.empty();
+    for (std::size_t k = 0; whole && k < shape_.corners; ++k) face.push_back(k);
+    AddedNode node;
+    for (const std::size_t corner : face) node.corners.push_back(nodes_[corner]);
+    std::sort(node.corners.begin(), node.corners.end());
+    for (const std::size_t corner : face) node.nodes.push_back(nodes_[corner]), node.weights.push_back(-0.25);
+    for (std::size_t e = 0; e < shape_.edges.size(); ++e) {
+      const auto in = [&](std::size_t corner) { return std::find(face.begin(), face.end(), corner) != face.end(); };
+      if (!in(shape_.edges[e][0]) || !in(shape_.edges[e][1])) continue;
+      node.nodes.push_back(nodes_[shape_.corners + e]), node.weights.push_back(whole ? 0.25 : 0.5);
+    }
+    split_.added.push_back(std::move(node));
+    return -static_cast<Number>(split_.added.size());
+  }
+
+  std::span<const Number> nodes_;
+  const Shape& shape_;
+  SplitSolid& split_;
+  std::map<std::pair<Number, Number>, Number> middle_;
+};
+
+}  // namespace
+
+std::optional<std::size_t> nodes_of_split(const std::string& type) {
+  for (const std::size_t nodes : {6u, 8u, 15u, 20u}) {
+    const std::string name = "C3D" + std::to_string(nodes);
+    if (type.rfind(name, 0) == 0 && type.find_first_not_of("RIH", name.size()) == std::string::npos) return nodes;
+  }
+  return {};
+}
+
+SplitSolid split_solid(std::span<const Number> nodes) {
+  const Shape& shape = shape_of(nodes.size());
+  SplitSolid split;
+  Middles middles(nodes, shape, split);
+  const Number top = *std::min_element(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(shape.corners));
+  for (const Corners& face : shape.faces) {
+    if (std::any_of(face.begin(), face.end(), [&](std::size_t corner) { return nodes[corner] == top; })) continue;
+    for (const auto& [a, b, c] : triangles_of(nodes, face)) {
+      std::vector<Number> cell{a, c, b, top};
+      if (nodes.size() > shape.corners)
+        for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}})
+          cell.push_back(middles.of(cell[static_cast<std::size_t>(i)], cell[static_cast<std::size_t>(j)]));
+      split.tetrahedra.push_back(std::move(cell));
+    }
+  }
+  return split;
+}
+
+std::vector<std::vector<Number>> triangles_of_side(std::span<const Number> nodes, int side) {
+  const Shape& shape = shape_of(nodes.size());
+  if (side < 1 || side > static_cast<int>(shape.faces.size())) return {};
+  std::vector<std::vector<Number>> triangles;
+  for (const auto& t : triangles_of(nodes, shape.faces[static_cast<std::size_t>(side - 1)]))
+    triangles.push_back({t[0], t[1], t[2]});
+  return triangles;
+}
+
+}  // namespace scabo::files

@@ -1,0 +1,150 @@
+#include "scabo/files/step_names.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <map>
+
+namespace scabo::files {
+
+namespace {
+
+struct StepEntity {
+  std::string_view type, arguments;
+};
+
+/// `#12 = TYPE(...);` by its number; without complex entities, which have several types.
+class StepFile {
+ public:
+  explicit StepFile(std::string_view text);
+
+  const StepEntity* find(long number) const {
+    const auto at = entities_.find(number);
+    return at == entities_.end() ? nullptr : &at->second;
+  }
+  const std::map<long, StepEntity>& entities() const { return entities_; }
+
+ private:
+  void add(std::string_view statement);
+  std::map<long, StepEntity> entities_;
+};
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return text;
+}
+
+StepFile::StepFile(std::string_view text) {
+  std::size_t start = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\'') in_text = !in_text;
+    if (in_text || text[i] != ';') continue;
+    add(text.substr(start, i - start));
+    start = i + 1;
+  }
+}
+
+void StepFile::add(std::string_view statement) {
+  statement = trimmed(statement);
+  const std::size_t equal = statement.find('='), open = statement.find('(');
+  if (statement.empty() || statement.front() != '#' || equal == std::string_view::npos ||
+      open == std::string_view::npos || open < equal || statement.back() != ')')
+    return;
+  long number = 0;
+  const std::string_view digits = trimmed(statement.substr(1, equal - 1));
+  if (std::from_chars(digits.data(), digits.data() + digits.size(), number).ec != std::errc()) return;
+  entities_[number] = {trimmed(statement.substr(equal + 1, open - equal - 1)),
+                       statement.substr(open + 1, statement.size() - open - 2)};
+}
+
+/// Numbers of the entities that are named.
+std::vector<long> references(std::string_view arguments) {
+  std::vector<long> numbers;
+  bool in_text = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == '\'') in_text = !in_text;
+    if (in_text || arguments[i] != '#') continue;
+    long number = 0;
+    std::from_chars(arguments.data() + i + 1, arguments.data() + arguments.size(), number);
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// The text that begins the arguments; two apostrophes in it are one.
+std::string first_text(std::string_view arguments) {
+  std::string text;
+  arguments = trimmed(arguments);
+  for (std::size_t i = 1; !arguments.empty() && arguments.front() == '\'' && i < arguments.size(); ++i) {
+    if (arguments[i] == '\'' && (i + 1 >= arguments.size() || arguments[++i] != '\'')) break;
+    text += arguments[i];
+  }
+  return std::string(trimmed(text));
+}
+
+/// `'', (1.0, 2.0, 3.0)`.
+Eigen::Vector3d point_of(std::string_view arguments) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  std::size_t at = arguments.rfind('(');
+  for (int k = 0; k < 3 && at != std::string_view::npos; ++k) {
+    point[k] = std::strtod(std::string(arguments.substr(at + 1, 40)).c_str(), nullptr);
+    at = arguments.find(',', at + 1);
+  }
+  return point;
+}
+
+/// Place of an entity between a face and its vertices: one only leads to others further down, so that no circle of
+/// broken files is followed.
+int rank_of(std::string_view type) {
+  if (type == "FACE_BOUND" || type == "FACE_OUTER_BOUND") return 1;
+  if (type == "EDGE_LOOP" || type == "VERTEX_LOOP") return 2;
+  if (type == "ORIENTED_EDGE") return 3;
+  if (type == "EDGE_CURVE") return 4;
+  return type == "VERTEX_POINT" ? 5 : 0;
+}
+
+void add_vertices(const StepFile& file, long number, int above, std::vector<Eigen::Vector3d>& vertices) {
+  const StepEntity* entity = file.find(number);
+  const int rank = entity == nullptr ? 0 : rank_of(entity->type);
+  if (rank <= above) return;
+  for (const long next : references(entity->arguments)) {
+    const StepEntity* point = file.find(next);
+    if (rank < 5)
+      add_vertices(file, next, rank, vertices);
+    else if (point != nullptr && point->type == "CARTESIAN_POINT")
+      vertices.push_back(point_of(point->arguments));
+  }
+}
+
+/// Of a shell, or of one that is turned over.
+void add_faces(const StepFile& file, long shell, bool may_be_turned, std::vector<StepFace>& faces) {
+  const StepEntity* entity = file.find(shell);
+  if (entity == nullptr) return;
+  if (entity->type == "ORIENTED_CLOSED_SHELL" && may_be_turned)
+    for (const long next : references(entity->arguments)) add_faces(file, next, false, faces);
+  if (entity->type != "CLOSED_SHELL") return;
+  for (const long number : references(entity->arguments)) {
+    const StepEntity* of = file.find(number);
+    if (of == nullptr || (of->type != "ADVANCED_FACE" && of->type != "FACE_SURFACE")) continue;
+    faces.push_back({first_text(of->arguments), {}});
+    for (const long bound : references(of->arguments)) add_vertices(file, bound, 0, faces.back().vertices);
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<StepFace>> step_solids(std::string_view text) {
+  const StepFile file(text);
+  std::vector<std::vector<StepFace>> solids;
+  for (const auto& [number, entity] : file.entities()) {
+    if (entity.type != "MANIFOLD_SOLID_BREP" && entity.type != "BREP_WITH_VOIDS") continue;
+    solids.emplace_back();
+    for (const long shell : references(entity.arguments)) add_faces(file, shell, true, solids.back());
+  }
+  return solids;
+}
+
+}  // namespace scabo::files
