@@ -43,13 +43,8 @@ class Sweep {
       visit(s);
     }
     fill_upper_triangle();
-    Matrix block(count(), count());
-    for (int j = 0; j < count(); ++j) {
-      double* const to = block.col(sorted_[index(j)]).data();
-      const double* const from = result_.col(j).data();
-      for (int i = 0; i < count(); ++i) to[sorted_[index(i)]] = from[i];
-    }
-    return block;
+    put_in_place();
+    return std::move(result_);
   }
 
  private:
@@ -71,6 +66,24 @@ class Sweep {
       for (int below = first; below < count(); below += tile)
         for (int j = first; j < std::min(first + tile, count()); ++j)
           for (int i = std::max(below, j + 1); i < std::min(below + tile, count()); ++i) result_(j, i) = result_(i, j);
+  }
+
+  /// Rows and columns of the result in the order of `positions`, within its own memory: of a thousand contact points in
+  /// space it has gigabytes.
+  void put_in_place() {
+    std::vector<double> column(index(count()));
+    for (int j = 0; j < count(); ++j) {
+      double* const values = result_.col(j).data();
+      std::copy_n(values, count(), column.begin());
+      for (int i = 0; i < count(); ++i) values[sorted_[index(i)]] = column[index(i)];
+    }
+    std::vector<int> to = sorted_;
+    for (int j = 0; j < count(); ++j)
+      while (to[index(j)] != j) {
+        const int place = to[index(j)];
+        result_.col(j).swap(result_.col(place));
+        std::swap(to[index(j)], to[index(place)]);
+      }
   }
 
   void find_supernodes() {
