@@ -260,7 +260,8 @@ class Result:
     def cracks(self) -> dict[str, dict[str, np.ndarray]]:
         """Of a step in which cracks grow: for each tip by name, as in "plate.flaw.end", columns over the states of growth:
         increment (an index into ``increments``), x, y, length, K_I, K_II, T, G, kink (radians), load_factor, critical_at,
-        grows, range, cycles, opening, displacement and reaction (docs/results.md). Empty without growth."""
+        grows, range, cycles, opening, displacement, reaction, released, integral and remeshing (docs/results.md). Empty without
+        growth."""
         columns: dict[str, dict[str, list[Any]]] = {}
         for number, increment in enumerate(self._increments):
             growth = increment.as_dict().get("growth", {})
@@ -270,7 +271,8 @@ class Result:
                        **{key: np.nan if factors.get(key) is None else factors[key] for key in ("K_I", "K_II", "T", "G")},
                        "kink": tip["kink"], "load_factor": growth["load_factor"], "critical_at": tip["critical_at"],
                        "grows": tip["grows"], "range": tip.get("range"), "cycles": growth.get("cycles"), "opening": tip["opening"],
-                       "displacement": growth.get("displacement"), "reaction": growth.get("reaction")}
+                       "displacement": growth.get("displacement"), "reaction": growth.get("reaction"),
+                       **{key: growth.get("energy", {}).get(key) for key in ("released", "integral", "remeshing")}}
                 of_tip = columns.setdefault(name, {key: [] for key in row})
                 for key, value in row.items():
                     of_tip[key].append(np.nan if value is None else value)
