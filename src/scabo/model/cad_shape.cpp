@@ -27,6 +27,8 @@ template <class... Each>
 struct Overloaded : Each... {
   using Each::operator()...;
 };
+template <typename... Each>
+Overloaded(Each...) -> Overloaded<Each...>;
 
 /// The files of a shape.
 void add_files(const AnyShape& shape, std::vector<std::string>& paths) {

@@ -11,7 +11,7 @@ namespace scabo::result {
 
 namespace {
 
-constexpr double inside = 1e-6;  // of barycentric coordinates, from 0 below
+constexpr double on_side = 1e-6;  // of barycentric coordinates, from 0 below
 
 /// Barycentric coordinates of a point, by Newton's method; none if it has none near the cell.
 std::optional<Vector> barycentric(const Matrix& nodes, const Eigen::Vector3d& point) {
@@ -52,7 +52,7 @@ SolidFinder::SolidFinder(const mesh::SolidMesh& mesh) : mesh_(mesh) {
 
 std::optional<SolidFinder::Place> SolidFinder::at(const Eigen::Vector3d& point) const {
   std::optional<Place> best;
-  double least = -inside;
+  double least = -on_side;
   tree_->within(point.head<2>(), 0.0, [&](std::size_t cell) {
     if (point.z() < heights_[cell][0] || point.z() > heights_[cell][1]) return;
     const auto lambda = barycentric(mesh::nodes_of(mesh_, mesh_.cells[cell]), point);
