@@ -90,6 +90,8 @@ class BodySystem {
   /// they are few, but without the refinement that equilibrium at every node needs.
   virtual Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs,
                                  BegunSolve* begun = nullptr) const = 0;
+  /// Whether forces may move a degree of freedom; where not, its row of A is 0.
+  virtual bool moves(int) const { return true; }
   /// A on the given degrees of freedom.
   virtual Matrix flexibility(const std::vector<int>& dofs) const = 0;
   /// The same from the factor alone, without the refinement that slender bodies get: for estimates.

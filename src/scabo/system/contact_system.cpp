@@ -108,7 +108,19 @@ Matrix congruent(const Eigen::SparseMatrix<double, Eigen::RowMajor>& N, const Ma
 
 PartFlexibility flexibility_of(const TouchedPart& touched, const BodySystem& part) {
   if (touched.dofs.empty()) return {};
-  return {touched.rows, congruent(touched.motion, part.flexibility(touched.dofs))};
+  // Without what supports hold: A has gigabytes in space, and would be copied to be filled up with zeros.
+  std::vector<int> moving;
+  Triplets selected;
+  for (std::size_t k = 0; k < touched.dofs.size(); ++k) {
+    if (!part.moves(touched.dofs[k])) continue;
+    selected.emplace_back(static_cast<int>(k), static_cast<int>(moving.size()), 1.0);
+    moving.push_back(touched.dofs[k]);
+  }
+  if (moving.size() == touched.dofs.size()) return {touched.rows, congruent(touched.motion, part.flexibility(moving))};
+  Eigen::SparseMatrix<double, Eigen::RowMajor> selection(touched.motion.cols(),
+                                                         static_cast<Eigen::Index>(moving.size()));
+  selection.setFromTriplets(selected.begin(), selected.end());
+  return {touched.rows, congruent(touched.motion * selection, part.flexibility(moving))};
 }
 
 /// Whether W has so few entries that it is sparse; `rows` of all pairs.

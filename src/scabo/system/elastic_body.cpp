@@ -161,6 +161,11 @@ Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, c
   return rounding_matters(u, acting) ? displacement(f, prescribed) : u;
 }
 
+bool ElasticBody::moves(int dof) const {
+  return place_[static_cast<std::size_t>(dof)] >= 0 ||
+         (!inclined_.none() && inclined_.of(plane_components.node_of(dof)) != nullptr);
+}
+
 Matrix ElasticBody::flexibility(const std::vector<int>& dofs, bool refines) const {
   const bool any = !inclined_.none() && std::any_of(dofs.begin(), dofs.end(), [&](int dof) {
     return inclined_.of(plane_components.node_of(dof)) != nullptr;

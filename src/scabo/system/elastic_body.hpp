@@ -41,6 +41,7 @@ class ElasticBody final : public BodySystem {
                       const BegunSolve* begun) const override;
   Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>& dofs,
                          BegunSolve* begun) const override;
+  bool moves(int dof) const override;
   Matrix flexibility(const std::vector<int>& dofs) const override { return flexibility(dofs, true); }
   Matrix flexibility_by_factor(const std::vector<int>& dofs) const override { return flexibility(dofs, false); }
   Vector flexed(const std::vector<int>& dofs, const Vector& forces) const override;
