@@ -41,11 +41,12 @@ std::vector<std::array<Number, 3>> triangles_of(std::span<const Number> nodes, c
   return triangles;
 }
 
-/// Of an edge between two corners of a cell with middle nodes.
+/// Of an edge between two corners of a cell with middle nodes; of one without them there are none.
 class Middles {
  public:
   Middles(std::span<const Number> nodes, const Shape& shape, SplitSolid& split)
       : nodes_(nodes), shape_(shape), split_(split) {
+    if (nodes.size() == shape.corners) return;
     for (std::size_t e = 0; e < shape.edges.size(); ++e) middle_[edge_at(e)] = nodes[shape.corners + e];
   }
 

@@ -17,6 +17,7 @@
 #include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/contact/sweeps/gauss_seidel.hpp"
 #include "scabo/contact/sweeps/long_sweeps.hpp"
 #include "unit/contact/problems.hpp"
 #include "unit/contact/towers.hpp"
@@ -158,17 +159,23 @@ Problem three_pairs(int seed) {
   return problem;
 }
 
-// In one order three pairs may go around between their states for ever. For friction as high as here extrapolation ends
-// that in three of the problems, orders drawn anew in five.
-TEST(LongSweeps, SettleWhereSweepsInOneOrderGoAround) {
+// In one order three pairs may go around between their states for ever; in orders drawn anew they settle more often.
+TEST(Sweeps, InOrdersDrawnAnewSettleWhereThoseInOneOrderGoAround) {
+  std::minstd_rand random;
   int settled = 0;
-  for (int seed = 0; seed < 400; ++seed) {
+  for (int seed = 0; seed < 2000; ++seed) {
     const Problem problem = three_pairs(seed);
-    if (natural_map_residual(problem, test::swept_forces(problem, 4000), Vector()) <= 1e-3) continue;
-    LongSweeps sweeps(problem, Vector::Zero(9));
-    settled += sweeps.run(80000, within_1e10(problem)) ? 1 : 0;
+    if (natural_map_residual(problem, test::swept_forces(problem, 2000), Vector()) <= 1e-3) continue;
+    const auto sweeps = gauss_seidel(problem);
+    Vector p = Vector::Zero(9);
+    sweeps->start(p);
+    for (int sweep = 0; sweep < 5000; ++sweep) {
+      sweeps->reorder(random);
+      sweeps->sweep(p);
+    }
+    settled += natural_map_residual(problem, p, Vector()) <= 1e-10 ? 1 : 0;
   }
-  EXPECT_GE(settled, 5);
+  EXPECT_GE(settled, 3);
 }
 
 TEST(LongSweeps, EndWhereNothingIsGainedOrTheTimeIsOver) {
