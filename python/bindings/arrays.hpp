@@ -1,4 +1,5 @@
-// NumPy arrays that show memory of the library without a copy. They keep its owner alive and cannot be written.
+// NumPy arrays that show memory of the library without a copy (they keep its owner alive, and cannot be written), and
+// copies.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -60,6 +61,14 @@ inline std::vector<Vec2> points_of(const Numbers& array) {
 inline Vector vector_of(const Numbers& array) {
   if (array.ndim() != 1) throw py::value_error("must be an array of one dimension");
   return Eigen::Map<const Vector>(array.data(), array.size());
+}
+
+/// A copy of rows of `columns` numbers, of one in a flat array.
+template <typename Number>
+py::array copied(const std::vector<Number>& numbers, py::ssize_t columns = 1) {
+  const auto count = static_cast<py::ssize_t>(numbers.size()) / columns;
+  return columns == 1 ? py::array_t<Number>(count, numbers.data())
+                      : py::array_t<Number>(std::vector<py::ssize_t>{count, columns}, numbers.data());
 }
 
 }  // namespace scabo::python

@@ -211,14 +211,6 @@ py::object mechanism(const py::object& self) {
   return table;
 }
 
-/// A copy of rows of `columns` numbers, of one in a flat array.
-template <typename Number>
-py::array copied(const std::vector<Number>& numbers, py::ssize_t columns = 1) {
-  const auto count = static_cast<py::ssize_t>(numbers.size()) / columns;
-  return columns == 1 ? py::array_t<Number>(count, numbers.data())
-                      : py::array_t<Number>(std::vector<py::ssize_t>{count, columns}, numbers.data());
-}
-
 /// Points, cells and fields of fields.vtu after an increment, without the bodies that are absent, as new arrays: points
 /// (n, 3), undeformed, length; connectivity (indices of points, all cells in sequence), offsets (cells + 1: where each
 /// begins, and the end), types (cells, numbers of VTK), cell_body and body (cells and n, from 1, in the order of the

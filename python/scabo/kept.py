@@ -26,8 +26,40 @@ class KeptRecord:
         return cls(record.summary, record.directory, list(record.warnings), None, record.why_not_solved)
 
 
+class KeptArrays:
+    """What kept results of the plane and of space have in common: arrays by increment, then by contact or body."""
+
+    of_pairs: list[list[dict[str, np.ndarray]]]
+    of_nodes: list[np.ndarray]
+    of_displacement: list[list[np.ndarray]]
+    of_fields: list[dict[str, np.ndarray]]
+    of_history: str
+
+    def pairs(self, increment: int, contact: int) -> dict[str, np.ndarray]:
+        return dict(self.of_pairs[increment][contact])
+
+    def keeps_fields(self, increment: int) -> bool:
+        return bool(self.of_fields[increment])
+
+    def nodes(self, body: int) -> np.ndarray:
+        return self.of_nodes[body]
+
+    def displacement(self, increment: int, body: int) -> np.ndarray:
+        return self.of_displacement[increment][body]
+
+    def fields(self, increment: int) -> dict[str, np.ndarray]:
+        return dict(self.of_fields[increment])
+
+    def history(self) -> str:
+        return self.of_history
+
+    def values(self, increment: int, points: np.ndarray, only: int, allow_outside: bool) -> NoReturn:
+        raise LookupError("results that were pickled have no values at points, which the solver computes: compute them before, or use "
+                          "fields(), whose points they keep")
+
+
 @dataclass
-class KeptResult:
+class KeptResult(KeptArrays):
     """A ``_core.StaticResult``: pairs, displacements and fields of all increments that have them."""
 
     record: KeptRecord
@@ -57,33 +89,12 @@ class KeptResult:
                    [core.fields(k) if there else {} for k, there in enumerate(kept)], core.history() if all(kept) else "",
                    None if mechanism is None else copied(mechanism))
 
-    def pairs(self, increment: int, contact: int) -> dict[str, np.ndarray]:
-        return dict(self.of_pairs[increment][contact])
-
-    def keeps_fields(self, increment: int) -> bool:
-        return bool(self.of_fields[increment])
-
-    def nodes(self, body: int) -> np.ndarray:
-        return self.of_nodes[body]
-
-    def displacement(self, increment: int, body: int) -> np.ndarray:
-        return self.of_displacement[increment][body]
-
-    def fields(self, increment: int) -> dict[str, np.ndarray]:
-        return dict(self.of_fields[increment])
-
-    def history(self) -> str:
-        return self.of_history
-
     def mechanism(self) -> dict[str, Any] | None:
         return self.of_mechanism
 
-    def values(self, increment: int, points: np.ndarray, only: int, allow_outside: bool) -> NoReturn:
-        _no_values()
-
 
 @dataclass
-class KeptSpaceResult:
+class KeptSpaceResult(KeptArrays):
     """A ``_core.SpaceResult``: pairs, displacements and fields of all increments that have them."""
 
     record: KeptRecord
@@ -109,32 +120,6 @@ class KeptSpaceResult:
                    [np.array(core.nodes(body)) for body in bodies],
                    [[np.array(core.displacement(k, body)) for body in bodies] if there else [] for k, there in enumerate(kept)],
                    [core.fields(k) if there else {} for k, there in enumerate(kept)], core.history() if all(kept) else "")
-
-    def pairs(self, increment: int, contact: int) -> dict[str, np.ndarray]:
-        return dict(self.of_pairs[increment][contact])
-
-    def keeps_fields(self, increment: int) -> bool:
-        return bool(self.of_fields[increment])
-
-    def nodes(self, body: int) -> np.ndarray:
-        return self.of_nodes[body]
-
-    def displacement(self, increment: int, body: int) -> np.ndarray:
-        return self.of_displacement[increment][body]
-
-    def fields(self, increment: int) -> dict[str, np.ndarray]:
-        return dict(self.of_fields[increment])
-
-    def history(self) -> str:
-        return self.of_history
-
-    def values(self, increment: int, points: np.ndarray, only: int, allow_outside: bool) -> NoReturn:
-        _no_values()
-
-
-def _no_values() -> NoReturn:
-    raise LookupError("results that were pickled have no values at points, which the solver computes: compute them before, or use "
-                      "fields(), whose points they keep")
 
 
 @dataclass
