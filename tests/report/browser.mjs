@@ -1,22 +1,10 @@
 // node browser.mjs MODULES CHROMIUM PAGE FOLDER < tasks.json: opens a report in headless Chromium and prints what it saw as JSON.
-import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { openPage } from "./open_page.mjs";
 
-const [modules, chromiumPath, file, folder] = process.argv.slice(2);
-const { chromium } = await import(pathToFileURL(join(modules, "playwright-core", "index.mjs")).href);
-const tasks = JSON.parse(readFileSync(0, "utf-8"));
-const seen = { errors: [], requests: [], dialogs: 0 };
-
-const context = await chromium.launchPersistentContext(join(folder, "profile"), {
-  executablePath: chromiumPath, headless: true, viewport: { width: 1300, height: 900 }, colorScheme: "light", timeout: 300000,
-  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-    "--enable-unsafe-swiftshader"],
-});
-const page = await context.newPage();
-page.setDefaultTimeout(300000); // a busy machine is slow
-page.on("console", (message) => { if (message.type() === "error") seen.errors.push(message.text()); });
-page.on("pageerror", (error) => seen.errors.push(String(error)));
+const { file, folder, tasks, context, page, errors } = await openPage();
+const seen = { errors, requests: [], dialogs: 0 };
 page.on("request", (request) => { if (![file, tasks.mechanism].some((own) => request.url() === pathToFileURL(own).href) && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
 page.on("dialog", (dialog) => { ++seen.dialogs; void dialog.dismiss(); });
 

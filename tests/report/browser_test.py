@@ -4,17 +4,14 @@ light up in the field and in the curves, the keyboard reaches everything, and th
 Skipped where there is no Chromium or where the page was not built (no Node.js, no npm)."""
 import csv
 import json
-import os
 import pathlib
-import shutil
-import subprocess
 import sys
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import matplotlib.image
 import numpy as np
 import support
+from in_browser import InBrowser, template
 from program_test import SLIDING
 
 TITLE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> <!--scabo:arrays--> & \"beam\" ünïcode"
@@ -28,23 +25,11 @@ LINE = (0.5, 0.3, 5.5, 2.7)  # from the lower beam into the upper one
 LOOP = ("joint, normal force", "joint, tangential force")  # across, up
 
 
-def chromium():
-    return next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
-
-
-class Report(unittest.TestCase):
+class Report(InBrowser):
     @classmethod
     def setUpClass(cls):
-        modules, node = os.environ.get("SCABO_REPORT_MODULES", ""), os.environ.get("SCABO_NODE") or shutil.which("node")
-        template = pathlib.Path(support.SCABO).resolve().parents[1] / "share" / "scabo" / "report_template.html"
-        if not chromium():
-            raise unittest.SkipTest("there is no Chromium (apt install chromium)")
-        if not node or not template.exists() or not pathlib.Path(modules, "playwright-core").is_dir():
-            raise unittest.SkipTest("the page for reports was not built (apt install nodejs npm)")
-        cls.holder = support.tempfile.TemporaryDirectory(prefix="scabo_test_")
-        cls.addClassCleanup(cls.holder.cleanup)
-        cls.folder = pathlib.Path(cls.holder.name)
-        sys.path.insert(0, str(template.parent))
+        super().setUpClass()
+        sys.path.insert(0, str(template().parent))
         from scabo_plot import Results, geometry
         cls.run_model("first")
         first = Results(cls.folder / "first")
@@ -58,11 +43,7 @@ class Report(unittest.TestCase):
         cls.sliding()
         cls.triangles = geometry.triangles(grid)
         cls.asked = [(number, *map(float, at)) for number in (3, 1) for at in (*cls.points, *BETWEEN)]
-        job = subprocess.run([node, pathlib.Path(__file__).with_name("browser.mjs"), modules, chromium(), cls.folder / "beam.html", cls.folder],
-                             input=json.dumps({"picks": cls.asked, "pair": PAIR, "other": OTHER, "loop": LOOP, "line": LINE, "mechanism": str(cls.folder / "sliding.html")}), text=True, capture_output=True,
-                             timeout=support.PATIENCE)
-        assert job.returncode == 0, job.stderr
-        cls.seen = json.loads(job.stdout)
+        cls.seen = cls.drive("browser.mjs", cls.folder / "beam.html", {"picks": cls.asked, "pair": PAIR, "other": OTHER, "loop": LOOP, "line": LINE, "mechanism": str(cls.folder / "sliding.html")})
 
     @classmethod
     def run_model(cls, name, *settings):

@@ -3,17 +3,13 @@ the motion plays.
 
 Skipped where there is no Chromium or where the page was not built (no Node.js, no npm)."""
 import csv
-import json
 import os
 import pathlib
-import shutil
-import subprocess
 import sys
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import support
-from browser_test import chromium
+from in_browser import InBrowser
 
 MODEL = """scabo: 1
 analysis: {plane: stress}
@@ -27,27 +23,16 @@ output: {points: [{at: [1, 1], name: corner}]}
 INCREMENTS = (3, 17, 40)
 
 
-class Motion(unittest.TestCase):
+class Motion(InBrowser):
     @classmethod
     def setUpClass(cls):
-        modules, node = os.environ.get("SCABO_REPORT_MODULES", ""), os.environ.get("SCABO_NODE") or shutil.which("node")
-        template = pathlib.Path(support.SCABO).resolve().parents[1] / "share" / "scabo" / "report_template.html"
-        if not chromium():
-            raise unittest.SkipTest("there is no Chromium (apt install chromium)")
-        if not node or not template.exists() or not pathlib.Path(modules, "playwright-core").is_dir():
-            raise unittest.SkipTest("the page for reports was not built (apt install nodejs npm)")
-        cls.holder = support.tempfile.TemporaryDirectory(prefix="scabo_test_")
-        cls.addClassCleanup(cls.holder.cleanup)
-        cls.folder = pathlib.Path(cls.holder.name)
+        super().setUpClass()
         (cls.folder / "shaken.yaml").write_text(MODEL, encoding="utf-8")
         for arguments in (("run", "shaken.yaml", "-q"), ("report", "shaken.results", "-o", "shaken.html")):
             run = support.scabo(*arguments, cwd=cls.folder, SCABO_PYTHON=sys.executable)
             assert run.returncode == 0, run.stderr
         cls.picture = pathlib.Path(os.environ.get("SCABO_PICTURE", cls.folder / "motion.png"))
-        job = subprocess.run([node, pathlib.Path(__file__).with_name("motion.mjs"), modules, chromium(), cls.folder / "shaken.html", cls.folder, cls.picture],
-                             input=json.dumps({"increments": INCREMENTS, "at": [1, 1], "until": 8}), text=True, capture_output=True, timeout=support.PATIENCE)
-        assert job.returncode == 0, job.stderr
-        cls.seen = json.loads(job.stdout)
+        cls.seen = cls.drive("motion.mjs", cls.folder / "shaken.html", {"increments": INCREMENTS, "at": [1, 1], "until": 8}, cls.picture)
 
     def test_values_are_those_of_the_program_at_these_times(self):
         with open(self.folder / "shaken.results" / "points.csv", newline="", encoding="utf-8") as file:

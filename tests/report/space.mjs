@@ -1,22 +1,10 @@
 // node space.mjs MODULES CHROMIUM PAGE FOLDER PICTURE < tasks.json: opens the report of a model in space and prints what it saw as JSON.
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { openPage } from "./open_page.mjs";
 
-const [modules, chromiumPath, file, folder, picture] = process.argv.slice(2);
-const { chromium } = await import(pathToFileURL(join(modules, "playwright-core", "index.mjs")).href);
-const tasks = JSON.parse(readFileSync(0, "utf-8"));
-const seen = { errors: [], requests: [], picks: [] };
-
-const context = await chromium.launchPersistentContext(join(folder, "profile"), {
-  executablePath: chromiumPath, headless: true, viewport: { width: 1300, height: 900 }, colorScheme: "light", timeout: 300000,
-  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-    "--enable-unsafe-swiftshader"],
-});
-const page = await context.newPage();
-page.setDefaultTimeout(300000); // a busy machine is slow
-page.on("console", (message) => { if (message.type() === "error") seen.errors.push(message.text()); });
-page.on("pageerror", (error) => seen.errors.push(String(error)));
+const { file, words, tasks, context, page, errors } = await openPage();
+const [picture] = words;
+const seen = { errors, requests: [], picks: [] };
 page.on("request", (request) => { if (request.url() !== pathToFileURL(file).href && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
 await page.goto(pathToFileURL(file).href);
 await page.waitForFunction(() => document.documentElement.dataset.ready === "true");

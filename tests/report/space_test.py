@@ -2,19 +2,15 @@
 can be turned, cut and hidden, and contact faces are maps whose pairs light up.
 
 Skipped where there is no Chromium or where the page was not built (no Node.js, no npm)."""
-import json
 import os
 import pathlib
-import shutil
-import subprocess
 import sys
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import matplotlib.image
 import numpy as np
 import support
-from browser_test import chromium
+from in_browser import InBrowser
 
 YOUNG, POISSON, PRESSURE = 210e9, 0.3, 3e6
 MODEL = f"""scabo: 1
@@ -43,28 +39,17 @@ def motion(point):
     return -PRESSURE / YOUNG * np.asarray(point) * [-POISSON, -POISSON, 1.0]
 
 
-class Space(unittest.TestCase):
+class Space(InBrowser):
     @classmethod
     def setUpClass(cls):
-        modules, node = os.environ.get("SCABO_REPORT_MODULES", ""), os.environ.get("SCABO_NODE") or shutil.which("node")
-        template = pathlib.Path(support.SCABO).resolve().parents[1] / "share" / "scabo" / "report_template.html"
-        if not chromium():
-            raise unittest.SkipTest("there is no Chromium (apt install chromium)")
-        if not node or not template.exists() or not pathlib.Path(modules, "playwright-core").is_dir():
-            raise unittest.SkipTest("the page for reports was not built (apt install nodejs npm)")
-        cls.holder = support.tempfile.TemporaryDirectory(prefix="scabo_test_")
-        cls.addClassCleanup(cls.holder.cleanup)
-        cls.folder = pathlib.Path(cls.holder.name)
+        super().setUpClass()
         (cls.folder / "stack.yaml").write_text(MODEL, encoding="utf-8")
         run = support.scabo("run", "stack.yaml", "-q", "--report", cwd=cls.folder, SCABO_PYTHON=sys.executable)
         assert run.returncode == 0, run.stderr
         cls.picture = pathlib.Path(os.environ.get("SCABO_PICTURE", cls.folder / "space.png"))
         tasks = {"increments": (1, 3), "top": list(TOP - CENTRE), "cut": 500, "on_cut": list(ON_CUT - CENTRE), "below": list(BELOW - CENTRE), "pair": 5,
                  "magnification": MAGNIFICATION, "moved": list(TOP - CENTRE + MAGNIFICATION * motion(TOP))}
-        job = subprocess.run([node, pathlib.Path(__file__).with_name("space.mjs"), modules, chromium(), cls.folder / "stack.report.html", cls.folder, cls.picture],
-                             input=json.dumps(tasks), text=True, capture_output=True, timeout=support.PATIENCE)
-        assert job.returncode == 0, job.stderr
-        cls.seen = json.loads(job.stdout)
+        cls.seen = cls.drive("space.mjs", cls.folder / "stack.report.html", tasks, cls.picture)
 
     def near(self, pick, point, factor=1.0, pixels=0.004):
         """Values are those at the point that the page names, which lies where it was clicked."""
