@@ -6,8 +6,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LARGEST = 1_000_000  # bytes
-PNG = b"\x89PNG\r\n\x1a\n"
-HDF5 = b"\x89HDF\r\n\x1a\n"
+# Kinds of binary files that may be tracked, by the end of the name and the first bytes.
+KINDS = {".png": b"\x89PNG\r\n\x1a\n", ".hdf5": b"\x89HDF\r\n\x1a\n", ".state": b"scabo_end\n"}
 # Inputs that are binary on purpose: files for readers, which must meet them.
 INPUTS = ("tests/fuzz/corpus/", "tests/input/bad/")
 
@@ -18,9 +18,9 @@ def complaint(name: str, content: bytes) -> str:
         return f"{name} has {len(content)} bytes, more than {LARGEST}"
     if b"\0" not in content or name.startswith(INPUTS):
         return ""
-    if name.endswith(".png") and content.startswith(PNG) or name.endswith(".hdf5") and content.startswith(HDF5):
+    if any(name.endswith(end) and content.startswith(first) for end, first in KINDS.items()):
         return ""
-    return f"{name} is a binary file: only pictures (.png) and problems (.hdf5) may be"
+    return f"{name} is a binary file: only pictures (.png), problems (.hdf5) and states (.state) may be"
 
 
 class TrackedFiles(unittest.TestCase):
@@ -36,7 +36,7 @@ class TrackedFiles(unittest.TestCase):
         self.assertIn("binary", complaint("program", b"\x7fELF\x02\0\0"))
         self.assertIn("binary", complaint("picture.png", b"\x7fELF\x02\0\0"))
         self.assertIn("bytes", complaint("table.csv", b"1," * LARGEST))
-        self.assertEqual(complaint("picture.png", PNG + b"\0\0"), "")
+        self.assertEqual(complaint("picture.png", KINDS[".png"] + b"\0\0"), "")
         self.assertEqual(complaint("tests/fuzz/corpus/read_vtu/raw", b"<VTKFile>\0"), "")
         self.assertEqual(complaint("text.md", "Müller\n".encode()), "")
 

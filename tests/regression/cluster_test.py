@@ -262,7 +262,7 @@ output: {every: 1000}
         with subprocess.Popen([MPIRUN, "-n", "2", support.SCABO, "run", "model.yaml", "-o", "results", "--divide-from", "100"],
                               cwd=self.directory, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
             summary = self.directory / "results" / "summary.json"
-            while not (self.directory / "results" / "checkpoint.hdf5").exists() and run.poll() is None:
+            while not (self.directory / "results" / "checkpoint.state").exists() and run.poll() is None:
                 time.sleep(0.05)
             self.kill_rank(run.pid, "1")
             _, errors = run.communicate(timeout=support.PATIENCE)

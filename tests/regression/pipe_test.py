@@ -98,7 +98,7 @@ class Pipes(InTemporaryDirectory):
     def test_pipes_in_the_place_of_results_are_refused(self):
         model = self.directory / "model.yaml"
         model.write_text(MODEL, encoding="utf-8")
-        for name in ("summary.json", "log.txt", "fields_0001.vtu", "checkpoint.hdf5", "problems/0001.hdf5"):
+        for name in ("summary.json", "log.txt", "fields_0001.vtu", "checkpoint.state", "problems/0001.hdf5"):
             with self.subTest(name):
                 pipe = self.directory / "results" / name
                 pipe.parent.mkdir(parents=True, exist_ok=True)
@@ -131,11 +131,11 @@ class Pipes(InTemporaryDirectory):
         pipe = self.pipe("model.yaml", slow)
         results = self.directory / "results"
         run = subprocess.Popen([support.SCABO, "run", str(pipe), "--quiet", "-o", str(results)], stderr=subprocess.DEVNULL)
-        while not (results / "checkpoint.hdf5").exists() and run.poll() is None:
+        while not (results / "checkpoint.state").exists() and run.poll() is None:
             time.sleep(0.01)
         run.send_signal(signal.SIGTERM)
         run.wait(timeout=support.PATIENCE)
-        if not (results / "checkpoint.hdf5").exists():
+        if not (results / "checkpoint.state").exists():
             self.skipTest("the run ended before the signal")
         refused = scabo("resume", results)
         self.assertEqual(refused.returncode, 1)

@@ -330,7 +330,7 @@ class BlocksInSpace(support.InTemporaryDirectory):
         for name in ("base.inp", "block.inp", "model.yaml"):
             (self.directory / name).write_bytes((EXAMPLE / name).read_bytes())
         self.assertEqual(self.stopped(signal.SIGINT, self.directory / "model.yaml", "--set", "steps.1.increments=2000")[0], 130)
-        checkpoint = self.directory / "results" / "checkpoint.hdf5"
+        checkpoint = self.directory / "results" / "checkpoint.state"
         kept = checkpoint.read_bytes()
         checkpoint.write_bytes(kept[:len(kept) // 2])
         done = scabo("resume", self.directory / "results")

@@ -167,7 +167,7 @@ TEST(Restart, TellsWhatDoesNotAgree) {
   EXPECT_EQ(message(with(good, "friction: 0.9", "friction: 0.8")), "no error");
   EXPECT_NE(message(with(good, "weight: {gravity: [0, -10]}, ", "")).find("load 'weight' is there at the end of"),
             std::string::npos);
-  std::filesystem::resize_file(directory / "end.hdf5", 1000);
+  std::filesystem::resize_file(directory / "end.state", 1000);
   EXPECT_NE(message(good).find("is damaged"), std::string::npos);
   std::filesystem::remove_all(directory);
 }

@@ -5,15 +5,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace scabo::linalg {
 
 namespace {
 
-/// A point of the contour and its weight h / (2 pi i) e^z dz/dtheta; its conjugate is also part of the rule.
+/// A point of the contour, h / (2 pi i) dz/dtheta and, times e^z, its weight; its conjugate is also part of the rule.
 struct ContourPoint {
-  std::complex<double> z, weight;
+  std::complex<double> z, step, weight;
 };
 
 /// Midpoints of a hyperbola that encloses all eigenvalues within `sector` of the negative axis, or, with a sector of 0,
@@ -31,7 +32,8 @@ Contour make_contour(double degrees, int points, double m, double alpha, double 
   for (int k = 0; k < points; ++k) {
     const std::complex<double> argument = i * ((k + 0.5) * h) - alpha;
     const std::complex<double> z = m * (1.0 + std::sin(argument));
-    contour.points.push_back({z, h / (2.0 * std::numbers::pi) * std::exp(z) * m * std::cos(argument)});
+    contour.points.push_back({z, h / (2.0 * std::numbers::pi) * m * std::cos(argument),
+                              h / (2.0 * std::numbers::pi) * std::exp(z) * m * std::cos(argument)});
   }
   return contour;
 }
@@ -40,6 +42,14 @@ Contour make_contour(double degrees, int points, double m, double alpha, double 
 const std::array<Contour, 2>& contours() {
   static const std::array<Contour, 2> all = {make_contour(45.0, 28, 14.0, 0.8, 0.0766807),
                                              make_contour(55.0, 32, 9.6, 0.6, 0.0863970588)};
+  return all;
+}
+
+/// The same for all times from a 64th of the longest to the longest.
+constexpr double shared_range = 64.0;
+const std::array<Contour, 2>& shared_contours() {
+  static const std::array<Contour, 2> all = {make_contour(45.0, 96, 7.7263, 0.44719, 0.073305),
+                                             make_contour(55.0, 120, 7.9862, 0.3523, 0.060093)};
   return all;
 }
 
@@ -75,15 +85,13 @@ std::complex<double> inverse(std::complex<double> z) {
 /// unknown, real parts above imaginary parts, so that all points are solved for at once.
 struct Points {
   Eigen::ArrayXd real, imaginary;  // z
-  Vector weights;                  // 2 Re w, then -2 Im w: their product with such a column is the sum over all points
 
   explicit Points(const Contour& contour) {
     const auto count = static_cast<Eigen::Index>(contour.points.size());
-    real.resize(count), imaginary.resize(count), weights.resize(2 * count);
+    real.resize(count), imaginary.resize(count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const auto& [z, weight] = contour.points[static_cast<std::size_t>(k)];
+      const std::complex<double> z = contour.points[static_cast<std::size_t>(k)].z;
       real[k] = z.real(), imaginary[k] = z.imag();
-      weights[k] = 2.0 * weight.real(), weights[count + k] = -2.0 * weight.imag();
     }
   }
   Eigen::Index count() const { return real.size(); }
@@ -160,20 +168,32 @@ SchurExponential::SchurExponential(RealSchur schur) : schur_(std::move(schur)) {
 
 namespace {
 
-/// The contour for the eigenvalues of s (S - k); null where the dense exponential is cheaper or none is wide enough.
-const Contour* contour_for(const std::vector<std::complex<double>>& eigenvalues, double s, double shift) {
-  double widest = 0.0;
-  std::vector<std::complex<double>> outside;  // of the narrowest sector
+/// Eigenvalues of s (S - k) outside the narrowest sector, except those near the origin and those that have faded at a
+/// share of s.
+std::vector<std::complex<double>> wide_ones(const std::vector<std::complex<double>>& eigenvalues, double s,
+                                            double shift, double share = 1.0) {
+  std::vector<std::complex<double>> wide;
   for (const std::complex<double>& value : eigenvalues) {
     const std::complex<double> z = -s * (value - shift);  // in the left half plane, reflected
-    const bool faded = z.real() > 40.0, near_origin = std::abs(z) < 1.0;
-    if (faded || near_origin) continue;
-    const double angle = std::abs(std::arg(z));
-    widest = std::max(widest, angle);
-    if (angle > contours().front().sector) outside.push_back(-z);
+    const bool faded = z.real() * share > 40.0, near_origin = std::abs(z) < 1.0;
+    if (!faded && !near_origin && std::abs(std::arg(z)) > contours().front().sector) wide.push_back(-z);
   }
-  for (const Contour& contour : contours())
-    if (widest <= contour.sector) return &contour;
+  return wide;
+}
+
+/// The narrowest of two contours that encloses these; null if none does.
+const Contour* narrowest(const std::array<Contour, 2>& of, const std::vector<std::complex<double>>& wide) {
+  for (const Contour& contour : of)
+    if (std::all_of(wide.begin(), wide.end(),
+                    [&](std::complex<double> z) { return std::abs(std::arg(-z)) <= contour.sector; }))
+      return &contour;
+  return nullptr;
+}
+
+/// The contour for the eigenvalues of s (S - k); null where the dense exponential is cheaper or none is wide enough.
+const Contour* contour_for(const std::vector<std::complex<double>>& eigenvalues, double s, double shift) {
+  const std::vector<std::complex<double>> outside = wide_ones(eigenvalues, s, shift);
+  if (const Contour* const contour = narrowest(contours(), outside)) return contour;
   // A triangular solve for every point, against some twenty products of matrices.
   const std::size_t most = 4 * eigenvalues.size();
   for (const Contour& contour : wide_contours())
@@ -201,17 +221,12 @@ Vector dense_propagation(const Matrix& T, const Vector& c, const std::vector<For
   return (augmented.exp() * start).head(n);
 }
 
-}  // namespace
-
-Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& forcings, double s,
-                                   double shift) const {
-  const Eigen::Index n = c.size();
-  if (s == 0.0 || n == 0) return c;
-  const Contour* const contour = contour_for(eigenvalues_, s, shift);
-  if (contour == nullptr) return dense_propagation(schur_.T, c, forcings, s, shift);  // rare
-  const Points points(*contour);
+/// (z - s (T - k))^-1 of c and forcings at all points of a contour.
+Matrix resolved(const Matrix& T, const Vector& c, const std::vector<Forcing>& forcings, double s, double shift,
+                const Contour& contour) {
+  const Points points(contour);
   const Eigen::Index count = points.count();
-  Matrix X(2 * count, n);
+  Matrix X(2 * count, c.size());
   X.topRows(count).rowwise() = c.transpose();
   X.bottomRows(count).setZero();
   for (const Forcing& forcing : forcings)
@@ -220,10 +235,84 @@ Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& 
       X.row(k) += share.real() * forcing.w.transpose();
       X.row(count + k) += share.imag() * forcing.w.transpose();
     }
-  Matrix transposed = schur_.T.transpose();
+  Matrix transposed = T.transpose();
   transposed.diagonal().array() -= shift;
   solve_shifted(transposed, s, points, X);
-  return X.transpose() * points.weights;
+  return X;
+}
+
+/// 2 Re w, then -2 Im w: the product with a column of values at the points is the sum over all points.
+template <typename WeightOf>
+Vector weights_of(const Contour& contour, const WeightOf& weight_of) {
+  const auto count = static_cast<Eigen::Index>(contour.points.size());
+  Vector weights(2 * count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::complex<double> weight = weight_of(contour.points[static_cast<std::size_t>(k)]);
+    weights[k] = 2.0 * weight.real(), weights[count + k] = -2.0 * weight.imag();
+  }
+  return weights;
+}
+
+/// A row for each time. At points where e^z has faded, there is nothing to compute.
+Matrix weights_at(const Contour& contour, const std::vector<double>& s) {
+  constexpr double faded = -45.0;
+  const auto of_point = [](const ContourPoint& point, double share) {
+    return share * point.z.real() < faded ? 0.0 : point.step * std::exp(share * point.z);
+  };
+  Matrix weights(static_cast<Eigen::Index>(s.size()), 2 * static_cast<Eigen::Index>(contour.points.size()));
+  for (Eigen::Index j = 0; j < weights.rows(); ++j) {
+    const double share = s[static_cast<std::size_t>(j)] / s.back();
+    weights.row(j) = weights_of(contour, [&](const ContourPoint& point) { return of_point(point, share); });
+  }
+  return weights;
+}
+
+}  // namespace
+
+Vector SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& forcings, double s,
+                                   double shift) const {
+  if (s == 0.0 || c.size() == 0) return c;
+  const Contour* const contour = contour_for(eigenvalues_, s, shift);
+  if (contour == nullptr) return dense_propagation(schur_.T, c, forcings, s, shift);  // rare
+  const Vector weights = weights_of(*contour, [](const ContourPoint& point) { return point.weight; });
+  return resolved(schur_.T, c, forcings, s, shift, *contour).transpose() * weights;
+}
+
+Times::Times(const std::vector<double>& s) : count_(s.size()) {
+  std::vector<std::size_t> order(s.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return std::abs(s[i]) < std::abs(s[j]); });
+  for (const std::size_t i : order) {
+    if (groups_.empty() || std::abs(s[i]) > shared_range * std::abs(groups_.back().s.front())) groups_.emplace_back();
+    groups_.back().places.push_back(i);
+    groups_.back().s.push_back(s[i]);
+  }
+}
+
+Matrix SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& forcings, const Times& times,
+                                   double shift) const {
+  Matrix values(c.size(), static_cast<Eigen::Index>(times.count_));
+  if (values.size() == 0) return values;
+  const auto column = [&](std::size_t i) { return values.col(static_cast<Eigen::Index>(i)); };
+  const std::size_t each = contours().front().points.size();
+  for (const Times::Group& group : times.groups_) {
+    const double shortest = group.s.front(), longest = group.s.back();
+    const Contour* const shared =
+        shortest == 0.0 ? nullptr
+                        : narrowest(shared_contours(), wide_ones(eigenvalues_, longest, shift, shortest / longest));
+    if (shared == nullptr || group.s.size() * each <= shared->points.size()) {
+      for (std::size_t k = 0; k < group.s.size(); ++k)
+        column(group.places[k]) = propagate(c, forcings, group.s[k], shift);
+      continue;
+    }
+    Matrix& weights = group.weights[shared - shared_contours().data()];
+    if (weights.size() == 0) weights = weights_at(*shared, group.s);
+    Matrix rows = Matrix::Zero(weights.rows(), c.size());
+    add_product(1.0, weights, resolved(schur_.T, c, forcings, longest, shift, *shared), rows);
+    for (std::size_t k = 0; k < group.s.size(); ++k)
+      column(group.places[k]) = rows.row(static_cast<Eigen::Index>(k)).transpose();
+  }
+  return values;
 }
 
 }  // namespace scabo::linalg

@@ -56,11 +56,10 @@ std::optional<std::string_view> mark_of(const std::string& name) {
   if (name == "convergence.csv") return convergence_table_header;
   if (name == "convergence.svg" || name == "convergence.svg.part") return convergence_plot_mark;
   if (name == "log.txt") return "Scabo ";
-  if (name == "checkpoint.hdf5" || name == "checkpoint.hdf5.new") return "scabo_checkpoint";
+  if (name == "checkpoint.state" || name == "checkpoint.state.new") return "scabo_checkpoint";
   if (name == model::state_at_end_file) return "scabo_end";
   if (name == model::factors_at_end_file) return "# Scabo: factors";
-  if (name == "end.hdf5.part") return "";
-  if (name == "checkpoint.hdf5.new.part") return "";  // may have been killed at any place
+  if (name == std::string(model::state_at_end_file) + ".part") return "scabo_end";
   if (name == "checkpoint.increments") return "scabo checkpoint";
   for (const PointTable table : point_tables)
     if (name == file_of(table)) return "step,increment,name,body,x,y,";  // in the plane and in space

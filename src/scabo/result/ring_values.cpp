@@ -27,9 +27,12 @@ Eigen::Matrix3Xd ring_stresses(const element::SolvedSuperElement& super_element,
 void values_inside(const element::SolvedSuperElement& super_element, const Vec2& centre, const RingSampling& sampling,
                    const element::RadialField& field, const element::InteriorLoads& interior, std::size_t first_level,
                    const SetValues& set) {
+  std::vector<double> xis(sampling.levels.begin() + static_cast<std::ptrdiff_t>(first_level), sampling.levels.end());
+  if (!super_element.domain.unbounded) xis.push_back(0.0);
+  const std::vector<element::RadialField::Values> fields = field.at(xis);
   for (std::size_t level = first_level; level < sampling.levels.size(); ++level) {
     const double xi = sampling.levels[level];
-    const element::RadialField::Values values = field.at(xi);
+    const element::RadialField::Values& values = fields[level - first_level];
     const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, xi, interior);
     for (std::size_t i = 0; i < sampling.size(); ++i) {
       const Vec2 x = xi * sampling.at(i, [&](int node) { return super_element.ring.node(node); });
@@ -40,7 +43,7 @@ void values_inside(const element::SolvedSuperElement& super_element, const Vec2&
     }
   }
   if (super_element.domain.unbounded) return;
-  const element::RadialField::Values values = field.at(0.0);
+  const element::RadialField::Values& values = fields.back();
   const Eigen::Matrix3Xd stresses = ring_stresses(super_element, sampling, values, centre, 0.0, interior);
   for (int c = 0; c <= sampling.centre.back(); ++c) {  // the mean of the sectors of one material
     element::Vec3 stress = element::Vec3::Zero();

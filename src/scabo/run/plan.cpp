@@ -50,7 +50,7 @@ Effort effort_of(const model::Model& model, const model::Body& body, const mesh:
   const element::Ring ring = element::ring_of(cell, nodes);
   const element::Elasticity D = element::sectors_of(model, cell).D;
   Effort effort;
-  effort.blocks = static_cast<int>(element::symmetry_blocks(ring, D).size());
+  effort.blocks = element::symmetry_block_count(ring, D);
   const auto rows = places_of(ring.nodes.size()) / effort.blocks;
   effort.last_digits = !body.outside && rows <= element::rows_with_last_digits(ring, D.contrast());
   return effort;

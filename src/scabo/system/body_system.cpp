@@ -16,28 +16,52 @@ std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const Positions& n
   return std::move(elastic_bodies(std::move(parts), 1).front());
 }
 
+namespace {
+
+/// Bodies by the hash of their stiffness.
+using Known = std::unordered_multimap<std::size_t, const ElasticBody*>;
+
+/// The one for which this holds; null if there is none.
+template <typename Holds>
+const ElasticBody* found(const Known& known, std::size_t hash, const Holds& holds) {
+  const auto [begin, end] = known.equal_range(hash);
+  const auto entry = std::find_if(begin, end, [&](const auto& of) { return holds(*of.second); });
+  return entry == end ? nullptr : entry->second;
+}
+
+}  // namespace
+
 std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart> parts, int threads,
-                                                        const linalg::SparseOptions& options) {
+                                                        const linalg::SparseOptions& options,
+                                                        const std::vector<std::unique_ptr<BodySystem>>* before) {
+  Known factorised, here;
+  for (std::size_t p = 0; before && p < before->size(); ++p)
+    if (const auto* body = dynamic_cast<const ElasticBody*>((*before)[p].get()))
+      factorised.emplace(hash_of(body->factored()->stiffness), body);
   std::vector<std::unique_ptr<ElasticBody>> bodies;
   std::vector<std::size_t> distinct;
   std::vector<double> work;
-  std::unordered_multimap<std::size_t, std::size_t> known;  // hash, distinct body
   for (ElasticPart& part : parts) {
     auto factored = std::make_shared<Factored>();
     factored->stiffness = std::move(part.stiffness);
     factored->largest_diagonal = factored->stiffness.largest_diagonal();
-    auto body = std::make_unique<ElasticBody>(factored, part.nodes, std::move(part.constraints));
+    factored->nodes = std::move(part.nodes);
+    factored->contact_dofs = std::move(part.contact_dofs);
+    auto body = std::make_unique<ElasticBody>(factored, factored->nodes, std::move(part.constraints));
     const std::size_t hash = hash_of(factored->stiffness);
-    const auto [begin, end] = known.equal_range(hash);
-    const auto same = std::find_if(begin, end, [&](const auto& entry) {
-      const ElasticBody& other = *bodies[entry.second];
-      return other.solved_dofs() == body->solved_dofs() && other.inclined() == body->inclined() &&
-             equal(other.factored()->stiffness, factored->stiffness);
-    });
-    if (same != end) {
-      body->share(bodies[same->second]->factored());
+    const auto equal_to = [&](const ElasticBody& other) { return other.equals(*body); };
+    // Of a body made before the factor must be the very one that would be made here.
+    const auto same_as = [&](const ElasticBody& other) {
+      return other.factored()->contact_dofs == factored->contact_dofs &&
+             other.factored()->nodes.columns() == factored->nodes.columns() && other.equals(*body);
+    };
+    if (const ElasticBody* const twin = found(here, hash, equal_to)) {
+      body->share(twin->factored());
+    } else if (const ElasticBody* const kept = found(factorised, hash, same_as)) {
+      body->share(kept->factored());
+      here.emplace(hash, body.get());
     } else {
-      known.emplace(hash, bodies.size());
+      here.emplace(hash, body.get());
       distinct.push_back(bodies.size());
       work.push_back(std::pow(static_cast<double>(factored->stiffness.size()), factored->stiffness.dense ? 3.0 : 1.5));
     }
@@ -47,7 +71,7 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   linalg::parallel_for(work, threads, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     try {
-      bodies[distinct[i]]->factorise(options, parts[distinct[i]].nodes, parts[distinct[i]].contact_dofs);
+      bodies[distinct[i]]->factorise(options);
     } catch (const linalg::NotPositiveDefinite&) {
       failed[i] = 1;
     }

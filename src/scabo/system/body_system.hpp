@@ -163,10 +163,12 @@ struct ElasticPart {
   std::vector<int> contact_dofs = {};
 };
 /// The same for many bodies, on up to `threads` threads. Bodies whose matrices are equal bit for bit, as those of equal
-/// blocks with equal supports are wherever they stand, share stiffness and factor. NotPositiveDefinite comes with the
-/// number of the body: see NotPositiveDefinitePart.
-std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart> parts, int threads,
-                                                        const linalg::SparseOptions& options = {});
+/// blocks with equal supports are wherever they stand, share stiffness and factor. `before`: bodies, of which those
+/// that are made again at the same place give theirs; no digit depends on that, and null is none. NotPositiveDefinite
+/// comes with the number of the body: see NotPositiveDefinitePart.
+std::vector<std::unique_ptr<BodySystem>> elastic_bodies(
+    std::vector<ElasticPart> parts, int threads, const linalg::SparseOptions& options = {},
+    const std::vector<std::unique_ptr<BodySystem>>* before = nullptr);
 
 /// Stiffness of this body is not positive definite to working precision.
 struct NotPositiveDefinitePart : linalg::NotPositiveDefinite {

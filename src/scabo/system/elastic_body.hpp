@@ -14,6 +14,9 @@ namespace scabo::system {
 struct Factored {
   Stiffness stiffness;
   double largest_diagonal = 0.0;  ///< of the stiffness: asked for often, and as long as a product with it
+  // Of the body that was factorised, which the order of elimination depends on:
+  Positions nodes;
+  std::vector<int> contact_dofs;
   linalg::SymmetricPositiveSolver solver;
 };
 
@@ -24,9 +27,11 @@ class ElasticBody final : public BodySystem {
   const std::vector<int>& solved_dofs() const { return dofs_; }
   const InclinedNodes& inclined() const { return inclined_; }
   const std::shared_ptr<Factored>& factored() const { return factored_; }
+  /// Whether the matrices of both are the same to the last bit.
+  bool equals(const ElasticBody& other) const;
   void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
   const void* factor() const override { return factored_.get(); }
-  void factorise(linalg::SparseOptions options, const Positions& nodes, const std::vector<int>& contact_dofs);
+  void factorise(linalg::SparseOptions options);
 
   Vector spring_forces(const Vector& u) const override { return -stiffness().springs.times(u); }
   bool is_flexible() const override { return true; }

@@ -146,7 +146,8 @@ std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const 
 }  // namespace
 
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks) {
+                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks,
+                         const Structure* before) {
   Structure structure;
   structure.dofs = Dofs(model, mesh);
   const Dofs& dofs = structure.dofs;
@@ -190,7 +191,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), std::move(contact_dofs[p])});
   }
   try {
-    auto bodies = elastic_bodies(std::move(parts), threads, options);
+    auto bodies = elastic_bodies(std::move(parts), threads, options, before ? &before->parts : nullptr);
     for (std::size_t k = 0; k < elastic.size(); ++k) structure.parts[elastic[k]] = std::move(bodies[k]);
   } catch (const NotPositiveDefinitePart& failed) {
     const std::size_t part = elastic[failed.part];

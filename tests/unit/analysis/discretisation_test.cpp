@@ -27,18 +27,20 @@ Discretisation discretised(const model::Model& model) {
   of.model = model;
   of.mesh = mesh::make_mesh(model);
   Timing timing;
-  discretise(of, {}, {}, timing);
+  discretise(of, nullptr, {}, timing);
   return of;
 }
 
-TEST(Discretisation, OfAnotherMeshKeepsTheSuperElementsThatStayTheSame) {
+TEST(Discretisation, OfAnotherMeshKeepsSuperElementsAndFactorsThatStayTheSame) {
   const Discretisation before = discretised(two_posts());
   model::Model finer = before.model;
   finer.bodies[1].mesh.size = 0.25;
   Timing timing;
-  const Discretisation after = remesh(before, mesh::make_mesh(finer), timing);
+  const Discretisation after = remesh(before, before.model, mesh::make_mesh(finer), timing);
   EXPECT_EQ(after.cells[0].front(), before.cells[0].front());
   EXPECT_NE(after.cells[1].front(), before.cells[1].front());
+  EXPECT_EQ(after.structure->parts[0]->factor(), before.structure->parts[0]->factor());
+  EXPECT_NE(after.structure->parts[1]->factor(), before.structure->parts[1]->factor());
   EXPECT_EQ(after.structure->parts[0]->size(), before.structure->parts[0]->size());
   EXPECT_EQ(after.structure->parts[1]->size(), 2 * before.structure->parts[1]->size());
   EXPECT_EQ(after.force_scale, before.force_scale);
@@ -52,7 +54,7 @@ TEST(Discretisation, TakesThePlaceOfAnotherUnderTheSameModel) {
   model::Model finer = of.model;
   finer.bodies[1].mesh.size = 0.25;
   const mesh::Mesh mesh = mesh::make_mesh(finer);
-  replace(of, remesh(of, mesh, timing));
+  replace(of, remesh(of, of.model, mesh, timing));
   EXPECT_EQ(of.model.steps.data(), step);
   EXPECT_EQ(of.model.steps.front().name, "pull");
   EXPECT_EQ(of.mesh.nodes(), mesh.nodes());

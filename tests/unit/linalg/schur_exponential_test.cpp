@@ -35,11 +35,18 @@ void expect_agrees(const Matrix& S, double tolerance) {
   EXPECT_EQ(trace.imag(), 0.0);
 
   const Vector c = Vector::LinSpaced(n, -1.0, 2.0), w = Vector::LinSpaced(n, 1.0, -0.5);
-  for (const Vector& load : {Vector(Vector::Zero(n)), w})
-    for (double s : {0.0, -1e-3, -0.1, -0.7, -2.3, -6.9}) {
+  const std::vector<double> times{0.0,   -2.3,  -1e-3, -2e-3, -0.1,
+                                  -5e-3, -0.01, -0.3,  -0.7,  -6.9};  // two share a contour
+  for (const Vector& load : {Vector(Vector::Zero(n)), w}) {
+    const Matrix together = schur.propagate(c, {{2.0, -load}}, times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double s = times[i];
       const Vector expected = oracle(schur.T(), c, load, s), psi = schur.propagate(c, {{2.0, -load}}, s);
       EXPECT_LT((psi - expected).norm(), tolerance * (c.norm() + load.norm())) << "s = " << s;
+      EXPECT_LT((together.col(static_cast<Eigen::Index>(i)) - expected).norm(), tolerance * (c.norm() + load.norm()))
+          << "s = " << s << " with others";
     }
+  }
 }
 
 TEST(SchurExponential, DefectiveEigenvalue) {
@@ -119,6 +126,47 @@ TEST(SchurExponential, FastModesVanish) {
   for (Eigen::Index i = 0; i < 5; ++i)  // the Schur form may have reordered them
     worst = std::max(worst, std::abs(psi[i] - std::exp(-schur.T()(i, i))));
   EXPECT_LT(worst, 1e-13);
+}
+
+// The same at many times that share a contour, from the longest to its 64th part, towards both sides: every entry is
+// that of the exact exponential. The slowest exponent, taken off, leaves a constant.
+TEST(SchurExponential, ManyTimesShareAContour) {
+  Vector exponents(40);
+  for (Eigen::Index i = 0; i < 40; ++i) exponents[i] = std::pow(10.0, 0.1 * static_cast<double>(i));
+  std::vector<double> times;
+  for (int k = 0; k <= 24; ++k) times.push_back(-3.2 * std::pow(64.0, -k / 24.0));
+  for (const double side : {1.0, -1.0}) {
+    const SchurExponential schur(Matrix((side * exponents).asDiagonal()));
+    std::vector<double> s;
+    for (const double time : times) s.push_back(side * time);
+    const Matrix psi = schur.propagate(Vector::Ones(40), {}, s, side);
+    for (Eigen::Index j = 0; j < psi.cols(); ++j)
+      for (Eigen::Index i = 0; i < 40; ++i) {
+        const double exact = std::exp((schur.T()(i, i) - side) * s[static_cast<std::size_t>(j)]);
+        EXPECT_NEAR(psi(i, j), exact, 1e-14) << "exponent " << schur.T()(i, i) << ", s = " << s[j];
+      }
+  }
+}
+
+// Pairs at 50 degrees from the axis, each turned by itself.
+TEST(SchurExponential, ManyTimesShareAWiderContour) {
+  Matrix S = Matrix::Zero(12, 12);
+  Vector c = Vector::Zero(12);
+  std::vector<double> s;
+  for (int k = 0; k <= 12; ++k) s.push_back(-1.5 * std::pow(64.0, -k / 12.0));
+  for (Eigen::Index i = 0; i < 12; i += 2) {
+    const double a = std::pow(3.0, static_cast<double>(i) / 2.0), b = a * std::tan(50.0 / 57.29577951308232);
+    S.block<2, 2>(i, i) << a, -b, b, a;
+    c[i] = 1.0;
+  }
+  const SchurExponential schur(S);
+  const Matrix psi = schur.U() * schur.propagate(schur.U().transpose() * c, {}, s);
+  for (Eigen::Index j = 0; j < psi.cols(); ++j)
+    for (Eigen::Index i = 0; i < 12; i += 2) {
+      const double time = s[static_cast<std::size_t>(j)], decayed = std::exp(S(i, i) * time);
+      EXPECT_NEAR(psi(i, j), decayed * std::cos(S(i + 1, i) * time), 3e-14);
+      EXPECT_NEAR(psi(i + 1, j), decayed * std::sin(S(i + 1, i) * time), 3e-14);
+    }
 }
 
 // The exponent of the body force, 2, may be an exponent of S too: psi = e^(2s) (c - s w).

@@ -270,6 +270,24 @@ TEST(ElasticBodies, EqualOnesShareTheirFactor) {
       if (i != 2 || j != 0) EXPECT_NE(bodies[i]->factor(), bodies[j]->factor()) << i << " and " << j;
 }
 
+TEST(ElasticBodies, KeepFactorsOfBodiesThatWereMadeBefore) {
+  const auto before = elastic_bodies(girders(), 1), after = elastic_bodies(girders(), 1, {}, &before);
+  const std::vector<int> dofs = {4, 9, 30, 46, 47, 1};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(after[i]->factor(), before[i]->factor());
+    EXPECT_EQ(after[i]->flexibility(dofs), before[i]->flexibility(dofs));
+  }
+  const auto fresh = elastic_bodies(girders(), 1);
+  EXPECT_NE(fresh[0]->factor(), before[0]->factor());
+  std::vector<ElasticPart> elsewhere = girders();
+  elsewhere[1] = girder(30, 3.0, {1, 0});  // its factor may have another order of elimination
+  EXPECT_NE(elastic_bodies(std::move(elsewhere), 1, {}, &before)[1]->factor(), before[1]->factor());
+  std::vector<ElasticPart> stiffer = girders();
+  stiffer[3].stiffness.sparse.coeffRef(20, 20) *= 1.0 + 1e-15;
+  const auto changed = elastic_bodies(std::move(stiffer), 1, {}, &before);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(changed[i]->factor() == before[i]->factor(), i != 3) << i;
+}
+
 /// However they are factorised: alone, together, on two threads, by another library.
 TEST(ElasticBodies, AreThoseThatAreMadeAlone) {
   std::vector<linalg::SparseOptions> libraries(1);

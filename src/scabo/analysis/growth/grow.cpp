@@ -133,12 +133,8 @@ model::Model Growing::longer(const std::vector<Vec2>& directions, const GrowthRe
 }
 
 Discretisation Growing::divided(model::Model model) {
-  Discretisation of;
-  of.model = std::move(model);
-  of.mesh = timed(solution_.timing.mesh, [&] { return mesh::make_mesh(of.model); });
-  of.threads = solution_.threads;
-  discretise(of, solution_.cells, {}, solution_.timing);
-  return of;
+  mesh::Mesh mesh = timed(solution_.timing.mesh, [&] { return mesh::make_mesh(model); });
+  return remesh(solution_, std::move(model), std::move(mesh), solution_.timing);
 }
 
 void Growing::go_on(Discretisation longer) {

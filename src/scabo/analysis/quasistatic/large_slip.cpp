@@ -435,7 +435,7 @@ FoundAnew find_pairs_anew(const LargeSlip& large, const Prepared& at, const Stat
     found.reason = "pairs were not found where the sides have moved: " + wrong->front().message;
     return found;
   }
-  found.discretisation = remesh(at.discretisation, std::get<mesh::Mesh>(std::move(divided)), timing);
+  found.discretisation = remesh(at.discretisation, at.model, std::get<mesh::Mesh>(std::move(divided)), timing);
   const Prepared prepared(found.discretisation, at.on_iteration);
 
   const std::vector<CarriedPair> carried = carried_to(prepared, before);

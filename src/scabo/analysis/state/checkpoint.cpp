@@ -149,8 +149,7 @@ Checkpoint read_checkpoint(const fs::path& directory, const std::string& version
 void remove_checkpoint(const fs::path& directory) noexcept {
   std::error_code ignored;
   const std::string name = checkpoint_name;
-  for (const std::string& of : {name, name + ".new", name + ".new.part", std::string(records_name)})
-    fs::remove(directory / of, ignored);
+  for (const std::string& of : {name, name + ".new", std::string(records_name)}) fs::remove(directory / of, ignored);
 }
 
 CheckpointWriter::CheckpointWriter(fs::path directory, Checkpoint begun)

@@ -1,10 +1,10 @@
 // Checkpoint of a static analysis: all that `scabo resume` needs to continue a run as if it had not been interrupted.
 // Two files in the results directory:
 //
-//   checkpoint.hdf5         the last state with its history, its position in the steps, what has been written to the
+//   checkpoint.state        the last state with its history, its position in the steps, what has been written to the
 //                           result files, and the origin of the run; replaced as a whole (written beside, synchronised
 //                           with the disk, renamed), so that there is always a complete one
-//   checkpoint.increments   a record for every increment so far, appended; the HDF5 file says how many count
+//   checkpoint.increments   a record for every increment so far, appended; the other file says how many count
 //
 // Displacements are not kept: they follow from the factors, the contact forces and the rigid motions by one solution
 // with the factorised stiffness. So a checkpoint grows with the number of pairs, not with that of nodes.

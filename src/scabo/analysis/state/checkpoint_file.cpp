@@ -55,8 +55,10 @@ void check_checkpoint(const fs::path& directory, const std::string& version) {
                       "run the model again with `scabo run`");
   std::string written_by;
   try {
-    written_by = Unsealing((directory / checkpoint_name).string(), checkpoint_group).text_of("version");
+    written_by = Unsealing(directory / checkpoint_name, checkpoint_mark).first_text();
   } catch (const InputError&) {
+    refuse_damaged_checkpoint(directory);
+  } catch (const std::out_of_range&) {
     refuse_damaged_checkpoint(directory);
   }
   if (!written_by.empty() && written_by != version)

@@ -11,8 +11,8 @@
 
 namespace scabo::analysis {
 
-inline constexpr const char* checkpoint_name = "checkpoint.hdf5";
-inline constexpr const char* checkpoint_group = "scabo_checkpoint/";
+inline constexpr const char* checkpoint_name = "checkpoint.state";
+inline constexpr const char* checkpoint_mark = "scabo_checkpoint\n";
 
 template <typename Io>
 void exchange_origin(Io& io, RunOrigin& origin) {
@@ -54,9 +54,9 @@ void put_in_place(const std::filesystem::path& written, const std::filesystem::p
 template <typename Exchange>
 void write_checkpoint_file(const std::filesystem::path& directory, const Exchange& exchange) {
   const std::filesystem::path written = directory / (std::string(checkpoint_name) + ".new");
-  Sealing io(written.string(), checkpoint_group);
+  Sealing io(checkpoint_mark);
   exchange(io);
-  io.finish();
+  io.write(written);
   put_in_place(written, directory / checkpoint_name);
 }
 
@@ -70,7 +70,7 @@ template <typename Read>
 void read_checkpoint_file(const std::filesystem::path& directory, const std::string& version, const Read& read) {
   check_checkpoint(directory, version);
   try {
-    Unsealing io((directory / checkpoint_name).string(), checkpoint_group);
+    Unsealing io(directory / checkpoint_name, checkpoint_mark);
     read(io);
   } catch (const InputError&) {
     refuse_damaged_checkpoint(directory);

@@ -21,9 +21,12 @@ double largest_load(const system::Structure& structure) {
 }
 
 /// Parts with their loads; pairs get the normals along which bodies may roll.
-std::shared_ptr<const system::Structure> make_systems(Discretisation& of, Timing& timing) {
-  const auto structure = std::make_shared<system::Structure>(timed(
-      timing.factorise, [&] { return system::make_structure(of.model, of.mesh, of.cells, of.threads, of.ranks); }));
+std::shared_ptr<const system::Structure> make_systems(Discretisation& of, const Discretisation* before,
+                                                      Timing& timing) {
+  const auto structure = std::make_shared<system::Structure>(timed(timing.factorise, [&] {
+    return system::make_structure(of.model, of.mesh, of.cells, of.threads, of.ranks,
+                                  before ? before->structure.get() : nullptr);
+  }));
   timing.factorise -= structure->assembly_seconds;
   timing.assemble += structure->assembly_seconds;
   const Stopwatch stopwatch(timing.assemble);
@@ -34,18 +37,17 @@ std::shared_ptr<const system::Structure> make_systems(Discretisation& of, Timing
 
 }  // namespace
 
-void discretise(Discretisation& of, const std::vector<element::SolvedCells>& before, const OnStage& on_stage,
-                Timing& timing) {
+void discretise(Discretisation& of, const Discretisation* before, const OnStage& on_stage, Timing& timing) {
   const auto stage = [&](const char* what) {
     if (on_stage) on_stage(what);
   };
   stage("super-elements");
   of.cells = timed(timing.super_elements, [&] {
     return element::solve_cells(of.model, of.mesh, of.threads, system::divided_bodies(of.ranks, of.model, of.mesh),
-                                before);
+                                before ? before->cells : std::vector<element::SolvedCells>());
   });
   stage("factorisation");
-  of.structure = make_systems(of, timing);
+  of.structure = make_systems(of, before, timing);
   stage("condensation to the contact pairs");
   const Stopwatch stopwatch(timing.condense);
   of.pairs = std::make_shared<system::ContactSystem>(system::condense(*of.structure, of.model, of.mesh, of.threads));
@@ -53,13 +55,13 @@ void discretise(Discretisation& of, const std::vector<element::SolvedCells>& bef
   of.references = references_of(of.model, of.mesh, of.cells, of.structure->dofs);
 }
 
-Discretisation remesh(const Discretisation& before, mesh::Mesh mesh, Timing& timing) {
+Discretisation remesh(const Discretisation& before, model::Model model, mesh::Mesh mesh, Timing& timing) {
   Discretisation after;
-  after.model = before.model;
+  after.model = std::move(model);
   after.mesh = std::move(mesh);
   after.threads = before.threads;
   after.ranks = before.ranks;
-  discretise(after, before.cells, {}, timing);
+  discretise(after, &before, {}, timing);
   return after;
 }
 

@@ -46,13 +46,13 @@ struct Discretisation {
 
 using OnStage = std::function<void(const std::string&)>;
 
-/// Solves the super-elements of the mesh, those that are the same to the last bit in `before` excepted, factorises the
-/// parts and condenses them to the pairs. `on_stage` may be empty.
-void discretise(Discretisation& of, const std::vector<element::SolvedCells>& before, const OnStage& on_stage,
-                Timing& timing);
+/// Solves the super-elements of the mesh, factorises the parts and condenses them to the pairs. `on_stage` may be
+/// empty. `before`: on another mesh, or null. Super-elements and elastic parts that are the same there to the last bit
+/// keep their solutions and factors.
+void discretise(Discretisation& of, const Discretisation* before, const OnStage& on_stage, Timing& timing);
 
-/// The same model on another mesh.
-Discretisation remesh(const Discretisation& before, mesh::Mesh mesh, Timing& timing);
+/// The model on another mesh, or with longer cracks: what has not changed is kept.
+Discretisation remesh(const Discretisation& before, model::Model model, mesh::Mesh mesh, Timing& timing);
 
 /// Goes on with another mesh of the same model. References into the model stay valid.
 void replace(Discretisation& of, Discretisation by);

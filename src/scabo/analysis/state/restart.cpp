@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* end_group = "scabo_end/";
-constexpr const char* end_version = "8";
+constexpr const char* end_mark = "scabo_end\n";
+constexpr const char* end_version = "9";
 
 template <typename Io, typename T, typename Exchange>
 void exchange_list(Io& io, const std::string& path, std::vector<T>& list, const Exchange& exchange) {
@@ -194,8 +194,8 @@ EndState read_end(const model::Model& model) {
   const std::string& directory = model.restart->directory;
   EndState end;
   try {
-    Unsealing io((fs::path(directory) / model::state_at_end_file).string(), end_group);
-    if (io.text_of("version") != end_version)
+    Unsealing io(fs::path(directory) / model::state_at_end_file, end_mark);
+    if (io.first_text() != end_version)
       refuse(model,
              {fmt::format("the state at the end of {} was written by another version of Scabo: run that model again",
                           directory)});
@@ -381,10 +381,10 @@ void write_end_state(const fs::path& directory, EndState end) {
   }
   stream.close();
   if (!stream) throw std::runtime_error(fmt::format("cannot write {}", factors.string()));
-  const fs::path file = directory / model::state_at_end_file, part = directory / "end.hdf5.part";
-  Sealing io(part.string(), end_group);
+  const fs::path file = directory / model::state_at_end_file, part = file.string() + ".part";
+  Sealing io(end_mark);
   exchange_end(io, end);
-  io.finish();
+  io.write(part);
   std::error_code error;
   fs::rename(part, file, error);
   if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), error.message()));

@@ -1,7 +1,7 @@
 // The end of a run, from which another run may start: `restart` of a model. Two files of a results directory
 // (model/restart_files.hpp):
 //
-//   end.hdf5   the state of every body and contact by name, and digests of what the two models must have in common
+//   end.state  the state of every body and contact by name, and digests of what the two models must have in common
 //   end.yaml   factors of loads and supports, which the reader of the other model needs for its steps, and the time and
 //              the velocity of the ground of a run that ended in motion
 //

@@ -1,10 +1,12 @@
-// Values in a group of an HDF5 file, with a digest that recognises accidental changes: for the file of a checkpoint
-// (checkpoint.hpp) and that of the end of a run (restart.hpp). One function describes a value for both directions: with
-// Sealing it is written, with Unsealing it is read.
+// Named values one after the other in a file, with a digest that recognises accidental changes: for the file of a
+// checkpoint (checkpoint.hpp) and that of the end of a run (restart.hpp). One function describes a value for both
+// directions: with Sealing it is written, with Unsealing it is read. Of this machine: numbers as they are in memory.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,74 +14,55 @@
 #include <vector>
 
 #include "scabo/analysis/state/increment_record.hpp"
+#include "scabo/base/error.hpp"
 #include "scabo/base/types.hpp"
-#include "scabo/contact/files/hdf5_file.hpp"
 
 namespace scabo::analysis {
 
 inline std::string hexadecimal(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 
-/// Writes values and their digest.
+/// Collects values, and writes them with their digest.
 class Sealing {
  public:
-  Sealing(const std::string& file, std::string group) : file_(file), group_(std::move(group)) {}
+  /// `mark`: the first line of the file, which says what it is.
+  explicit Sealing(std::string_view mark) : bytes_(mark) {}
   static constexpr bool reads = false;
 
-  void text(const std::string& path, std::string& value) {
-    add(path, value);
-    file_.text(group_ + path, value);
+  void text(std::string_view name, const std::string& value) { add(name, value.data(), value.size()); }
+  void numbers(std::string_view name, const std::vector<double>& values) {
+    add(name, values.data(), values.size() * sizeof(double));
   }
-  void numbers(const std::string& path, std::vector<double>& values) {
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
-    file_.numbers(group_ + path, values.data(), values.size());
+  void integers(std::string_view name, const std::vector<int>& values) {
+    add(name, values.data(), values.size() * sizeof(int));
   }
-  void integers(const std::string& path, std::vector<int>& values) {
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(int)});
-    file_.integers(group_ + path, values);
-  }
-  void finish() {
-    file_.text(group_ + "digest", hexadecimal(digest_));
-    file_.finish();
-  }
+  /// Throws std::runtime_error, and leaves no part of the file, if it cannot be written.
+  void write(const std::filesystem::path& file);
 
  private:
-  void add(const std::string& path, std::string_view bytes) { digest_ = digest(bytes, digest(path, digest_)); }
-  contact::Hdf5Writer file_;
-  std::string group_;
-  std::uint64_t digest_ = digest_start;
+  void add(std::string_view name, const void* values, std::size_t size);
+  std::string bytes_;
 };
 
-/// Reads them back; finish() fails if anything differs from what was written.
+/// Reads them back in the same order. Throws InputError if the file cannot be read and std::out_of_range if it is not
+/// what was written: finish() at the latest.
 class Unsealing {
  public:
-  Unsealing(const std::string& file, std::string group) : file_(file), group_(std::move(group)) {}
+  Unsealing(const std::filesystem::path& file, std::string_view mark);
   static constexpr bool reads = true;
 
-  /// A text that is read before the others, without effect on the digest.
-  std::string text_of(const std::string& path) const { return file_.text(group_ + path); }
-  void text(const std::string& path, std::string& value) {
-    value = file_.text(group_ + path);
-    add(path, value);
-  }
-  void numbers(const std::string& path, std::vector<double>& values) {
-    const Vector read = file_.numbers(group_ + path);
-    values.assign(read.begin(), read.end());
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
-  }
-  void integers(const std::string& path, std::vector<int>& values) {
-    values.clear();
-    for (const std::int64_t value : file_.integers(group_ + path)) values.push_back(static_cast<int>(value));
-    add(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(int)});
-  }
-  void finish() const {
-    if (file_.text(group_ + "digest") != hexadecimal(digest_)) file_.fail("digest", "does not belong to the values");
-  }
+  /// The first value, a text, before the others are read: also of a file that another version wrote.
+  std::string first_text() const;
+  void text(std::string_view name, std::string& value) { value = next(name); }
+  void numbers(std::string_view name, std::vector<double>& values) { take(name, values); }
+  void integers(std::string_view name, std::vector<int>& values) { take(name, values); }
+  void finish() const;
 
  private:
-  void add(const std::string& path, std::string_view bytes) { digest_ = digest(bytes, digest(path, digest_)); }
-  contact::Hdf5Reader file_;
-  std::string group_;
-  std::uint64_t digest_ = digest_start;
+  std::string_view next(std::string_view name);
+  template <typename T>
+  void take(std::string_view name, std::vector<T>& values);
+  std::string bytes_;
+  std::string_view left_;  // of bytes_
 };
 
 template <typename Io, typename T>

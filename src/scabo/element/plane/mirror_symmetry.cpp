@@ -123,6 +123,8 @@ std::vector<Mirror> find_mirrors(const Ring& ring, const Elasticity& D) {
 
 }  // namespace
 
+int symmetry_block_count(const Ring& ring, const Elasticity& D) { return 1 << find_mirrors(ring, D).size(); }
+
 std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const Elasticity& D) {
   const int nodes = static_cast<int>(ring.nodes.size());
   const std::vector<Mirror> mirrors = find_mirrors(ring, D);
@@ -138,13 +140,14 @@ std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const
   const Vec2 along = mirrors[0].axis, across(-along.y(), along.x());
   const double component_sign[2][2] = {{1.0, -1.0}, {-1.0, 1.0}};
   std::vector<Eigen::SparseMatrix<double>> blocks;
+  std::vector<std::pair<int, double>> terms, vector;  // kept for their memory
   for (int k = 0; k < (1 << group); ++k) {
     std::vector<Eigen::Triplet<double>> entries;
     int columns = 0;
     for (int node = 0; node < nodes; ++node)
       for (int component = 0; component < 2; ++component) {
         // The unit displacement of this node, projected on the block: images under all products of the mirrors.
-        std::vector<std::pair<int, double>> terms{{node, 1.0}};
+        terms.assign({{node, 1.0}});
         for (std::size_t g = 0; g < group; ++g) {
           const double character = (k >> g) & 1 ? -1.0 : 1.0;
           const std::size_t count = terms.size();
@@ -154,7 +157,7 @@ std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const
         }
         std::sort(terms.begin(), terms.end());
         if (terms.front().first != node) continue;  // this orbit was handled at its lowest node
-        std::vector<std::pair<int, double>> vector;
+        vector.clear();
         for (const auto& [at, value] : terms) {
           if (!vector.empty() && vector.back().first == at)
             vector.back().second += value;

@@ -16,5 +16,7 @@ namespace scabo::element {
 /// Orthonormal bases T_k (n x n_k, sparse) of the blocks; their sizes add up to n. Without symmetry there is one, the
 /// identity. An open ring (a crack, a notch) has at most one mirror line, which exchanges its faces.
 std::vector<Eigen::SparseMatrix<double>> symmetry_blocks(const Ring& ring, const Elasticity& D);
+/// How many: 1, 2 or 4.
+int symmetry_block_count(const Ring& ring, const Elasticity& D);
 
 }  // namespace scabo::element

@@ -70,18 +70,21 @@ std::vector<double> sector_differences(const SuperElementField& narrower, const 
   const RadialField u(narrower.solution, narrower.modal, narrower.u, {}), U(wider.solution, wider.modal, wider.u, {});
   const bool unbounded = wider.solution.domain.unbounded;
   std::vector<double> energies(wider.ring.elements.size(), 0.0);
-  for (const RadialPoint& radial : radial_points()) {
-    // Unbounded: xi = 1 / s, xi dxi = ds / s^3.
-    const double s = radial.xi, xi = unbounded ? 1.0 / s : s,
-                 measure = radial.weight * (unbounded ? 1.0 / (s * s * s) : s);
-    const RadialField::Values of_u = u.at(xi);
-    RadialField::Values difference = U.at(xi);
+  // Unbounded: xi = 1 / s, xi dxi = ds / s^3.
+  const std::vector<RadialPoint> radial = radial_points();
+  std::vector<double> xis;
+  for (const RadialPoint& point : radial) xis.push_back(unbounded ? 1.0 / point.xi : point.xi);
+  const std::vector<RadialField::Values> of_u = u.at(xis);
+  std::vector<RadialField::Values> of_U = U.at(xis);
+  for (std::size_t i = 0; i < radial.size(); ++i) {
+    const double s = radial[i].xi, measure = radial[i].weight * (unbounded ? 1.0 / (s * s * s) : s);
+    RadialField::Values& difference = of_U[i];
     const auto subtract = [&](Vector& from, const Vector& values) {
       from -= prolonged(narrower.ring.elements, values, wider.ring.elements, from.size());
     };
-    subtract(difference.u, of_u.u);
-    subtract(difference.u_xi, of_u.u_xi);
-    subtract(difference.u_part, of_u.u_part);
+    subtract(difference.u, of_u[i].u);
+    subtract(difference.u_xi, of_u[i].u_xi);
+    subtract(difference.u_part, of_u[i].u_part);
     for (std::size_t e = 0; e < energies.size(); ++e) {
       const mesh::LineElement& element = wider.ring.elements[e];
       const geometry::GaussRule rule = geometry::gauss_rule(order_of(element) + 1);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/parallel.hpp"
@@ -146,48 +147,69 @@ RadialField::RadialField(const SuperElementSolution& solution, const ModalSoluti
   }
 }
 
-RadialField::Values RadialField::at(double xi) const {
-  const bool unbounded = solution_.domain.unbounded, finite = slowest_ == 1.0;
+/// Where strains there are infinite.
+RadialField::Values RadialField::centre() const {
   const Eigen::Index n = solution_.K.rows();
-  Values values{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
-  xi = unbounded ? std::max(xi, 1.0) : std::clamp(xi, 0.0, 1.0);
-  if (xi == 0.0 && !finite) {
-    for (const Part& part : parts_) values.u += *part.T * (*part.R * part.a0);
-    values.u_xi.setConstant(std::nan(""));
-    values.u_part.setConstant(std::nan(""));
-    return values;
+  Values values{Vector::Zero(n), Vector::Constant(n, std::nan("")), Vector::Constant(n, std::nan(""))};
+  for (const Part& part : parts_) values.u += *part.T * (*part.R * part.a0);
+  return values;
+}
+
+void RadialField::add(std::size_t block, const Vector& moving, const Vector& slope, double xi, double s, double shift,
+                      Values& values) const {
+  const Part& part = parts_[block];
+  const double scale = std::pow(xi, shift), strain_scale = std::pow(xi, shift - 1.0);
+  Vector a = part.a0, a_xi = Vector::Zero(part.a0.size());
+  for (const Translation& translation : part.translations) {
+    a += std::pow(xi, translation.power) * translation.b;
+    a_xi += translation.power * std::pow(xi, translation.power - 1.0) * translation.b;
   }
+  if (part.growth.size() > 0) {
+    a += part.growth * s;
+    a_xi += part.growth / xi;
+  }
+  Vector u = scale * moving + *part.R * a, u_part = strain_scale * moving;
+  if (part.constant.size() > 0) {
+    const std::vector<int>& I = solution_.blocks[block].I;
+    u(I) += part.constant;
+    u_part(I) += part.constant / xi;
+  }
+  values.u += *part.T * u;  // eq. (2)
+  values.u_part += *part.T * u_part;
+  values.u_xi += *part.T * (strain_scale * slope + *part.R * a_xi);  // eq. (3)
+}
+
+RadialField::Values RadialField::at(double xi) const { return std::move(at(std::vector{xi}).front()); }
+
+std::vector<RadialField::Values> RadialField::at(const std::vector<double>& xis) const {
+  const bool unbounded = solution_.domain.unbounded, finite = slowest_ == 1.0;
   // psi / xi^shift, because strains near the centre would otherwise be quotients of small numbers. Nothing decays more
   // slowly; constant terms no longer change below 1e-9.
   const double shift = unbounded ? -slowest_ : slowest_;
-  const double s = std::log(finite ? std::max(xi, 1e-9) : xi);
-  const double scale = std::pow(xi, shift), strain_scale = std::pow(xi, shift - 1.0);
-  for (std::size_t b = 0; b < parts_.size(); ++b) {
-    const Part& part = parts_[b];
-    const auto& modes = part.modal->modes;
-    const Vector psi = modes.propagate(part.c, part.w, s, shift);
-    Vector slope = modes.T() * psi;
-    for (const linalg::Forcing& forcing : part.w) slope += std::pow(xi, forcing.power - shift) * forcing.w;
-    const Vector moving = part.modal->Phi * psi;
-    Vector a = part.a0, a_xi = Vector::Zero(part.a0.size());
-    for (const Translation& translation : part.translations) {
-      a += std::pow(xi, translation.power) * translation.b;
-      a_xi += translation.power * std::pow(xi, translation.power - 1.0) * translation.b;
-    }
-    if (part.growth.size() > 0) {
-      a += part.growth * s;
-      a_xi += part.growth / xi;
-    }
-    Vector u = scale * moving + *part.R * a, u_part = strain_scale * moving;
-    if (part.constant.size() > 0) {
-      const std::vector<int>& I = solution_.blocks[b].I;
-      u(I) += part.constant;
-      u_part(I) += part.constant / xi;
-    }
-    values.u += *part.T * u;  // eq. (2)
-    values.u_part += *part.T * u_part;
-    values.u_xi += *part.T * (strain_scale * (part.modal->Phi * slope) + *part.R * a_xi);  // eq. (3)
+  const auto clamped = [&](double xi) { return unbounded ? std::max(xi, 1.0) : std::clamp(xi, 0.0, 1.0); };
+  std::vector<double> s;
+  for (const double at : xis) {
+    const double xi = clamped(at);
+    s.push_back(finite ? std::log(std::max(xi, 1e-9)) : xi > 0.0 ? std::log(xi) : 0.0);
   }
+  const linalg::Times times(s);
+  const Vector zero = Vector::Zero(solution_.K.rows());
+  std::vector<Values> values(xis.size(), Values{zero, zero, zero});
+  for (std::size_t block = 0; block < parts_.size(); ++block) {
+    const Part& part = parts_[block];
+    const Matrix psi = part.modal->modes.propagate(part.c, part.w, times, shift);
+    Matrix psi_xi = part.modal->modes.T() * psi;  // times xi
+    for (const linalg::Forcing& forcing : part.w)
+      for (Eigen::Index i = 0; i < psi_xi.cols(); ++i)
+        psi_xi.col(i) += std::pow(clamped(xis[static_cast<std::size_t>(i)]), forcing.power - shift) * forcing.w;
+    const Matrix moving = part.modal->Phi * psi, slope = part.modal->Phi * psi_xi;
+    for (std::size_t i = 0; i < xis.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      add(block, moving.col(column), slope.col(column), clamped(xis[i]), s[i], shift, values[i]);
+    }
+  }
+  for (std::size_t i = 0; i < xis.size(); ++i)
+    if (clamped(xis[i]) == 0.0 && !finite) values[i] = centre();
   return values;
 }
 

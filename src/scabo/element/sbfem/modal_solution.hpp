@@ -85,8 +85,10 @@ class RadialField {
   /// 0 <= xi <= 1. At the centre the values are limits, and infinite values are not a number. Unbounded domain: xi >=
   /// 1.
   Values at(double xi) const;
+  std::vector<Values> at(const std::vector<double>& xis) const;  ///< cheaper than one by one
 
  private:
+  Values centre() const;
   struct Translation {
     double power = 0.0;
     Vector b;  // eq. (2)
@@ -101,6 +103,9 @@ class RadialField {
     std::vector<Translation> translations;  // eq. (2)
     Vector constant, growth;                // unbounded: V F, C F
   };
+  /// Phi psi and its derivative times xi, both over xi^shift, of a block at s = ln xi.
+  void add(std::size_t block, const Vector& moving, const Vector& slope, double xi, double s, double shift,
+           Values& values) const;
   void set_loads(const Block& block, const ModalBlock& modes, const std::vector<RadialLoad>& loads, Part& part) const;
   const SuperElementSolution& solution_;
   std::shared_ptr<const InternalModes> inside_;

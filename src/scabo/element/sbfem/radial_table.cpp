@@ -51,8 +51,11 @@ RadialField::Values RadialTable::at(double xi) const {
   const Interval& interval = *found;
   const Chebyshev& rule = chebyshev();
   const double middle = 0.5 * (interval.from + interval.to), half = 0.5 * (interval.to - interval.from);
-  if (interval.values.empty())
-    for (const double point : rule.points) interval.values.push_back(field_.at(std::exp(middle + half * point)));
+  if (interval.values.empty()) {
+    std::vector<double> xis;
+    for (const double point : rule.points) xis.push_back(std::exp(middle + half * point));
+    interval.values = field_.at(xis);
+  }
   const double t = (s - middle) / half;
   std::array<double, points_of_interval> weights;
   double sum = 0.0;
