@@ -93,6 +93,33 @@ class Numbers(support.InTemporaryDirectory):
         for increment in increments:
             self.assertAlmostEqual(increment["contacts"]["touch"]["normal_force"][2], 20, delta=1e-9 * 20)
 
+    def test_mesh_in_another_file(self):
+        """What the deck includes tells that it is one of solids."""
+        deck = self.two_blocks("C3D8", lambda top: "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in top))
+        head, rest = deck.split("*MATERIAL", 1)
+        (self.directory / "mesh.msh").write_text(head, encoding="utf-8")
+        increment, = self.solve("*INCLUDE, INPUT=mesh.msh\n*MATERIAL" + rest)
+        self.assertAlmostEqual(increment["contacts"]["touch"]["normal_force"][2], 20, delta=1e-9 * 20)
+
+    def test_temperature(self):
+        """A block between held faces, with nu = 0: the stress E alpha T of the change from the initial temperature, over two steps."""
+        text, _, _ = block("C3D20R", (2, 2, 1), (2, 2, 1), 0, 1, "LOWER")
+        deck = (text + "*NSET, NSET=WHOLE\n" + "".join(line.split(",")[0] + "\n" for line in text.split("*ELEMENT")[0].splitlines()[1:])
+                + "*MATERIAL, NAME=steel\n*ELASTIC\n1000., 0.\n*EXPANSION\n1e-3\n*SOLID SECTION, ELSET=LOWER, MATERIAL=steel\n"
+                + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nWHOLE, 20.\n*BOUNDARY\nLOWER_BOTTOM, 3\nLOWER_LEFT, 1\nLOWER_FRONT, 2\n*STEP\n*STATIC\n0.5, 1.\n"
+                + "*BOUNDARY\nLOWER_TOP, 3, 3, 1e-3\n*TEMPERATURE\nWHOLE, 50.\n*END STEP\n*STEP\n*STATIC\n*TEMPERATURE, OP=NEW\nWHOLE, 10.\n*END STEP\n")
+        increments = self.solve(deck)
+        pushes = [increment["reactions"]["LOWER_TOP"][2] for increment in increments]
+        for found, change, way in zip(pushes, (15, 30, -10), (0.5e-3, 1e-3, 1e-3), strict=True):
+            self.assertAlmostEqual(found, 4 * 1000 * (way - 1e-3 * change), delta=1e-9 * 120)
+        for old, new, sentence in (("WHOLE, 50.", "LOWER_TOP, 50.", "the change of temperature is not the same at all nodes of body 'LOWER'"),
+                                   ("*TEMPERATURE\n", "*TEMPERATURE, FILE=x\n", "*TEMPERATURE with FILE is not taken"),
+                                   ("*STEP\n*STATIC\n0.5, 1.\n", "*AMPLITUDE, NAME=a\n0., 0., 1., 1.\n*STEP\n*STATIC\n0.5, 1.\n*TEMPERATURE, AMPLITUDE=a\nWHOLE, 50.\n", "with an initial one that is not 0 is not taken")):
+            (self.directory / "deck.inp").write_text(deck.replace(old, new, 1), encoding="utf-8")
+            done = scabo("convert", self.directory / "deck.inp", "--force")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(sentence, done.stderr)
+
     def test_rigid_contact(self):
         """A soft contact, or one that presses before it touches, is a hard one if the user says so."""
         deck = self.two_blocks("C3D8", lambda top: "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in top))

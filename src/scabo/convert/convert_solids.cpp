@@ -54,6 +54,7 @@ class SolidConverter {
     write_forces();
     write_pressures();
     write_body_loads();
+    write_temperatures();
     write_contacts();
     to_.parts.steps = steps_text(to_.content.steps, to_.driven, to_.parts.curves, true);
     to_.parts.title = to_.content.title;
@@ -202,6 +203,34 @@ class SolidConverter {
                                             to_.bodies.bodies[b].name));
         to_.add_vector_load("gravity", "on: " + to_.bodies.bodies[b].name, "gravity", courses);
       }
+    }
+  }
+
+  /// Each of a whole body, since one of Scabo's is a formula of the coordinates.
+  void write_temperatures() {
+    std::map<int, std::size_t> nodes;  // of the deck, by body
+    for (std::size_t i = 0; i < to_.deck.node_numbers.size(); ++i)
+      nodes[to_.bodies.of_node[i]] += to_.deck.node_numbers[i] > 0;
+    std::map<std::pair<int, Course>, std::pair<std::size_t, const Given*>> groups;
+    for (const auto& [node, given] : to_.content.temperatures) {
+      if (node < 0) continue;
+      auto& [count, first] = groups[{static_cast<int>(body_of(node)), given.course}];
+      ++count;
+      first = &given;
+    }
+    for (const auto& [key, group] : groups) {
+      const auto& [body, course] = key;
+      if (is_zero(course)) continue;
+      if (group.first < nodes.at(body)) {
+        to_.remarks.essential(group.second->at,
+                              fmt::format("the change of temperature is not the same at all nodes of body '{}', and is "
+                                          "not taken; give the body one, or a `temperature` load of the model",
+                                          to_.name_of(body)));
+        continue;
+      }
+      const double scale = scale_of(course);
+      to_.add_load("temperature", fmt::format("on: {}, temperature: {}", to_.name_of(body), number_text(scale)),
+                   scaled(course, 1.0 / scale));
     }
   }
 

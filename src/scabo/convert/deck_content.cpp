@@ -63,6 +63,7 @@ class ContentReader {
       content_.body_loads.push_back(
           {load.set, load.kind, std::move(load.x.given), std::move(load.y.given), std::move(load.z.given)});
     }
+    for (auto& [key, growing] : temperatures_) content_.temperatures.emplace(key.first, std::move(growing.given));
     content_.references = nodes_.take_references();
     tell_left_out();
     return std::move(content_);
@@ -81,7 +82,7 @@ class ContentReader {
     if (in_step_) end_step();
     in_step_ = true;
     has_procedure_ = false;
-    new_displacements_ = new_forces_ = new_pressures_ = false;
+    new_displacements_ = new_forces_ = new_pressures_ = new_temperatures_ = false;
     content_.steps.push_back(begun_step(block, told_of_large_displacements_, remarks_));
     told_of_large_displacements_ = told_of_large_displacements_ || asks_for_large_displacements(block);
   }
@@ -165,6 +166,7 @@ class ContentReader {
     for (auto& [key, growing] : displacements_) finish(growing, false);
     for (auto& [key, growing] : forces_) finish(growing, new_forces_);
     for (auto& [key, growing] : pressures_) finish(growing, new_pressures_);
+    for (auto& [key, growing] : temperatures_) finish(growing, new_temperatures_);
     for (GrowingBodyLoad& load : body_loads_)
       for (Growing* component : {&load.x, &load.y, &load.z}) finish(*component, new_pressures_);
     tell_what_is_removed(dload_, dsload_, "*DSLOAD");
@@ -269,6 +271,39 @@ class ContentReader {
           remarks_.essential(line.at,
                              fmt::format("a load along degree of freedom {:g} does not act on a {} and is lost", *dof,
                                          node < 0 ? "reference node" : nodes_.body()));
+      }
+    }
+  }
+
+  // ---- temperatures of solids
+
+  void initial_temperatures(const DeckBlock& block) {
+    remarks_.note(block.at, "*INITIAL CONDITIONS of temperature are left out; they act by their changes only");
+    if (!deck_.solid) return;
+    for (const DeckLine& line : block.lines)
+      if (const auto value = number(remarks_, line, 1, "the initial temperature"))
+        for (const int node : nodes_.named(line, "the initial temperature", remarks_)) initial_[node] = *value;
+  }
+
+  void temperature(const DeckBlock& block) {
+    const auto amplitude = amplitude_of(block);
+    if (!amplitude || !needs_step(block)) return;
+    for (const auto& [name, value] : block.parameters)
+      if (name != "OP" && name != "AMPLITUDE")
+        remarks_.essential(block.at, fmt::format("*TEMPERATURE with {} is not taken; write the values as numbers",
+                                                 files::printable(name)));
+    if (is_new(block)) new_temperatures_ = true;
+    for (const DeckLine& line : block.lines) {
+      const auto value = number(remarks_, line, 1, "the temperature");
+      if (!value) continue;
+      for (const int node : nodes_.named(line, "the temperature", remarks_)) {
+        const auto initial = initial_.find(node);
+        const double before = initial == initial_.end() ? 0.0 : initial->second;
+        if (!amplitude->empty() && before != 0.0)
+          remarks_.essential(line.at,
+                             "a temperature by an *AMPLITUDE with an initial one that is not 0 is not taken; count "
+                             "temperatures from the initial one");
+        grow(temperatures_[{node, 0}], *value - before, *amplitude, line, false);
       }
     }
   }
@@ -385,7 +420,9 @@ class ContentReader {
     } else if (name == "DLOAD" || name == "DSLOAD") {
       dload(block);
     } else if (name == "INITIALCONDITIONS" && upper(parameter(block, "TYPE")) == "TEMPERATURE") {
-      remarks_.note(block.at, "*INITIAL CONDITIONS of temperature are left out; they act by their changes only");
+      initial_temperatures(block);
+    } else if (name == "TEMPERATURE" && deck_.solid) {
+      temperature(block);
     } else if (name != "AMPLITUDE" && !read_material_block(deck_, block, content_, remarks_) &&
                !contacts_.read(block, in_step_)) {
       other(block);
@@ -426,12 +463,14 @@ class ContentReader {
   const std::map<std::string, Amplitude> amplitudes_ = read_amplitudes(deck_, remarks_);
   std::map<std::string, std::vector<const DeckBlock*>> left_out_;
   DeckContent content_;
-  Table displacements_, forces_, pressures_;
+  Table displacements_, forces_, pressures_, temperatures_;
   std::vector<GrowingBodyLoad> body_loads_;
   ContactReader contacts_{content_, remarks_, [this](const std::string& name) { return nodes_named(deck_, name); }};
   bool in_step_ = false, has_procedure_ = false, told_of_large_displacements_ = false;
   int outside_of_steps_ = 0;  // lines of displacements before the first step
-  bool new_displacements_ = false, new_forces_ = false, new_pressures_ = false;  // OP=NEW in this step
+  bool new_displacements_ = false, new_forces_ = false, new_pressures_ = false,
+       new_temperatures_ = false;  // OP=NEW in this step
+  std::map<int, double> initial_;  // temperatures, by node
   DistributedLoads dload_, dsload_;
   double total_time_ = 0.0;
 };

@@ -84,6 +84,7 @@ struct DeckContent {
   std::map<std::pair<int, int>, Given> forces;
   std::map<std::pair<int, int>, Given> pressures;  ///< side of the mesh, by key_of
   std::vector<DeckBodyLoad> body_loads;
+  std::map<int, Given> temperatures;  ///< of solids, by node: changes from the initial ones
   std::vector<DeckReference> references;
 };
 

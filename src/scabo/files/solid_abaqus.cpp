@@ -379,14 +379,12 @@ AbaqusDeck SolidReader::read_deck() {
 
 }  // namespace
 
-bool is_solid_deck(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string line = upper(text.substr(0, end));
-    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
-    if (line.starts_with("*ELEMENT,") && line.find("TYPE=C3D") != std::string::npos) return true;
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+bool is_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include) {
+  MeshBuilder builder(file);
+  AbaqusLines lines(text, file, read_include, builder);
+  AbaqusKeyword key;
+  while (lines.next_keyword(key))
+    if (key.name == "ELEMENT" && upper(key.value("TYPE")).starts_with("C3D")) return true;
   return false;
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "solid_blocks.hpp"
+#include <Eigen/Geometry>
+
+#include "support/solid_blocks.hpp"
 
 namespace scabo::analysis {
 namespace {
@@ -40,7 +42,8 @@ TEST(LargeMotions, AreThoseBeyondTheTheory) {
     const auto large = large_motion_of(motions, rigid);
     return large ? large->body : -1;
   };
-  const SolidMotion still = moved(none, none), far = moved({0.0, 0.31, 0.0}, none), near = moved({0.0, 0.29, 0.0}, none);
+  const SolidMotion still = moved(none, none), far = moved({0.0, 0.31, 0.0}, none),
+                    near = moved({0.0, 0.29, 0.0}, none);
   EXPECT_EQ(found({still, near}, {false, false}), -1);
   EXPECT_EQ(found({still, far}, {false, false}), 1);
   EXPECT_EQ(found({still, far}, {false, true}), -1);  // a rigid body may be driven as far as it likes
