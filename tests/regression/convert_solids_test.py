@@ -1,4 +1,5 @@
 """`scabo convert` of decks of solids: models in space, against closed forms."""
+import re
 import unittest
 
 import support
@@ -120,6 +121,27 @@ class Numbers(support.InTemporaryDirectory):
             self.assertEqual(done.returncode, 1)
             self.assertIn(sentence, done.stderr)
 
+    def test_adjust(self):
+        """Nodes of the slave within the distance, or of the set, are moved onto the master: blocks that are 0.01 apart touch from the start."""
+        deck = self.two_blocks("C3D8", lambda top: "*BOUNDARY\nUPPER_TOP, 3, 3, -0.02\n").replace("LOWER_BOTTOM, 3", "LOWER_BOTTOM, 3\nUPPER_BOTTOM, 1, 2")
+        apart = re.sub(r"(?m)^(1\d\d\d, .*), 1\.0$", r"\1, 1.01", deck)
+        self.assertNotEqual(apart, deck)
+        forces = {}
+        for name, text in (("apart", apart), ("within", apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.011,")),
+                           ("set", apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=UPPER_BOTTOM,")),
+                           ("too far", apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.009,"))):
+            increment, = self.solve(text)
+            forces[name] = increment["contacts"]["touch"]["normal_force"][2]
+        self.assertAlmostEqual(forces["within"], forces["set"], delta=1e-9 * forces["set"])
+        self.assertAlmostEqual(forces["apart"], forces["too far"], delta=1e-12)
+        self.assertGreater(forces["within"], 1.9 * forces["apart"])
+        bent = apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.011,")
+        bent = re.sub(r"(?m)^(\d\d?, .*), 1\.0$", r"\1, 1.001", bent, count=1)
+        (self.directory / "deck.inp").write_text(bent, encoding="utf-8")
+        done = scabo("convert", self.directory / "deck.inp", "--force")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("ADJUST moves nodes onto a plane master only", done.stderr)
+
     def test_rigid_contact(self):
         """A soft contact, or one that presses before it touches, is a hard one if the user says so."""
         deck = self.two_blocks("C3D8", lambda top: "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in top))
@@ -141,7 +163,6 @@ class Refused(support.InTemporaryDirectory):
                 ("*BOUNDARY", "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n*BOUNDARY", "*EQUATION joins degrees of freedom"),
                 ("SLAVE, MASTER", "MASTER, MASTER", "each of both surfaces must be of one body, and not of the same"),
                 ("SLAVE, MASTER", "NONE, MASTER", "there is no surface 'NONE' with outer sides of solid elements"),
-                ("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.1,", "ADJUST moves nodes, which is not done in space"),
                 ("PRESSURE-OVERCLOSURE=HARD\n", "PRESSURE-OVERCLOSURE=EXPONENTIAL\n1e-3, 5.\n", "presses before the surfaces touch"),
                 ("1001, 3, -7.", "1001, 4, -7.", "a load along degree of freedom 4 does not act on a solid and is lost"),
                 ("1001, 3, -7.", "9999, 3, -7.", "the force at node 9999, which belongs to no solid element, is lost"),

@@ -13,6 +13,7 @@
 #include "scabo/convert/deck_content.hpp"
 #include "scabo/convert/deck_elements.hpp"
 #include "scabo/convert/deck_names.hpp"
+#include "scabo/convert/solid_adjust.hpp"
 #include "scabo/convert/solid_bodies_of_deck.hpp"
 #include "scabo/convert/solid_model_writer.hpp"
 #include "scabo/convert/write_model.hpp"
@@ -236,13 +237,6 @@ class SolidConverter {
 
   // ---- contacts
 
-  void tell_adjustment(const DeckContact& contact) {
-    if (contact.adjust_within.value_or(0.0) > 0.0 || contact.adjusted_nodes)
-      to_.remarks.essential(contact.at,
-                            "ADJUST moves nodes, which is not done in space; move them in the deck, or give the "
-                            "contact of the model a 'gap'");
-  }
-
   void write_contacts() {
     for (const DeckContact& contact : to_.content.contacts) {
       const auto interaction = to_.content.interactions.find(contact.interaction);
@@ -250,7 +244,6 @@ class SolidConverter {
       if (!contact.tie && !contact.interaction.empty() && !known)
         to_.remarks.essential(contact.at, fmt::format("there is no *SURFACE INTERACTION '{}'; correct its name",
                                                       files::printable(contact.interaction)));
-      tell_adjustment(contact);
       const auto master = to_.surface(contact.master, contact.at), slave = to_.surface(contact.slave, contact.at);
       if (master.empty() || slave.empty()) continue;
       if (master.size() > 1 || slave.size() > 1 || master.begin()->first == slave.begin()->first) {
@@ -261,6 +254,7 @@ class SolidConverter {
       }
       const auto& [a, a_sides] = *master.begin();
       const auto& [b, b_sides] = *slave.begin();
+      adjust_solids(to_.deck, contact, a_sides, b_sides, to_.remarks);
       if (known && !contact.tie) {
         const auto stiffness = [](const SolidDeckBody& body) {
           return body.rigid ? HUGE_VAL : body.young / std::cbrt(body.volume);
