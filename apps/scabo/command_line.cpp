@@ -301,6 +301,8 @@ class CommandLine {
         ->add_option("-o,--output", convert_options_.output,
                      "Name of the model file; default: part.yaml, beside part.inp")
         ->option_text("FILE");
+    convert_->add_flag("--rigid-contact", convert_options_.rigid_contact,
+                       "Leaves out the stiffness that the deck gives to contact and sticking, however small");
     convert_->add_flag("--incomplete", convert_options_.incomplete,
                        "Writes a model even if something essential is missing in it");
     convert_->add_flag("--force", convert_options_.force, "Replaces the files that there are");

@@ -81,6 +81,7 @@ struct ContactOptions {
 struct ConvertOptions {
   std::string deck;              ///< of Abaqus or CalculiX
   std::filesystem::path output;  ///< model file; empty: `part.yaml` beside `part.inp`
+  bool rigid_contact = false;    ///< leaves the stiffness of contact and sticking out, however small
   bool incomplete = false;       ///< writes the model even if something essential is lost
   bool force = false;            ///< replaces files
 };

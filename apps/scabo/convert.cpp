@@ -45,8 +45,8 @@ ExitStatus convert_deck(const ConvertOptions& options) {
       throw InputError(path.string(),
                        {{{}, "exists: remove it, replace it with --force, or name another file with -o"}});
   }
-  const convert::Conversion made =
-      convert::convert_abaqus(files::read_deck_file(options.deck), options.deck, mesh_file.filename().string());
+  const convert::Conversion made = convert::convert_abaqus(files::read_deck_file(options.deck), options.deck,
+                                                           mesh_file.filename().string(), options.rigid_contact);
   int lost = 0;
   for (const bool essential : {true, false})
     for (const convert::Remark& remark : made.remarks) {

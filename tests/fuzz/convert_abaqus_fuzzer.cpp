@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   scabo::convert::Conversion made;
   std::size_t cells = 0;
   try {
-    const scabo::files::AbaqusDeck deck = scabo::files::is_solid_deck(text)
+    const scabo::files::AbaqusDeck deck = scabo::files::is_solid_deck(text, "fuzz.inp")
                                               ? scabo::files::parse_solid_deck(text, "fuzz.inp")
                                               : scabo::files::parse_abaqus_deck(text, "fuzz.inp");
     cells = deck.mesh.cells.size();

@@ -1,44 +1,10 @@
 """`scabo convert` of decks of solids: models in space, against closed forms."""
+import re
 import unittest
 
 import support
+from decks import block
 from support import certificate_of, scabo, summary_of
-
-CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
-EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
-TETRAHEDRA = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
-
-
-def block(kind, cells, size, z, first, name):
-    """Nodes and elements of a block with one corner at (0, 0, z), and its sets BOTTOM and TOP; the nodes at z = 0 and at x = 0 and y = 0."""
-    quadratic = kind in ("C3D20", "C3D20R", "C3D10")
-    number = {}
-    n = [2 * c for c in cells]
-    def node(at):
-        return number.setdefault(at, first + len(number))
-    elements = []
-    for k in range(cells[2]):
-        for j in range(cells[1]):
-            for i in range(cells[0]):
-                corner = [(2 * i + x, 2 * j + y, 2 * k + w) for x, y, w in CORNERS]
-                if kind in ("C3D4", "C3D10"):
-                    for cell in TETRAHEDRA:
-                        at = [corner[c] for c in cell]
-                        middle = [tuple((p + q) // 2 for p, q in zip(at[a], at[b])) for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
-                        elements.append([node(x) for x in at + (middle if quadratic else [])])
-                else:
-                    middle = [tuple((p + q) // 2 for p, q in zip(corner[a], corner[b])) for a, b in EDGES]
-                    elements.append([node(x) for x in corner + (middle if quadratic else [])])
-    text = "*NODE\n" + "".join(f"{m}, {size[0] * x / n[0]!r}, {size[1] * y / n[1]!r}, {z + size[2] * w / n[2]!r}\n" for (x, y, w), m in number.items())
-    text += f"*ELEMENT, TYPE={kind}, ELSET={name}\n"
-    for e, nodes in enumerate(elements):
-        listed = [str(first + e)] + [str(m) for m in nodes]
-        text += ", ".join(listed[:15]) + (",\n" + ", ".join(listed[15:]) if len(listed) > 15 else "") + "\n"
-    for name_of, axis, value in (("BOTTOM", 2, 0), ("TOP", 2, n[2]), ("LEFT", 0, 0), ("FRONT", 1, 0)):
-        text += f"*NSET, NSET={name}_{name_of}\n" + "".join(f"{m}\n" for x, m in number.items() if x[axis] == value)
-    top = [e for e in range(len(elements)) if e >= len(elements) * (cells[2] - 1) // cells[2]]
-    return text, {x: m for x, m in number.items()}, [first + e for e in top]
-
 
 MATERIAL = "*MATERIAL, NAME=steel\n*ELASTIC\n1000., 0.25\n*DENSITY\n2.\n*SOLID SECTION, ELSET=LOWER, MATERIAL=steel\n*SOLID SECTION, ELSET=UPPER, MATERIAL=steel\n"
 
@@ -106,17 +72,98 @@ class Numbers(support.InTemporaryDirectory):
         self.assertAlmostEqual(tie["normal_force"][2] + tie["tangential_force"][2], -20, delta=1e-9 * 20)
 
 
+    def test_large_displacements(self):
+        """NLGEOM is read; the run says where displacements are not small, and where a body turns."""
+        for way, sentence in ((1e-3, None), (0.5, "displacements of body 'LOWER' reach")):
+            with self.subTest(way=way):
+                deck = self.two_blocks("C3D8", lambda top, way=way: f"*BOUNDARY\nUPPER_TOP, 3, 3, {-way}\n").replace("*STEP", "*STEP, NLGEOM")
+                self.solve(deck)
+                warnings = " ".join(summary_of(self.directory / "results")["warnings"])
+                log = (self.directory / "results" / "log.txt").read_text(encoding="utf-8")
+                self.assertEqual("the theory is valid" in warnings, sentence is not None, warnings)
+                if sentence:
+                    self.assertIn("step step_1, increment 1: " + sentence, warnings)
+                    self.assertIn(sentence, log)
+
+    def test_amplitude_that_jumps(self):
+        """A load that is there from the start of the step acts in every increment."""
+        deck = self.two_blocks("C3D8", lambda top: "*DLOAD, AMPLITUDE=whole\n" + "".join(f"{e}, P2, 5.\n" for e in top))
+        deck = deck.replace("*STATIC\n1., 1.", "*STATIC\n0.25, 1.").replace("*BOUNDARY", "*AMPLITUDE, NAME=whole\n0., 1., 1., 1.\n*BOUNDARY", 1)
+        increments = self.solve(deck)
+        self.assertEqual(len(increments), 4)
+        for increment in increments:
+            self.assertAlmostEqual(increment["contacts"]["touch"]["normal_force"][2], 20, delta=1e-9 * 20)
+
+    def test_mesh_in_another_file(self):
+        """What the deck includes tells that it is one of solids."""
+        deck = self.two_blocks("C3D8", lambda top: "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in top))
+        head, rest = deck.split("*MATERIAL", 1)
+        (self.directory / "mesh.msh").write_text(head, encoding="utf-8")
+        increment, = self.solve("*INCLUDE, INPUT=mesh.msh\n*MATERIAL" + rest)
+        self.assertAlmostEqual(increment["contacts"]["touch"]["normal_force"][2], 20, delta=1e-9 * 20)
+
+    def test_temperature(self):
+        """A block between held faces, with nu = 0: the stress E alpha T of the change from the initial temperature, over two steps."""
+        text, _, _ = block("C3D20R", (2, 2, 1), (2, 2, 1), 0, 1, "LOWER")
+        deck = (text + "*NSET, NSET=WHOLE\n" + "".join(line.split(",")[0] + "\n" for line in text.split("*ELEMENT")[0].splitlines()[1:])
+                + "*MATERIAL, NAME=steel\n*ELASTIC\n1000., 0.\n*EXPANSION\n1e-3\n*SOLID SECTION, ELSET=LOWER, MATERIAL=steel\n"
+                + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nWHOLE, 20.\n*BOUNDARY\nLOWER_BOTTOM, 3\nLOWER_LEFT, 1\nLOWER_FRONT, 2\n*STEP\n*STATIC\n0.5, 1.\n"
+                + "*BOUNDARY\nLOWER_TOP, 3, 3, 1e-3\n*TEMPERATURE\nWHOLE, 50.\n*END STEP\n*STEP\n*STATIC\n*TEMPERATURE, OP=NEW\nWHOLE, 10.\n*END STEP\n")
+        increments = self.solve(deck)
+        pushes = [increment["reactions"]["LOWER_TOP"][2] for increment in increments]
+        for found, change, way in zip(pushes, (15, 30, -10), (0.5e-3, 1e-3, 1e-3), strict=True):
+            self.assertAlmostEqual(found, 4 * 1000 * (way - 1e-3 * change), delta=1e-9 * 120)
+        for old, new, sentence in (("WHOLE, 50.", "LOWER_TOP, 50.", "the change of temperature is not the same at all nodes of body 'LOWER'"),
+                                   ("*TEMPERATURE\n", "*TEMPERATURE, FILE=x\n", "*TEMPERATURE with FILE is not taken"),
+                                   ("*STEP\n*STATIC\n0.5, 1.\n", "*AMPLITUDE, NAME=a\n0., 0., 1., 1.\n*STEP\n*STATIC\n0.5, 1.\n*TEMPERATURE, AMPLITUDE=a\nWHOLE, 50.\n", "with an initial one that is not 0 is not taken")):
+            (self.directory / "deck.inp").write_text(deck.replace(old, new, 1), encoding="utf-8")
+            done = scabo("convert", self.directory / "deck.inp", "--force")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(sentence, done.stderr)
+
+    def test_adjust(self):
+        """Nodes of the slave within the distance, or of the set, are moved onto the master: blocks that are 0.01 apart touch from the start."""
+        deck = self.two_blocks("C3D8", lambda top: "*BOUNDARY\nUPPER_TOP, 3, 3, -0.02\n").replace("LOWER_BOTTOM, 3", "LOWER_BOTTOM, 3\nUPPER_BOTTOM, 1, 2")
+        apart = re.sub(r"(?m)^(1\d\d\d, .*), 1\.0$", r"\1, 1.01", deck)
+        self.assertNotEqual(apart, deck)
+        forces = {}
+        for name, text in (("apart", apart), ("within", apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.011,")),
+                           ("set", apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=UPPER_BOTTOM,")),
+                           ("too far", apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.009,"))):
+            increment, = self.solve(text)
+            forces[name] = increment["contacts"]["touch"]["normal_force"][2]
+        self.assertAlmostEqual(forces["within"], forces["set"], delta=1e-9 * forces["set"])
+        self.assertAlmostEqual(forces["apart"], forces["too far"], delta=1e-12)
+        self.assertGreater(forces["within"], 1.9 * forces["apart"])
+        bent = apart.replace("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.011,")
+        bent = re.sub(r"(?m)^(\d\d?, .*), 1\.0$", r"\1, 1.001", bent, count=1)
+        (self.directory / "deck.inp").write_text(bent, encoding="utf-8")
+        done = scabo("convert", self.directory / "deck.inp", "--force")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("ADJUST moves nodes onto a plane master only", done.stderr)
+
+    def test_rigid_contact(self):
+        """A soft contact, or one that presses before it touches, is a hard one if the user says so."""
+        deck = self.two_blocks("C3D8", lambda top: "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in top))
+        for law, what in (("LINEAR\n1000.", "the stiffness of contact is so small"), ("EXPONENTIAL\n1e-3, 5.", "presses before the surfaces touch")):
+            (self.directory / "deck.inp").write_text(deck.replace("HARD", law), encoding="utf-8")
+            done = scabo("convert", self.directory / "deck.inp", "--force", "--rigid-contact")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stderr, f"warning: [^\n]*{what}[^\n]*by --rigid-contact it is left out")
+            done = scabo("run", self.directory / "deck.yaml", "-o", self.directory / "results", "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            increment, = summary_of(self.directory / "results")["increments"]
+            self.assertAlmostEqual(increment["contacts"]["touch"]["max_pressure"], 5, delta=1e-8)
+
+
 class Refused(support.InTemporaryDirectory):
     def test_with_a_sentence(self):
         deck = Numbers.two_blocks(None, "C3D8", lambda top: "*CLOAD\n1001, 3, -7.\n")
         for old, new, sentence in (
                 ("*BOUNDARY", "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n*BOUNDARY", "*EQUATION joins degrees of freedom"),
-                ("*BOUNDARY", "*PRE-TENSION SECTION, SURFACE=MASTER, NODE=1\n*BOUNDARY", "*PRE-TENSION SECTION tightens a bolt"),
-                ("*BOUNDARY", "*COUPLING, REF NODE=1, SURFACE=MASTER, CONSTRAINT NAME=c\n*BOUNDARY", "*COUPLING joins degrees of freedom"),
                 ("SLAVE, MASTER", "MASTER, MASTER", "each of both surfaces must be of one body, and not of the same"),
                 ("SLAVE, MASTER", "NONE, MASTER", "there is no surface 'NONE' with outer sides of solid elements"),
-                ("INTERACTION=touch,", "INTERACTION=touch, ADJUST=0.1,", "ADJUST moves nodes, which is not done in space"),
-                ("*STEP\n", "*STEP, NLGEOM\n", "*STEP with NLGEOM asks for large displacements"),
+                ("PRESSURE-OVERCLOSURE=HARD\n", "PRESSURE-OVERCLOSURE=EXPONENTIAL\n1e-3, 5.\n", "presses before the surfaces touch"),
                 ("1001, 3, -7.", "1001, 4, -7.", "a load along degree of freedom 4 does not act on a solid and is lost"),
                 ("1001, 3, -7.", "9999, 3, -7.", "the force at node 9999, which belongs to no solid element, is lost"),
                 ("*CLOAD\n", "*DLOAD\nUPPER, BZ, 3.\n*CLOAD\n", "forces per volume (BX, BY, BZ) and rotation (CENTRIF) are not taken in space"),

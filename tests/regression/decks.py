@@ -7,6 +7,42 @@ STATIC = "*STEP\n*STATIC\n"
 END = "*END STEP\n"
 
 
+CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
+EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+TETRAHEDRA = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
+
+
+def block(kind, cells, size, z, first, name, origin=(0.0, 0.0)):
+    """Nodes and elements of a block with one corner at (*origin, z), and its sets BOTTOM and TOP, LEFT, FRONT, RIGHT and BACK; the nodes at z = 0 and at x = 0 and y = 0."""
+    quadratic = kind in ("C3D20", "C3D20R", "C3D10")
+    number = {}
+    n = [2 * c for c in cells]
+    def node(at):
+        return number.setdefault(at, first + len(number))
+    elements = []
+    for k in range(cells[2]):
+        for j in range(cells[1]):
+            for i in range(cells[0]):
+                corner = [(2 * i + x, 2 * j + y, 2 * k + w) for x, y, w in CORNERS]
+                if kind in ("C3D4", "C3D10"):
+                    for cell in TETRAHEDRA:
+                        at = [corner[c] for c in cell]
+                        middle = [tuple((p + q) // 2 for p, q in zip(at[a], at[b])) for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
+                        elements.append([node(x) for x in at + (middle if quadratic else [])])
+                else:
+                    middle = [tuple((p + q) // 2 for p, q in zip(corner[a], corner[b])) for a, b in EDGES]
+                    elements.append([node(x) for x in corner + (middle if quadratic else [])])
+    text = "*NODE\n" + "".join(f"{m}, {origin[0] + size[0] * x / n[0]!r}, {origin[1] + size[1] * y / n[1]!r}, {z + size[2] * w / n[2]!r}\n" for (x, y, w), m in number.items())
+    text += f"*ELEMENT, TYPE={kind}, ELSET={name}\n"
+    for e, nodes in enumerate(elements):
+        listed = [str(first + e)] + [str(m) for m in nodes]
+        text += ", ".join(listed[:15]) + (",\n" + ", ".join(listed[15:]) if len(listed) > 15 else "") + "\n"
+    for name_of, axis, value in (("BOTTOM", 2, 0), ("TOP", 2, n[2]), ("LEFT", 0, 0), ("FRONT", 1, 0), ("RIGHT", 0, n[0]), ("BACK", 1, n[1])):
+        text += f"*NSET, NSET={name}_{name_of}\n" + "".join(f"{m}\n" for x, m in number.items() if x[axis] == value)
+    top = [e for e in range(len(elements)) if e >= len(elements) * (cells[2] - 1) // cells[2]]
+    return text, {x: m for x, m in number.items()}, [first + e for e in top]
+
+
 def grid(nx, ny, width, height, first=1, corner=(0.0, 0.0), kind="CPS8", elset="BODY"):
     """A rectangle of quadrilaterals with 8 or 4 nodes, with its sides as node sets and surfaces `ELSET_LEFT` and so on."""
     step = 2 if kind[3] == "8" else 1

@@ -2,6 +2,8 @@
 import importlib.util
 import json
 import math
+import os
+import re
 import resource
 import shutil
 import signal
@@ -395,6 +397,22 @@ class BlocksInSpace(support.InTemporaryDirectory):
         done = scabo("check", model)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertRegex(done.stderr, r"model.yaml:\d+:\d+: bodies.block: element \d+ of its mesh file has a Jacobian of -[0-9.e-]+, which must be positive")
+
+    @unittest.skipIf(support.SANITIZED, "memory")
+    def test_predicted_memory(self):
+        """What a run takes is what `scabo check` says, to 20 %: with many pairs, and with few."""
+        text = (ROOT / "benchmarks" / "space" / "blocks.yaml").read_text(encoding="utf-8")
+        model = self.directory / "model.yaml"
+        for base, block in ((0.25, 0.08), (0.14, 0.3)):
+            with self.subTest(base=base):
+                model.write_text(text.replace("size: 0.1}", f"size: {base}}}").replace("size: 0.0365}", f"size: {block}}}"), encoding="utf-8")
+                said, unit = re.search(r"about ([\d.]+) (MB|GB) of memory", scabo("check", model).stdout).groups()
+                process = subprocess.Popen([support.SCABO, "run", model, "-q", "--threads", "1"])
+                _, status, usage = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+                self.assertEqual(process.returncode, 0)
+                taken = usage.ru_maxrss * 1024
+                self.assertLess(abs(float(said) * {"MB": 1e6, "GB": 1e9}[unit] / taken - 1), 0.2, f"said {said} {unit}, taken {taken / 1e6:.0f} MB")
 
     def test_check_tells_the_sizes_and_other_commands_refuse(self):
         done = scabo("check", EXAMPLE / "model.yaml")

@@ -23,14 +23,16 @@ double stiffness_of(const files::ImportedMesh& mesh, const DeckBodies& bodies, c
   return least / std::sqrt(area);
 }
 
-void tell(double softness, const files::DeckPlace& at, const char* what, const char* then, Remarks& remarks) {
-  if (softness > most_softness)
-    remarks.essential(at,
-                      fmt::format("{} is so small that it adds {:.2g} % to the displacements of the bodies, and {}; "
-                                  "raise it, or give the deck a layer of its own material there",
-                                  what, 100.0 * softness, then));
-  else
-    remarks.note(at, fmt::format("{} is left out, which the deck needs for its solver: {}", what, then));
+void tell(double softness, const files::DeckPlace& at, const char* what, const char* then, bool rigid,
+          Remarks& remarks) {
+  if (softness <= most_softness)
+    return remarks.note(at, fmt::format("{} is left out, which the deck needs for its solver: {}", what, then));
+  const std::string share =
+      fmt::format("{} is so small that it adds {:.2g} % to the displacements of the bodies", what, 100.0 * softness);
+  if (rigid) return remarks.note(at, fmt::format("{}; by --rigid-contact it is left out, and {}", share, then));
+  remarks.essential(at, fmt::format("{}, and {}; raise it, or give the deck a layer of its own material there; where "
+                                    "it is but an aid of the solver, convert with --rigid-contact",
+                                    share, then));
 }
 
 }  // namespace
@@ -43,14 +45,23 @@ void tell_softness(const files::ImportedMesh& mesh, const DeckBodies& bodies, co
 }
 
 void tell_softness(double body, const DeckInteraction& interaction, Remarks& remarks) {
+  if (interaction.exponential) {
+    constexpr const char* law =
+        "PRESSURE-OVERCLOSURE=EXPONENTIAL presses before the surfaces touch, and Scabo's do not";
+    if (interaction.rigid)
+      remarks.note(interaction.at_stiffness, fmt::format("{}: by --rigid-contact it is left out", law));
+    else
+      remarks.essential(interaction.at_stiffness,
+                        fmt::format("{}; where it is but an aid of the solver, convert with --rigid-contact", law));
+  }
   if (!std::isfinite(body)) return;  // without a material, which is told elsewhere
   const auto softness = [body](double stiffness) { return stiffness > 0.0 ? body / stiffness : HUGE_VAL; };
   if (interaction.stiffness)
     tell(softness(*interaction.stiffness), interaction.at_stiffness, "the stiffness of contact",
-         "Scabo's bodies in contact do not overlap", remarks);
+         "Scabo's bodies in contact do not overlap", interaction.rigid, remarks);
   if (interaction.stick_stiffness && *interaction.stick_stiffness > 0.0)
     tell(softness(*interaction.stick_stiffness), interaction.at_stick_stiffness, "the stiffness of sticking",
-         "Scabo's pairs that stick do not slip", remarks);
+         "Scabo's pairs that stick do not slip", interaction.rigid, remarks);
 }
 
 }  // namespace scabo::convert

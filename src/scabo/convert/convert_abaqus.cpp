@@ -46,9 +46,9 @@ class Converter {
   Converter(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name)
       : deck_(std::move(deck)), deck_name_(deck_name), mesh_name_(mesh_name) {}
 
-  Conversion convert() {
+  Conversion convert(bool rigid_contact) {
     for (const std::string& remark : mesh_.remarks) mesh_remark(remark);
-    content_ = read_content(deck_, remarks_);
+    content_ = read_content(deck_, rigid_contact, remarks_);
     adjust_nodes(deck_, content_, remarks_);
     parts_.plane = plane_of(deck_, remarks_).value_or(Plane::stress);
     for (const Vec2& x : mesh_.nodes) largest_radius_ = std::max(largest_radius_, std::abs(x.x()));
@@ -490,9 +490,10 @@ bool Conversion::complete() const {
   return std::none_of(remarks.begin(), remarks.end(), [](const Remark& remark) { return remark.essential; });
 }
 
-Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name) {
-  if (deck.solid) return convert_solids(std::move(deck), deck_name, mesh_name);
-  return Converter(std::move(deck), deck_name, mesh_name).convert();
+Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name,
+                          bool rigid_contact) {
+  if (deck.solid) return convert_solids(std::move(deck), deck_name, mesh_name, rigid_contact);
+  return Converter(std::move(deck), deck_name, mesh_name).convert(rigid_contact);
 }
 
 }  // namespace scabo::convert

@@ -27,7 +27,9 @@ struct Conversion {
 };
 
 /// Of plane elements, or of solids (convert_solids.hpp). `deck_name` for the head of both files; `mesh_name` as the
-/// model names the mesh file, relative to its own folder.
-Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name);
+/// model names the mesh file, relative to its own folder. `rigid_contact`: the stiffness that the deck gives to contact
+/// and sticking is left out, however small it is.
+Conversion convert_abaqus(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name,
+                          bool rigid_contact = false);
 
 }  // namespace scabo::convert

@@ -8,6 +8,7 @@
 namespace scabo::convert {
 
 /// As convert_abaqus, of a deck with `solid`.
-Conversion convert_solids(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name);
+Conversion convert_solids(files::AbaqusDeck deck, const std::string& deck_name, const std::string& mesh_name,
+                          bool rigid_contact);
 
 }  // namespace scabo::convert

@@ -64,6 +64,11 @@ void ContactReader::surface_behavior(const DeckBlock& block) {
     return remarks_.essential(
         block.at, fmt::format("{}, PRESSURE-OVERCLOSURE={} has no data lines; add them", block.written, law));
   if (block.lines.empty()) return;
+  if (law == "EXPONENTIAL") {
+    content_.interactions[interaction_].exponential = true;
+    content_.interactions[interaction_].at_stiffness = block.at;
+    return;
+  }
   const auto slope = law == "TABULAR" ? least_slope(block) : number(remarks_, block.lines[0], 0, "the stiffness");
   if (!slope) return;
   content_.interactions[interaction_].stiffness = slope;

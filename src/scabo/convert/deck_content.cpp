@@ -13,6 +13,8 @@
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/convert/deck_materials.hpp"
 #include "scabo/convert/deck_names.hpp"
+#include "scabo/convert/deck_nodes.hpp"
+#include "scabo/convert/deck_steps.hpp"
 #include "scabo/convert/keyword_rules.hpp"
 #include "scabo/convert/keywords.hpp"
 #include "scabo/files/abaqus_lines.hpp"
@@ -39,8 +41,6 @@ using Table = std::map<std::pair<int, int>, Growing>;
 class ContentReader {
  public:
   ContentReader(const files::AbaqusDeck& deck, Remarks& remarks) : deck_(deck), mesh_(deck.mesh), remarks_(remarks) {
-    for (std::size_t i = 0; i < deck.node_numbers.size(); ++i)
-      node_of_.emplace(deck.node_numbers[i], static_cast<int>(i));
     for (const files::FacetSet& set : mesh_.facet_sets) facet_sets_.emplace(set.name, &set);
   }
 
@@ -52,13 +52,19 @@ class ContentReader {
                  : table == &forces_      ? content_.forces
                                           : content_.pressures;
       for (auto& [key, growing] : *table)
-        if (table == &displacements_ || !is_zero(growing.given.course)) to.emplace(key, std::move(growing.given));
+        if (DeckReference* reference = nodes_.reference_of(key.first))
+          (table == &displacements_ ? reference->displacements : reference->forces)
+              .emplace(key.second, std::move(growing.given));
+        else if (table == &displacements_ || !is_zero(growing.given.course))
+          to.emplace(key, std::move(growing.given));
     }
     for (auto& load : body_loads_) {
       if (is_zero(load.x.given.course) && is_zero(load.y.given.course) && is_zero(load.z.given.course)) continue;
       content_.body_loads.push_back(
           {load.set, load.kind, std::move(load.x.given), std::move(load.y.given), std::move(load.z.given)});
     }
+    for (auto& [key, growing] : temperatures_) content_.temperatures.emplace(key.first, std::move(growing.given));
+    content_.references = nodes_.take_references();
     tell_left_out();
     return std::move(content_);
   }
@@ -70,41 +76,15 @@ class ContentReader {
     Growing x, y, z;
   };
 
-  // ---- numbers and sets
-
-  /// Nodes of a number or set; a node of no element is lost.
-  std::vector<int> nodes_of(const DeckLine& line, const char* what) {
-    const std::string& name = line.fields[0];
-    const auto meaning = meaning_of(deck_, name, DeckNumbers::nodes);
-    if (meaning && meaning->number) {
-      const auto found = node_of_.find(*meaning->number);
-      if (found != node_of_.end()) return {found->second};
-    } else if (const auto found = meaning ? nodes_named(deck_, name) : std::nullopt) {
-      return *found;
-    }
-    if (meaning && !meaning->number)
-      remarks_.essential(line.at, fmt::format("there is no node set '{}' with nodes of elements, and {} at it is lost; "
-                                              "correct its name",
-                                              files::printable(name), what));
-    else
-      remarks_.essential(
-          line.at, fmt::format("{} at node {}, which belongs to no {}, is lost; give it at a node of a body", what,
-                               files::printable(name), element_));
-    return {};
-  }
-
   // ---- steps
 
   void begin_step(const DeckBlock& block) {
     if (in_step_) end_step();
     in_step_ = true;
     has_procedure_ = false;
-    new_displacements_ = new_forces_ = new_pressures_ = false;
-    DeckStep step;
-    step.name = parameter(block, "NAME");
-    step.at = block.at;
-    content_.steps.push_back(step);
-    content_.steps.back().at_once = upper(parameter(block, "AMPLITUDE")) == "STEP";
+    new_displacements_ = new_forces_ = new_pressures_ = new_temperatures_ = false;
+    content_.steps.push_back(begun_step(block, told_of_large_displacements_, remarks_));
+    told_of_large_displacements_ = told_of_large_displacements_ || asks_for_large_displacements(block);
   }
 
   void static_step(const DeckBlock& block) {
@@ -113,17 +93,7 @@ class ContentReader {
     if (has_procedure_)
       remarks_.essential(block.at, "another procedure of this step stands before this *STATIC; leave one of them");
     has_procedure_ = true;
-    step.equal = is_on(block, "DIRECT");
-    if (block.lines.empty()) return;
-    const DeckLine& line = block.lines.front();
-    step.first = number(remarks_, line, 0, "the first increment of *STATIC", 1.0).value_or(1.0);
-    step.period = number(remarks_, line, 1, "the period of *STATIC", 1.0).value_or(1.0);
-    step.smallest = number(remarks_, line, 2, "the smallest increment of *STATIC", 0.0).value_or(0.0);
-    step.largest = number(remarks_, line, 3, "the largest increment of *STATIC", 0.0).value_or(0.0);
-    if (std::min({step.first, step.period, step.smallest, step.largest}) < 0.0)
-      remarks_.essential(line.at, "an increment or the period of *STATIC is negative; correct it");
-    if (!(step.period > 0.0)) step.period = 1.0;
-    if (!(step.first > 0.0) || step.first > step.period) step.first = step.period;
+    read_static(block, step, remarks_);
   }
 
   Leg leg_of(const Growing& growing, double before) {
@@ -135,13 +105,13 @@ class ContentReader {
     const double factor = amplitude.absolute ? 1.0 : growing.value;
     Leg leg = leg_along(amplitude, factor, amplitude.total_time ? total_time_ : 0.0, content_.steps.back().period);
     const double first = leg.table.front().second;
-    if (std::abs(first - before) > 1e-9 * std::max({std::abs(first), std::abs(before), std::abs(factor)}))
-      remarks_.essential(
-          growing.given.at,
-          fmt::format(
-              "by its amplitude the value jumps from {:g} to {:g} at the begin of the step, which loads of Scabo "
-              "do not; let it begin where it was",
-              before, first));
+    if (std::abs(first - before) > 1e-9 * std::max({std::abs(first), std::abs(before), std::abs(factor)})) {
+      remarks_.note(growing.given.at,
+                    fmt::format("by its amplitude the value jumps from {:g} to {:g} at the begin of the step: it goes "
+                                "there over the first increment",
+                                before, first));
+      begin_at(leg, before, first_part(content_.steps.back()));
+    }
     if (leg.table.size() == 2) leg.table.clear();
     return leg;
   }
@@ -155,7 +125,8 @@ class ContentReader {
     if (growing.given.removed >= 0) return course.push_back({before, {}});
     // An amplitude in total time goes on in later steps, one in step time does not.
     const bool goes_on = !growing.amplitude.empty() && amplitudes_.at(growing.amplitude).total_time;
-    if (growing.touched || goes_on)
+    const bool from_outside = steps == 1 && growing.value != 0.0;  // displacements before the first step
+    if (growing.touched || goes_on || from_outside)
       course.push_back(leg_of(growing, before));
     else
       course.push_back({taken_back ? 0.0 : before, {}});
@@ -195,6 +166,7 @@ class ContentReader {
     for (auto& [key, growing] : displacements_) finish(growing, false);
     for (auto& [key, growing] : forces_) finish(growing, new_forces_);
     for (auto& [key, growing] : pressures_) finish(growing, new_pressures_);
+    for (auto& [key, growing] : temperatures_) finish(growing, new_temperatures_);
     for (GrowingBodyLoad& load : body_loads_)
       for (Growing* component : {&load.x, &load.y, &load.z}) finish(*component, new_pressures_);
     tell_what_is_removed(dload_, dsload_, "*DSLOAD");
@@ -246,41 +218,16 @@ class ContentReader {
     if (!amplitude) return;
     if (in_step_ && is_new(block)) new_displacements_ = true;
     for (const DeckLine& line : block.lines) {
-      if (line.fields.size() < 2) {
-        remarks_.essential(line.at, "the degree of freedom is missing on this line; add it");
-        continue;
-      }
-      const auto kind = components_of(line.fields[1], dimension_);
-      std::vector<int> components = kind.value_or(std::vector<int>{});
-      double value = 0.0;
-      if (!kind) {
-        const auto first = number(remarks_, line, 1, "the first degree of freedom");
-        const auto last = number(remarks_, line, 2, "the last degree of freedom", first);
-        const auto given = number(remarks_, line, 3, "the displacement", 0.0);
-        if (!first || !last || !given) continue;
-        if (*first < 1.0 || *last < *first || *last > 11.0 || *first != std::floor(*first) ||
-            *last != std::floor(*last)) {
-          remarks_.essential(
-              line.at, "degrees of freedom are whole numbers from 1, the last not before the first; correct them");
-          continue;
-        }
-        value = *given;
-        for (int dof = static_cast<int>(*first); dof <= static_cast<int>(*last); ++dof) {
-          if (dof <= dimension_) components.push_back(dof - 1);
-          if (dof > dimension_ && value != 0.0)
-            remarks_.essential(
-                line.at, fmt::format("degree of freedom {} is not one of a {}, and its displacement {:g} is lost", dof,
-                                     body_, value));
-        }
-      }
-      if (!in_step_ && value != 0.0) {
-        remarks_.essential(line.at, "a displacement that is not 0 stands outside of a step; give it within *STEP");
-        continue;
-      }
-      for (const int node : nodes_of(line, "the support"))
-        for (const int component : components) {
-          hold(displacements_[{node, component}], component, value, *amplitude, is_on(block, "FIXED"), line);
-          if (!in_step_) displacements_[{node, component}].touched = false;
+      const auto held = held_freedoms(line, dimension_, remarks_);
+      if (!held) continue;
+      if (!in_step_ && held->value != 0.0 && !outside_of_steps_++)
+        remarks_.note(line.at,
+                      "a displacement that is not 0 stands outside of a step: it grows over the first one, as in "
+                      "CalculiX (Abaqus has none)");
+      for (const int node : nodes_.named(line, "the support", remarks_))
+        for (const auto& at : nodes_.components_of(node, *held, line, remarks_)) {
+          hold(displacements_[at], at.second, held->value, *amplitude, is_on(block, "FIXED"), line);
+          if (!in_step_) displacements_[at].touched = false;
         }
     }
   }
@@ -315,15 +262,49 @@ class ContentReader {
       const auto dof = number(remarks_, line, 1, "the degree of freedom"),
                  value = number(remarks_, line, 2, "the force");
       if (!dof || !value) continue;
-      if (*dof != 1.0 && *dof != 2.0 && !(dimension_ == 3 && *dof == 3.0)) {
-        if (*value != 0.0)
-          remarks_.essential(
-              line.at,
-              fmt::format("a load along degree of freedom {:g} does not act on a {} and is lost", *dof, body_));
-        continue;
+      const bool whole = *dof >= 1.0 && *dof <= 6.0 && *dof == std::floor(*dof);
+      for (const int node : nodes_.named(line, "the force", remarks_)) {
+        const auto at = whole ? nodes_.component_at(node, static_cast<int>(*dof) - 1) : std::nullopt;
+        if (at)
+          grow(forces_[*at], *value, *amplitude, line, true);
+        else if (*value != 0.0)
+          remarks_.essential(line.at,
+                             fmt::format("a load along degree of freedom {:g} does not act on a {} and is lost", *dof,
+                                         node < 0 ? "reference node" : nodes_.body()));
       }
-      for (const int node : nodes_of(line, "the force"))
-        grow(forces_[{node, static_cast<int>(*dof) - 1}], *value, *amplitude, line, true);
+    }
+  }
+
+  // ---- temperatures of solids
+
+  void initial_temperatures(const DeckBlock& block) {
+    remarks_.note(block.at, "*INITIAL CONDITIONS of temperature are left out; they act by their changes only");
+    if (!deck_.solid) return;
+    for (const DeckLine& line : block.lines)
+      if (const auto value = number(remarks_, line, 1, "the initial temperature"))
+        for (const int node : nodes_.named(line, "the initial temperature", remarks_)) initial_[node] = *value;
+  }
+
+  void temperature(const DeckBlock& block) {
+    const auto amplitude = amplitude_of(block);
+    if (!amplitude || !needs_step(block)) return;
+    for (const auto& [name, value] : block.parameters)
+      if (name != "OP" && name != "AMPLITUDE")
+        remarks_.essential(block.at, fmt::format("*TEMPERATURE with {} is not taken; write the values as numbers",
+                                                 files::printable(name)));
+    if (is_new(block)) new_temperatures_ = true;
+    for (const DeckLine& line : block.lines) {
+      const auto value = number(remarks_, line, 1, "the temperature");
+      if (!value) continue;
+      for (const int node : nodes_.named(line, "the temperature", remarks_)) {
+        const auto initial = initial_.find(node);
+        const double before = initial == initial_.end() ? 0.0 : initial->second;
+        if (!amplitude->empty() && before != 0.0)
+          remarks_.essential(line.at,
+                             "a temperature by an *AMPLITUDE with an initial one that is not 0 is not taken; count "
+                             "temperatures from the initial one");
+        grow(temperatures_[{node, 0}], *value - before, *amplitude, line, false);
+      }
     }
   }
 
@@ -383,7 +364,7 @@ class ContentReader {
         else if (!sides)
           remarks_.essential(line.at, fmt::format("there is no surface '{}' with sides of {}s, and the "
                                                   "pressure on it is lost; correct its name",
-                                                  files::printable(line.fields[0]), element_));
+                                                  files::printable(line.fields[0]), nodes_.element()));
         else if (value)
           press(*sides, *value, *amplitude, line);
       } else if (label == "GRAV") {
@@ -439,7 +420,9 @@ class ContentReader {
     } else if (name == "DLOAD" || name == "DSLOAD") {
       dload(block);
     } else if (name == "INITIALCONDITIONS" && upper(parameter(block, "TYPE")) == "TEMPERATURE") {
-      remarks_.note(block.at, "*INITIAL CONDITIONS of temperature are left out; they act by their changes only");
+      initial_temperatures(block);
+    } else if (name == "TEMPERATURE" && deck_.solid) {
+      temperature(block);
     } else if (name != "AMPLITUDE" && !read_material_block(deck_, block, content_, remarks_) &&
                !contacts_.read(block, in_step_)) {
       other(block);
@@ -451,6 +434,7 @@ class ContentReader {
   }
 
   void other(const DeckBlock& block) {
+    if (deck_.solid && is_of_reference(block.name)) return;
     const KeywordText text = text_of_keyword(block.name);
     if (text.text.find("static analysis; Scabo converts") != std::string::npos) has_procedure_ = true;
     if (text.loss == KeywordLoss::note) left_out_[block.name].push_back(&block);
@@ -473,27 +457,30 @@ class ContentReader {
   const files::AbaqusDeck& deck_;
   const files::ImportedMesh& mesh_;
   const int dimension_ = deck_.solid ? 3 : 2;
-  const char* const element_ = deck_.solid ? "solid element" : "plane element";
-  const char* const body_ = deck_.solid ? "solid" : "plane body";
   Remarks& remarks_;
-  std::unordered_map<std::int64_t, int> node_of_;
+  DeckNodes nodes_{deck_, deck_.solid ? references_of(deck_, remarks_) : std::vector<DeckReference>{}};
   std::unordered_map<std::string, const files::FacetSet*> facet_sets_;
   const std::map<std::string, Amplitude> amplitudes_ = read_amplitudes(deck_, remarks_);
   std::map<std::string, std::vector<const DeckBlock*>> left_out_;
   DeckContent content_;
-  Table displacements_, forces_, pressures_;
+  Table displacements_, forces_, pressures_, temperatures_;
   std::vector<GrowingBodyLoad> body_loads_;
   ContactReader contacts_{content_, remarks_, [this](const std::string& name) { return nodes_named(deck_, name); }};
-  bool in_step_ = false, has_procedure_ = false;
-  bool new_displacements_ = false, new_forces_ = false, new_pressures_ = false;  // OP=NEW in this step
+  bool in_step_ = false, has_procedure_ = false, told_of_large_displacements_ = false;
+  int outside_of_steps_ = 0;  // lines of displacements before the first step
+  bool new_displacements_ = false, new_forces_ = false, new_pressures_ = false,
+       new_temperatures_ = false;  // OP=NEW in this step
+  std::map<int, double> initial_;  // temperatures, by node
   DistributedLoads dload_, dsload_;
   double total_time_ = 0.0;
 };
 
 }  // namespace
 
-DeckContent read_content(const files::AbaqusDeck& deck, Remarks& remarks) {
-  return ContentReader(deck, remarks).read();
+DeckContent read_content(const files::AbaqusDeck& deck, bool rigid_contact, Remarks& remarks) {
+  DeckContent content = ContentReader(deck, remarks).read();
+  for (auto& [name, interaction] : content.interactions) interaction.rigid = rigid_contact;
+  return content;
 }
 
 }  // namespace scabo::convert

@@ -14,17 +14,11 @@
 #include <vector>
 
 #include "scabo/convert/deck_course.hpp"
+#include "scabo/convert/deck_references.hpp"
 #include "scabo/convert/remark.hpp"
 #include "scabo/files/abaqus.hpp"
 
 namespace scabo::convert {
-
-struct Given {
-  Course course;
-  std::string label;  ///< the set or number of the deck
-  files::DeckPlace at;
-  int added = 0, removed = -1;  ///< of a support: the steps in which it begins and ends, as those of model::Support
-};
 
 struct DeckMaterial {
   std::string name;
@@ -47,6 +41,8 @@ struct DeckInteraction {
   bool tied = false;
   std::optional<double> stiffness, stick_stiffness;  ///< pressure per overlap, shear stress per slip; none: rigid
   files::DeckPlace at_stiffness, at_stick_stiffness;
+  bool exponential = false;  ///< pressure before the surfaces touch; its place is that of the stiffness
+  bool rigid = false;        ///< by the wish of the user, whatever stiffness and law the deck gives
 };
 
 struct DeckContact {
@@ -88,9 +84,12 @@ struct DeckContent {
   std::map<std::pair<int, int>, Given> forces;
   std::map<std::pair<int, int>, Given> pressures;  ///< side of the mesh, by key_of
   std::vector<DeckBodyLoad> body_loads;
+  std::map<int, Given> temperatures;  ///< of solids, by node: changes from the initial ones
+  std::vector<DeckReference> references;
 };
 
-DeckContent read_content(const files::AbaqusDeck& deck, Remarks& remarks);
+/// `rigid_contact`: all interactions are DeckInteraction::rigid.
+DeckContent read_content(const files::AbaqusDeck& deck, bool rigid_contact, Remarks& remarks);
 
 /// As the key of DeckContent::pressures.
 inline std::pair<int, int> key_of(const files::Facet& side) { return std::minmax(side.start, side.end); }

@@ -85,6 +85,17 @@ std::map<std::string, Amplitude> read_amplitudes(const files::AbaqusDeck& deck, 
   return amplitudes;
 }
 
+void begin_at(Leg& leg, double value, double part) {
+  std::vector<std::pair<double, double>> table = {{0.0, value}};
+  const auto after = std::find_if(leg.table.begin(), leg.table.end(),
+                                  [part](const auto& point) { return point.first >= part * (1.0 - 1e-9); });
+  const auto& [t1, v1] = *after;
+  const auto& [t0, v0] = *std::prev(after);
+  if (t1 > part * (1.0 + 1e-9)) table.emplace_back(part, v0 + (v1 - v0) * (part - t0) / (t1 - t0));
+  table.insert(table.end(), after, leg.table.end());
+  leg.table = std::move(table);
+}
+
 Leg leg_along(const Amplitude& amplitude, double factor, double start, double period) {
   Leg leg;
   leg.table.emplace_back(0.0, factor * amplitude.value(start));

@@ -20,6 +20,13 @@ struct Leg {
 };
 using Course = std::vector<Leg>;  ///< one for each step
 
+struct Given {
+  Course course;
+  std::string label;  ///< the set or number of the deck
+  files::DeckPlace at;
+  int added = 0, removed = -1;  ///< of a support: the steps in which it begins and ends, as those of model::Support
+};
+
 /// True if the value is 0 all the time.
 bool is_zero(const Course& course);
 /// A value by which a course becomes factors: its first end that is not 0, or else such a value of a table.
@@ -42,5 +49,8 @@ std::map<std::string, Amplitude> read_amplitudes(const files::AbaqusDeck& deck, 
 /// `factor` times the amplitude over a step of length `period` from `start`. Its table holds both ends, even if nothing
 /// lies between them.
 Leg leg_along(const Amplitude& amplitude, double factor, double start, double period);
+
+/// Lets a leg with a table of both ends begin at another value; from `part` of the step on it is as it was.
+void begin_at(Leg& leg, double value, double part);
 
 }  // namespace scabo::convert

@@ -92,8 +92,8 @@ void add_contact_rules(Rules& rules) {
       DataLines::optional,
       0,
       0,
-      {takes("PRESSURE-OVERCLOSURE", "HARD|LINEAR|TABULAR|TIED"), harmless("PENALTY"), harmless("AUGMENTED LAGRANGE"),
-       harmless("DIRECT"),
+      {takes("PRESSURE-OVERCLOSURE", "HARD|LINEAR|TABULAR|TIED|EXPONENTIAL"), harmless("PENALTY"),
+       harmless("AUGMENTED LAGRANGE"), harmless("DIRECT"),
        refuses("NO SEPARATION", "is contact that does not open; `bond` of a contact may replace it")}};
   rules["FRICTION"] = {DataLines::needed,
                        4,
@@ -141,14 +141,12 @@ void add_history_rules(Rules& rules) {
       0,
       {takes("NAME"), takes("TIME", times), takes("VALUE", "RELATIVE|ABSOLUTE"), takes("DEFINITION"), takes("INPUT"),
        refuses("SHIFTX", table), refuses("SHIFTY", table), refuses("USER", table), refuses("SMOOTH", table)}};
-  rules["STEP"] = {
-      DataLines::optional,
-      0,
-      0,
-      {takes("NAME"), takes("AMPLITUDE", "RAMP|STEP"), harmless("INC"), harmless("UNSYMM"), harmless("EXTRAPOLATION"),
-       harmless("CONVERT SDI"),
-       refuses("NLGEOM", "asks for large displacements; where they are small, as Scabo's are, write NLGEOM=NO"),
-       refuses("PERTURBATION", "is a step about the state before it, which Scabo does not have")}};
+  rules["STEP"] = {DataLines::optional,
+                   0,
+                   0,
+                   {takes("NAME"), takes("AMPLITUDE", "RAMP|STEP"), harmless("INC"), harmless("UNSYMM"),
+                    harmless("EXTRAPOLATION"), harmless("CONVERT SDI"), takes("NLGEOM"),
+                    refuses("PERTURBATION", "is a step about the state before it, which Scabo does not have")}};
   rules["STATIC"] = {DataLines::optional,
                      4,
                      1,

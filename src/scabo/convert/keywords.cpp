@@ -35,7 +35,8 @@ constexpr Group groups[] = {
      "HYPERELASTIC HYPERFOAM CREEP VISCOELASTIC USERMATERIAL NOCOMPRESSION DEPVAR COMPRESSIONONLY NOTENSION "
      "FAILSTRESS DAMAGEINITIATION DAMAGEEVOLUTION SUPERELASTIC VALUESATINFINITY"},
     {KeywordLoss::essential,
-     "joins degrees of freedom, which Scabo's models cannot; use *TIE, or a rigid body in the model",
+     "joins degrees of freedom, which Scabo's models cannot; use *TIE where faces stay together, and for a face of solids "
+     "that moves as one piece *COUPLING",
      "EQUATION MPC RIGIDBODY COUPLING KINEMATIC DISTRIBUTING DISTRIBUTINGCOUPLING NETWORKMPC EMBEDDEDELEMENT "
      "CYCLICSYMMETRYMODEL"},
     {KeywordLoss::essential, "tightens a bolt, and is not converted; a body of a model in space may have a `preload`",

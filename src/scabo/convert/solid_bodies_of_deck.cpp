@@ -14,8 +14,6 @@
 
 namespace scabo::convert {
 
-namespace {
-
 using files::ImportedSolidCell;
 using files::ImportedSolidMesh;
 using model::number_text;
@@ -26,6 +24,8 @@ std::array<int, 3> key_of_corners(const ImportedSolidCell& cell, int side) {
   std::sort(key.begin(), key.end());
   return key;
 }
+
+namespace {
 
 /// For each cell its body, numbered by the first cells; and the sides of one cell only.
 std::vector<int> joined_cells(const ImportedSolidMesh& mesh, std::set<int>& outer) {
@@ -119,6 +119,7 @@ std::string solid_mesh_text(const files::AbaqusDeck& deck, const SolidDeckBodies
       if (!lines.empty())
         text += fmt::format("*ELEMENT, TYPE=C3D{}, ELSET={}\n{}", count, bodies.bodies[b].name, lines);
     }
+  text += bodies.added_mesh;
   for (const auto& [name, nodes] : sets.nodes) {
     text += fmt::format("*NSET, NSET={}\n", name);
     for (const int node : nodes) text += fmt::format("{}\n", node + 1);

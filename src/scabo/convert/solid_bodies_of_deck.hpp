@@ -1,6 +1,7 @@
 // The bodies of a deck of solids, and the mesh file with the sets that the model names.
 #pragma once
 
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -13,13 +14,19 @@ namespace scabo::convert {
 struct SolidDeckBody {
   std::string name, material;
   double young = 0.0, volume = 0.0;
+  bool rigid = false;
+  std::string preload;  ///< `, preload: {...}` of its line in the model
 };
 
 struct SolidDeckBodies {
   std::vector<SolidDeckBody> bodies;
   std::vector<int> of_cell, of_node;
-  std::set<int> outer;  ///< sides of the boundaries, 4 times the cell and the side
+  std::set<int> outer;     ///< sides of the boundaries, 4 times the cell and the side
+  std::string added_mesh;  ///< of bodies that the deck has no elements of
 };
+
+/// The corners of a side, ascending.
+std::array<int, 3> key_of_corners(const files::ImportedSolidCell& cell, int side);
 
 /// Cells that sides join, by the names of their sections. Bodies of several materials, and such that meet at nodes
 /// only, become remarks. `material_of_cell`, `young`: as GivenMaterials.

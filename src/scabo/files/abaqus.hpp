@@ -94,6 +94,9 @@ struct AbaqusDeck {
   std::vector<Elements> elements;            ///< of all *ELEMENT lines with cells
   std::map<std::int64_t, int> type_of_cell;  ///< number of a cell in the file: index into `elements`
   std::vector<DeckBlock> blocks;
+  /// Of a deck of solids: nodes of no element, and the node sets with such nodes by their names in upper case.
+  std::map<std::int64_t, Eigen::Vector3d> loose_nodes;
+  std::map<std::string, std::vector<std::int64_t>> loose_sets;
 };
 
 /// As parse_abaqus, with everything else. Sets keep the full names that the deck may use. Throws InputError for what no

@@ -116,7 +116,8 @@ ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& pa
 AbaqusDeck read_deck_file(const std::string& path) {
   const std::string bytes = bytes_at(path);
   const std::string_view text = readable(bytes, path);
-  return is_solid_deck(text) ? parse_solid_deck(text, path, read_beside) : parse_abaqus_deck(text, path, read_beside);
+  return is_solid_deck(text, path, read_beside) ? parse_solid_deck(text, path, read_beside)
+                                                : parse_abaqus_deck(text, path, read_beside);
 }
 
 ImportedSolidMesh read_solid_mesh_file(const std::string& path) { return parse_solid_mesh(bytes_at(path), path); }

@@ -119,6 +119,7 @@ void SolidReader::nodes(const AbaqusKeyword& key) {
       if (k < fields.size() && !fields[k].empty() && !parse_number(fields[k], x[k - 1]))
         builder_.fail(lines_.at(), fmt::format("'{}' is not a coordinate", printable(fields[k])));
     solid_.add_node(numbers.back(), x[0], x[1], x[2], lines_.at());
+    if (whole_) deck_.loose_nodes[numbers.back()] = Eigen::Vector3d(x.data());
   }
   if (key.has("NSET")) add_all(node_sets_.named(key.value("NSET")), std::move(numbers));
 }
@@ -356,6 +357,10 @@ AbaqusDeck SolidReader::read_deck() {
   whole_ = true;
   ImportedSolidMesh solid = read();
   deck_.node_numbers = solid_.kept_numbers();
+  for (const std::int64_t number : deck_.node_numbers) deck_.loose_nodes.erase(number);
+  for (const AbaqusSet& set : node_sets_.all())
+    for (const std::int64_t number : set.numbers)
+      if (deck_.loose_nodes.contains(number)) deck_.loose_sets[upper(set.name)].push_back(number);
   deck_.mesh.node_sets = solid.node_sets;
   deck_.mesh.cell_sets = solid.cell_sets;
   deck_.mesh.remarks = solid.remarks;
@@ -374,14 +379,12 @@ AbaqusDeck SolidReader::read_deck() {
 
 }  // namespace
 
-bool is_solid_deck(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string line = upper(text.substr(0, end));
-    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
-    if (line.starts_with("*ELEMENT,") && line.find("TYPE=C3D") != std::string::npos) return true;
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+bool is_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include) {
+  MeshBuilder builder(file);
+  AbaqusLines lines(text, file, read_include, builder);
+  AbaqusKeyword key;
+  while (lines.next_keyword(key))
+    if (key.name == "ELEMENT" && upper(key.value("TYPE")).starts_with("C3D")) return true;
   return false;
 }
 

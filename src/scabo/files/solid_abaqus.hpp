@@ -14,8 +14,8 @@ namespace scabo::files {
 ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file,
                                      const ReadInclude& read_include = {});
 
-/// Whether a deck has elements C3D4 and so on, in its own text.
-bool is_solid_deck(std::string_view text);
+/// Whether a deck has elements C3D4 and so on, also in files that it includes.
+bool is_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include = {});
 
 /// As parse_solid_abaqus, with everything else (abaqus.hpp).
 AbaqusDeck parse_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include = {});

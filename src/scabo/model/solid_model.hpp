@@ -87,6 +87,7 @@ struct SpaceLoad {
   double pressure = 0.0;  ///< against the outward normal
   /// Traction, force, moment or acceleration; gradient of a temperature.
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> at;    ///< of a force: the point through which it acts; none: the centroid
   double constant = 0.0;                ///< of a change of temperature: at the origin
   std::array<SpaceFormula, 3> formula;  ///< of a traction, or the first one of a pressure, instead of the value
 

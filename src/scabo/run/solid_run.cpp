@@ -18,17 +18,18 @@ constexpr double unit_dofs = 95232.0, unit_bytes = 0.9e9, unit_seconds = 3.0;
 constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 1.6e-5;  // of elements and fields; of elements
 constexpr double field_seconds = 3e-6;                            // for each degree of freedom and increment
 constexpr double sweep_seconds = 3e-8;                            // for each degree of freedom and row of W
-constexpr double contact_bytes = 200.0;                           // for the square of the rows of W
-constexpr double row_seconds = 2e-8, solve_seconds = 1e-10;       // of an increment, for their square and their cube
+/// For the square of the rows of W on one body: the block of its flexibility, of which a corner has the four nodes of a
+/// quadratic face, and W twice.
+constexpr double contact_bytes = 8.0 * (4.0 * 4.0 + 2.0);
+constexpr double row_seconds = 2e-8, solve_seconds = 1e-10;  // of an increment, for their square and their cube
 
 }  // namespace
 
 Plan plan_of(const analysis::PosedSolids& posed) {
   Plan plan;
   plan.increments = static_cast<int>(posed.increments.size());
-  plan.bytes = CostConstants().base_bytes;
   std::vector<double> rows(posed.model.bodies.size(), 0.0);  // of W, on each body
-  double all_rows = 0.0;
+  double all_rows = 0.0, factors = 0.0, fields = 0.0;        // rows; bytes
   const std::vector<int> counts = analysis::count_pairs(posed.model);
   for (std::size_t c = 0; c < counts.size(); ++c) {
     const analysis::SolidContact& contact = posed.model.contacts[c];
@@ -44,14 +45,17 @@ Plan plan_of(const analysis::PosedSolids& posed) {
     plan.sizes.nodes += static_cast<int>(mesh.nodes.cols());
     plan.sizes.finite_elements += static_cast<int>(mesh.cells.size());
     if (posed.model.bodies[b].rigid_at) continue;
-    plan.bytes += unit_bytes * std::pow(n / unit_dofs, 1.42) + bytes_of_dof * n;
+    factors += unit_bytes * std::pow(n / unit_dofs, 1.42);
+    fields += bytes_of_dof * n;
     plan.cells += seconds_of_dof * n;
     plan.factorise += unit_seconds * std::pow(n / unit_dofs, 2.05);
     plan.condense += sweep_seconds * n * rows[b];
     plan.fields += plan.increments * field_seconds * n;
   }
   plan.sizes.dofs = 3 * plan.sizes.nodes;
-  plan.bytes += contact_bytes * all_rows * all_rows;
+  // The factors stay. Beside them there are elements and fields, or the block of one body at a time.
+  const double most = rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
+  plan.bytes = CostConstants().base_bytes + factors + std::max(fields, contact_bytes * most * most);
   plan.contact = plan.increments * (row_seconds + solve_seconds * all_rows) * all_rows * all_rows;
   return plan;
 }

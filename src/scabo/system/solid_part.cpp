@@ -102,14 +102,18 @@ Vector with_moment(const Matrix& nodes, const Eigen::Vector3d& centroid, const M
 
 }  // namespace
 
-Vector moment_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets,
-                     const Eigen::Vector3d& moment) {
+Eigen::Vector3d centroid_of_facets(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets) {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   for (const mesh::SolidFacet& facet : facets) {
     const Matrix nodes = mesh::nodes_of(mesh, facet);
     centroid += nodes * element::area_weights(nodes);
   }
-  centroid /= area_of_facets(mesh, facets);
+  return centroid / area_of_facets(mesh, facets);
+}
+
+Vector moment_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets,
+                     const Eigen::Vector3d& moment) {
+  const Eigen::Vector3d centroid = centroid_of_facets(mesh, facets);
   Matrix of_rotations(space.count(mesh.nodes.cols()), 3);
   for (int k = 0; k < 3; ++k)
     of_rotations.col(k) =

@@ -32,6 +32,7 @@ Vector varying_traction_forces(const mesh::SolidMesh& mesh, const std::vector<me
 Vector moment_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets,
                      const Eigen::Vector3d& moment);
 double area_of_facets(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets);
+Eigen::Vector3d centroid_of_facets(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidFacet>& facets);
 
 /// Volume and centroid of a body, and the weight of every node in integrals over it.
 struct SolidVolume {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <map>
 #include <set>
 
@@ -234,9 +235,11 @@ Vector Posing::varying_load(const model::SpaceLoad& load, const std::vector<mesh
 Vector Posing::load_on_face(const model::SpaceLoad& load) {
   using Kind = model::SpaceLoad::Kind;
   const mesh::SolidMesh& mesh = body(load.on.body).mesh;
-  if (load.on.is_body())
-    return system::forces_on_rigid(mesh, load.kind == Kind::force ? load.vector : Eigen::Vector3d::Zero(),
-                                   load.kind == Kind::moment ? load.vector : Eigen::Vector3d::Zero());
+  if (load.on.is_body()) {
+    if (load.kind == Kind::moment) return system::forces_on_rigid(mesh, Eigen::Vector3d::Zero(), load.vector);
+    const Eigen::Vector3d centroid = system::volume_of(mesh).centroid;
+    return system::forces_on_rigid(mesh, load.vector, (load.at.value_or(centroid) - centroid).cross(load.vector));
+  }
   if (load.kind == Kind::nodal_force) {
     Vector forces = Vector::Zero(3 * mesh.nodes.cols());
     for (const int node : set_of_nodes(load.on)) forces.segment<3>(3 * node) = load.vector;
@@ -248,7 +251,10 @@ Vector Posing::load_on_face(const model::SpaceLoad& load) {
   if (load.kind == Kind::pressure) return system::pressure_forces(mesh, on, load.pressure);
   if (load.kind == Kind::moment) return system::moment_forces(mesh, on, load.vector);
   if (load.kind == Kind::traction) return system::traction_forces(mesh, on, load.vector);
-  return system::traction_forces(mesh, on, load.vector / system::area_of_facets(mesh, on));
+  Vector forces = system::traction_forces(mesh, on, load.vector / system::area_of_facets(mesh, on));
+  if (load.at)
+    forces += system::moment_forces(mesh, on, (*load.at - system::centroid_of_facets(mesh, on)).cross(load.vector));
+  return forces;
 }
 
 void Posing::add_load(const model::SpaceLoad& load) {

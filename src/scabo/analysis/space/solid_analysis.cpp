@@ -355,6 +355,16 @@ Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, 
   return energy;
 }
 
+std::optional<LargeMotion> large_motion_in(const SolidModel& model, const std::vector<Vector>& u) {
+  std::vector<SolidMotion> motions;
+  std::vector<bool> rigid;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    motions.push_back(motion_of(model.bodies[b].mesh, u[b]));
+    rigid.push_back(model.bodies[b].rigid_at.has_value());
+  }
+  return large_motion_of(motions, rigid);
+}
+
 /// Increments in their order, each from the state that the one before it left.
 class SolidMarch {
  public:
@@ -432,6 +442,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
     to.reason = "the forces at some node do not balance to the tolerance of the certificate";
   }
   if (to.status != contact::Status::solved) return to;
+  to.large = large_motion_in(model, to.u);
   state_ = {factors, slip, solution.gap, solution.p, a, shortening, solution.states, state_.force_scale, to.energy};
   before_ = std::move(moved);
   return to;

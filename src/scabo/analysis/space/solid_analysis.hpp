@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "scabo/analysis/space/large_motions.hpp"
 #include "scabo/analysis/state/results.hpp"
 #include "scabo/contact/certificate.hpp"
 #include "scabo/contact/solution.hpp"
@@ -99,6 +100,7 @@ struct SolidIncrement {
   contact::Certificate certificate;
   Energy energy;
   int iterations = 0;
+  std::optional<LargeMotion> large;  ///< beyond the theory; none: displacements and rotations are small
 };
 
 /// All that the next increment depends on. Displacements follow from the factors, the contact forces and the motions.

@@ -226,10 +226,10 @@ void SpaceReader::load(const Entry& entry) {
   const std::vector<std::string> kinds{"pressure", "traction", "force",      "nodal_force",
                                        "moment",   "gravity",  "temperature"};
   std::vector<std::string> known = kinds;
-  known.emplace_back("on");
+  known.insert(known.end(), {"on", "at"});
   const MapReader map(
       report_, entry.value, known, "{on: block.top, pressure: 1e6}",
-      only_in_the_plane({"water", "in", "enters", "field", "body_force", "rotation", "spin", "level", "weight", "at"}));
+      only_in_the_plane({"water", "in", "enters", "field", "body_force", "rotation", "spin", "level", "weight"}));
   if (!map.is_map()) return;
   SpaceLoad load;
   load.name = entry.key;
@@ -239,6 +239,10 @@ void SpaceReader::load(const Entry& entry) {
   if (given.size() == 1) {
     load_value(given.front(), *map.get(given.front()), load);
     place_of_load(map, entry, load);
+    if (load.kind != SpaceLoad::Kind::force)
+      map.refuse("at", "is the point through which a 'force' acts: leave it out");
+    else if (const auto at = map.get("at"))
+      load.at = vector(*at);
   } else if (map.all_known()) {
     report_.error(entry.value,
                   "needs one of 'pressure', 'traction', 'force', 'nodal_force', 'moment', 'gravity' and 'temperature'");

@@ -211,6 +211,19 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
   return json;
 }
 
+/// Adds the warning of large displacements to a summary without one. What was added; nothing if they are small.
+std::optional<Warning> add_large_motion(const model::SpaceModel& model, const analysis::PosedSolids& posed,
+                                        const analysis::SolidIncrement& increment, std::size_t number, Json& summary) {
+  if (!increment.large || summary["warnings"].size() > model.warnings.size()) return std::nullopt;
+  const auto& [step, of_step] = posed.step_and_number[number];
+  const std::string& name = model.bodies[static_cast<std::size_t>(increment.large->body)].name;
+  Warning warning{
+      WarningKind::large_displacement, "",
+      fmt::format("step {}, increment {}: {}", model.steps[step].name, of_step, increment.large->text(name))};
+  summary["warnings"].push_back(warning.text);
+  return warning;
+}
+
 std::string text_of(const Json& summary) { return summary.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
 std::string log_header(const model::SpaceModel& model, const Json& summary) {
@@ -363,6 +376,7 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
   for (const GrowingFile* file : growing_files()) sizes.push_back(file->size());
   const int finished = finished_;
   const std::size_t not_synchronised = not_synchronised_.size();
+  const Json warnings = summary_->json["warnings"];
   try {
     add_files(increment);
   } catch (const WriteError&) {  // nothing is left of the increment
@@ -373,6 +387,7 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
     remove_later_fields(path_, finished_);
     Json& made = summary_->json["increments"];
     made.erase(made.size() - 1);
+    summary_->json["warnings"] = warnings;
     try {  // there is room for what was removed
       replace_summary();
     } catch (const WriteError&) {
@@ -395,8 +410,10 @@ void SolidResults::add_files(const analysis::SolidIncrement& increment) {
   log_->append(log_line(model_, made.back(), increment));
   summary_->json["status"] = "running";
   summary_->json["reason"] = nullptr;
+  const std::optional<Warning> large = add_large_motion(model_, posed_, increment, number, summary_->json);
   replace_summary();
   note_outcome(increment, summary_->json);
+  if (large) warnings_.push_back(*large);
 }
 
 analysis::WrittenResults SolidResults::written() {
@@ -447,22 +464,26 @@ SolidEnd SolidResults::finish(bool interrupted) {
     const Json& last = json["increments"][static_cast<std::size_t>(finished_ - 1)];
     text += fmt::format("\nAfter {}:\n{}", which_increment(json, last), end.totals);
   }
-  for (const Warning& warning : model_.warnings) text += "warning: " + warning.text + '\n';
+  for (const Json& warning : json["warnings"]) text += "warning: " + warning.get<std::string>() + '\n';
   log_->append(text);
   replace_summary();
+  end.warnings = warnings_;
   return end;
 }
 
 std::pair<std::string, SolidEnd> summary_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
                                             const std::vector<analysis::SolidIncrement>& increments, bool interrupted) {
   Json json = begun_summary(model, posed);
+  std::vector<Warning> warnings;
   int finished = 0;
   for (std::size_t k = 0; k < increments.size(); ++k) {
     json["increments"].push_back(json_of(model, posed, increments[k], k));
     finished += increments[k].status == contact::Status::solved;
+    if (const auto large = add_large_motion(model, posed, increments[k], k, json)) warnings.push_back(*large);
     note_outcome(increments[k], json);
   }
   SolidEnd end = end_of(json, finished, interrupted);
+  end.warnings = std::move(warnings);
   return {text_of(json), std::move(end)};
 }
 

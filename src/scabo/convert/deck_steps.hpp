@@ -1,0 +1,18 @@
+// *STEP and *STATIC of a deck.
+#pragma once
+
+#include "scabo/convert/deck_content.hpp"
+
+namespace scabo::convert {
+
+/// With a remark about the first step that asks for large displacements.
+DeckStep begun_step(const files::DeckBlock& block, bool told_of_large_displacements, Remarks& remarks);
+bool asks_for_large_displacements(const files::DeckBlock& step);
+
+/// Increments of *STATIC.
+void read_static(const files::DeckBlock& block, DeckStep& step, Remarks& remarks);
+
+/// The part of the step that its first increment is, such that whole increments make up the step.
+double first_part(const DeckStep& step);
+
+}  // namespace scabo::convert

@@ -1,0 +1,15 @@
+// ADJUST of contacts between solids: nodes of the slave are moved onto a plane master before the analysis.
+#pragma once
+
+#include <vector>
+
+#include "scabo/convert/deck_content.hpp"
+
+namespace scabo::convert {
+
+/// Moves nodes of the slave's sides (4 times the cell and the side) that lie opposite the master and whose gap is small
+/// enough, or which are in the set. A remark, and no motion, if the master is not plane.
+void adjust_solids(files::AbaqusDeck& deck, const DeckContact& contact, const std::vector<int>& master,
+                   const std::vector<int>& slave, Remarks& remarks);
+
+}  // namespace scabo::convert
