@@ -86,6 +86,10 @@ result::SolidEnd solve_until(const Interrupt& interrupt, const run::SolidRun& ru
 ExitStatus solve_and_report(const run::SolidRun& run, bool quiet, Events& events) {
   const Interrupt interrupt;
   const result::SolidEnd end = solve_until(interrupt, run);
+  for (const Warning& warning : end.warnings) {
+    events.warning(warning);
+    print_warning(warning.text);
+  }
   if (end.status == "interrupted") {
     const std::string why = fmt::format(
         "{}: interrupted; {}{}", run.model.file,
