@@ -371,7 +371,8 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
   std::vector<long long> sizes;
   for (const GrowingFile* file : growing_files()) sizes.push_back(file->size());
   const int finished = finished_;
-  const std::size_t not_synchronised = not_synchronised_.size();
+  const std::size_t not_synchronised = not_synchronised_.size(), warnings = warnings_.size();
+  const Json texts = summary_->json["warnings"];
   try {
     add_files(increment);
   } catch (const WriteError&) {  // nothing is left of the increment
@@ -379,6 +380,8 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
     for (std::size_t i = 0; i < files.size(); ++i) files[i]->cut_back(sizes[i]);
     finished_ = finished;
     not_synchronised_.resize(not_synchronised);
+    warnings_.resize(warnings);
+    summary_->json["warnings"] = texts;
     remove_later_fields(path_, finished_);
     Json& made = summary_->json["increments"];
     made.erase(made.size() - 1);
