@@ -155,6 +155,22 @@ TEST(Onset, OfABlockInSpaceIsAlongWhatPushesIt) {
   }
 }
 
+// The pyramid that the proof begins with is 2 % wider than the cone along some directions.
+TEST(Onset, InSpaceIsThatOfAMechanismThatIsProvenUpToTheBoundOfFriction) {
+  for (const double azimuth : {0.0, 0.1, 0.19634954, 2.5})
+    for (const double beyond : {0.9999, 1.0002, 1.01, 1.5}) {
+      Vector f = Vector::Zero(6);
+      f << 5.0 * beyond * std::cos(azimuth), 5.0 * beyond * std::sin(azimuth), -10.0, 0.0, 0.0, 0.0;
+      const Problem problem = loaded_block_in_space(0.5, 0.1, f);
+      const auto proof = find_mechanism(problem);
+      EXPECT_EQ(proof.has_value(), beyond > 1.0) << azimuth << ", " << beyond;
+      if (!proof) continue;
+      EXPECT_GT(f.dot(*proof), 0.0);
+      constexpr double half_side = 0.19634954;  // of the first pyramid: the proof slides across one of its sides
+      EXPECT_LT((proof->head<2>().normalized() - f.head<2>().normalized()).norm(), half_side);
+    }
+}
+
 // About the edge x = 1, without slip: M is the identity, and the edge stays.
 TEST(Onset, OfATallBlockInSpaceTurnsAboutItsEdge) {
   Vector f = Vector::Zero(6);
