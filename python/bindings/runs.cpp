@@ -331,6 +331,7 @@ std::shared_ptr<SpaceResult> solve_space(const CheckedModel& checked, const std:
   solved->status = end.status;
   if (end.status != "solved")
     solved->record.why_not_solved = (end.status == "interrupted" || end.at.empty() ? "" : end.at + ": ") + end.reason;
+  for (const std::string& warning : texts_of(end.warnings)) solved->record.warnings.push_back(warning);
   solved->record.error = watch.error();
   return solved;
 }

@@ -172,7 +172,7 @@ class BlocksInSpace(support.InTemporaryDirectory):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(sorted(file.name for file in self.directory.glob("*.png")), ["results.contact.png", "results.stress.png"])
         for words, why in ((["--view", "1"], "--view 1: give two angles"), (["--window", "0,1,0,1"], "no meaning for bodies in space"),
-                           (["--what", "mesh"], "there are pictures of stress and contact"), (["--what", "stress", "--component", "zx"], "there are von_mises")):
+                           (["--what", "mesh"], "there are pictures of stress, contact and mechanism"), (["--what", "stress", "--component", "zx"], "there are von_mises")):
             done = scabo("plot", self.directory / "results", *words, SCABO_PYTHON=sys.executable)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn(why, done.stderr)

@@ -15,7 +15,7 @@ ON_REQUEST = ("envelope", "spectrum")  # not drawn without being named
 NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
 FORMATS = (".png", ".svg", ".pdf")
 APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history", "spectrum"), "contact": ("contact", "envelope"), "scale": ("stress", "mechanism"),
-           "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress",),
+           "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress", "mechanism"),
            "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism", *ON_REQUEST)}  # options that mean something for few kinds
 
 
@@ -130,8 +130,8 @@ def refuse_other_dimension(options, results):
     from .results import ResultsError
     if results.in_space and options.window is not None:
         raise ResultsError("--window: has no meaning for bodies in space; --view says from where they are seen")
-    if results.in_space and options.what not in ("all", "stress", "contact"):
-        raise ResultsError(f"--what {options.what}: of a model in space there are pictures of stress and contact")
+    if results.in_space and options.what not in ("all", "stress", "contact", "mechanism"):
+        raise ResultsError(f"--what {options.what}: of a model in space there are pictures of stress, contact and mechanism")
     if not results.in_space and options.view is not None:
         raise ResultsError(f"--view: {results.directory} is of a model in the plane")
 
@@ -144,7 +144,8 @@ def figures(options, results, increment):
     if results.in_space:
         component = options.component if options.what != "all" else None
         return {"stress": lambda: solids.stress(results, increment, component, options.scale, units, view_of(options.view)),
-                "contact": lambda: solids.contact(results, increment, options.contact, component, units)}
+                "contact": lambda: solids.contact(results, increment, options.contact, component, units),
+                "mechanism": lambda: solids.mechanism(results, options.scale, units, view_of(options.view))}
     window = window_of(options.window)
     one = options.what != "all"
     component = options.component if one else None
@@ -245,10 +246,10 @@ def kinds_of(results, what):
     """What is to be drawn. In few runs cracks grow, or they end as a mechanism; where the first increment does, there is nothing else."""
     if what != "all":
         return [what]
-    if results.in_space:
-        return ["stress", "contact"]
     if results.mechanism() is not None and not results.count:
         return ["mechanism"]
+    if results.in_space:
+        return ["stress", "contact"] + ["mechanism"] * (results.mechanism() is not None)
     missing = [kind for kind, there in (("cracks", "growth" in results.summary), ("mechanism", results.mechanism() is not None)) if not there]
     return [kind for kind in KINDS if kind not in missing]
 

@@ -32,7 +32,7 @@ def mechanism(results, magnification=None, units=None, window=None):
     legend = [(Line2D([], [], color="0.45", linewidth=0.8, linestyle=(0, (4, 3))), "before")]
     legend += [(Line2D([], [], color=style.BLUE, linewidth=2.0), "slips")] * bool(len(motion.slips))
     legend += [(Line2D([], [], color=style.GREEN, linewidth=2.0, linestyle=OPENS), "opens")] * bool(len(motion.opens))
-    figure = style.new_figure(width, height + (0.75 if wide else 0.0), results.title, described(results, motion, units), legend)
+    figure = style.new_figure(width, height + (0.75 if wide else 0.0), results.title, described(results, motion.magnification, units), legend)
     axis = figure.add_subplot()
     thin = 1.0 if len(motion.outlines) <= MANY else 0.5
     before, after = place.factor * motion.grid.points, place.factor * motion.points
@@ -57,7 +57,7 @@ def mechanism(results, magnification=None, units=None, window=None):
     return figure
 
 
-def described(results, motion, units):
+def described(results, magnification, units):
     """`step 2, increment 1 · mechanism: 3 of 17 bodies move, most of all 'b_3_1' · largest displacement drawn as 500 mm`"""
     summary = results.summary
     last = summary["increments"][-1] if summary.get("increments") else {}
@@ -65,7 +65,7 @@ def described(results, motion, units):
     limit = summary.get("limit")
     status = f"beyond the limit, {limit['solved']:.5g} to {limit['beyond']:.5g}" if limit else summary["status"]
     parts.append(f"{status}: {summary.get('mechanism', {}).get('text', '')}")
-    size = units.scale("length", motion.magnification).text(motion.magnification) if units.length else \
-        f"{motion.magnification:g} times the unit of length"
+    size = units.scale("length", magnification).text(magnification) if units.length else \
+        f"{magnification:g} times the unit of length"
     parts.append(f"largest displacement drawn as {size}")
     return "\u00a0· ".join(parts)

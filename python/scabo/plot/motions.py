@@ -26,10 +26,7 @@ class Motion:
 
 def motion_of(results, magnification=None):
     """Raises ResultsError where the results have no such thing."""
-    grid = results.mechanism()
-    if grid is None:
-        raise NothingToDraw(f"{results.directory}: has no mechanism.vtu, as only a run has that ends as a mechanism or collapse (status: "
-                            f"{results.summary['status']})")
+    grid = needed_mechanism(results)
     size = geometry.extent(grid.points[grid.point_data["pair"] == 0])
     if magnification is None:
         magnification = magnification_of(size)
@@ -48,6 +45,15 @@ def motion_of(results, magnification=None):
     return Motion(grid, magnification, geometry.moved(grid, magnification), cells, grid.cell_data["motion"][is_cell],
                   rigid[grid.cell_data["body"][is_cell] - 1], np.concatenate([distinct[times == 1], lines[of_body]]),
                   joints[slides & ~opens], joints[opens])
+
+
+def needed_mechanism(results):
+    """The grid of mechanism.vtu; raises ResultsError where there is none."""
+    grid = results.mechanism()
+    if grid is None:
+        raise NothingToDraw(f"{results.directory}: has no mechanism.vtu, as only a run has that ends as a mechanism or collapse (status: "
+                            f"{results.summary['status']})")
+    return grid
 
 
 def magnification_of(size):

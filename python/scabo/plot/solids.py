@@ -5,10 +5,14 @@ import math
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.collections import LineCollection
-from matplotlib.colors import BoundaryNorm
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
+from matplotlib.lines import Line2D
 
 from . import contacts as plane_contacts
 from . import fields, geometry, style
+from .mechanisms import described
+from .motions import AT_REST, needed_mechanism
+from .motions import magnification_of as magnification_of_motion
 from .results import ResultsError
 from .tetrahedra import COMPONENTS, magnification_of, maps_of, outer_facets, sharp_edges, triangles_of, values_of
 from .units import Units
@@ -119,7 +123,7 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
     axis = figure.add_subplot()
     draw_image(figure, axis, image, scale.factor * image.values, levels, scale.label(name))
     axis.add_collection(LineCollection(visible_pieces(image, sharp_edges(grid.points, facets), seen), colors="black", linewidths=0.7))
-    draw_scale(axis, image, axes, place.unit)
+    draw_scale(axis, image.extent, axes, place.unit)
     return figure
 
 
@@ -128,17 +132,59 @@ def draw_image(figure, axis, image, values, levels, label):
     colours = colormaps[style.SIGNED if signed else style.MAGNITUDE if levels[-1] > 0 else style.MAGNITUDE + "_r"]
     extend = fields.ends_of(fields.within_rounding(values[np.isfinite(values)], levels), levels)
     norm = BoundaryNorm(levels, colours.N, extend=extend)
-    colour = colours(norm(np.nan_to_num(values)))
-    colour[..., :3] *= (0.78 + 0.22 * image.light)[..., None]  # faces at an angle are a little darker
-    colour[..., 3] = np.isfinite(values)
-    axis.imshow(colour, origin="lower", extent=image.extent, interpolation="none")
+    draw_lit(axis, image, colours(norm(np.nan_to_num(values))))
     bar = figure.colorbar(style.plt.cm.ScalarMappable(norm, colours), ax=axis, label=label, shrink=0.9, aspect=25, pad=0.02, extendfrac=0.03)
     bar.set_ticks(fields.bar_ticks(levels))
 
 
-def draw_scale(axis, image, axes, unit):
+def draw_lit(axis, image, colour):
+    """The image in these colours, one for each pixel."""
+    colour[..., :3] *= (0.78 + 0.22 * image.light)[..., None]  # faces at an angle are a little darker
+    colour[..., 3] = np.isfinite(image.values)
+    axis.imshow(colour, origin="lower", extent=image.extent, interpolation="none")
+
+
+@style.styled
+def mechanism(results, magnification=None, units=None, view=None):
+    """The bodies moved, coloured by the largest displacement of each, and their edges where they are (dashed), as mechanisms.mechanism in the
+    plane."""
+    units = units or Units()
+    grid = needed_mechanism(results)
+    place = units.scale("length", np.abs(grid.points).max())
+    facets = outer_facets(grid)
+    if magnification is None:
+        magnification = magnification_of_motion(float(np.linalg.norm(np.ptp(grid.points, axis=0))))
+    axes = directions(*(view or VIEW))
+    before = place.factor * grid.points @ axes.T
+    after = before + place.factor * magnification * grid.point_data["displacement"] @ axes.T
+    motion = np.zeros(len(grid.points))
+    tetrahedra = grid.cell_data["body"] > 0
+    for start, end, value in zip(grid.starts()[tetrahedra], grid.offsets[tetrahedra], grid.cell_data["motion"][tetrahedra]):
+        motion[grid.connectivity[start:end]] = value
+    image = seen_image(after, triangles_of(facets), motion)
+    edges = sharp_edges(grid.points, facets)
+    both = np.concatenate([before[edges.ravel()], after[edges.ravel()], after[facets[:, :3].ravel()]])[:, :2]
+    width, height = style.map_size(both.min(axis=0), both.max(axis=0), beside=0.95)
+    legend = [(Line2D([], [], color="0.45", linewidth=0.8, linestyle=(0, (4, 3))), "before")]
+    figure = style.new_figure(width, height, results.title, described(results, magnification, units), legend)
+    axis = figure.add_subplot()
+    light = ListedColormap(colormaps[style.MAGNITUDE](np.linspace(0.05, 0.75, 256)))
+    colours = style.plt.cm.ScalarMappable(Normalize(0.0, 1.0), light)
+    colour = colours.to_rgba(np.nan_to_num(image.values))
+    colour[np.nan_to_num(image.values) <= AT_REST] = (0.96, 0.96, 0.96, 1.0)
+    draw_lit(axis, image, colour)
+    moved = edges[motion[edges[:, 0]] > AT_REST]
+    axis.add_collection(LineCollection(before[moved][:, [0, 2], :2], colors="0.45", linewidths=0.6, linestyles=(0, (4, 3))))
+    axis.add_collection(LineCollection(visible_pieces(image, edges, after), colors="black", linewidths=0.7))
+    figure.colorbar(colours, ax=axis, label="largest displacement of each body", shrink=0.9, aspect=25, pad=0.02)
+    (left, low), (right, high) = both.min(axis=0), both.max(axis=0)
+    draw_scale(axis, (left, right, low, high), axes, place.unit)
+    return figure
+
+
+def draw_scale(axis, extent, axes, unit):
     """The axes, and a length, below the bodies."""
-    left, right, low, high = image.extent
+    left, right, low, high = extent
     size = 0.09 * max(right - left, high - low)
     axis.set_axis_off()
     axis.set(xlim=(left - 0.02 * size, right + 0.02 * size), ylim=(low - 2.6 * size, high + 0.2 * size))

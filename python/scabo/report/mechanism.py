@@ -6,7 +6,7 @@ from .reading import motion_of
 
 def add_mechanism(results, arrays, centre):
     """Returns what the page has to know of mechanism.vtu, or None where the run wrote none. The arrays are relative to the centre."""
-    if results.modal or results.mechanism() is None:
+    if results.modal or results.in_space or results.mechanism() is None:
         return None
     motion = motion_of(results)
     displacement = motion.grid.point_data["displacement"]

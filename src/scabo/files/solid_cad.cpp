@@ -206,7 +206,7 @@ SolidCad::Solids SolidCad::of_file(const std::string& path) {
   std::size_t count = 0;
   int error = 0;
   session_->solids.import(path.c_str(), &values, &count, 1, "", &error);
-  session_->session.check(error, "Gmsh cannot read the file");
+  session_->session.check(error, "the file may be cut off or damaged: export it again; Gmsh cannot read the file");
   session_->session.set("General.Terminal", 0);
   const Solids found = session_->volumes_of(session_->session.taken(values, count));
   session_->step_file = has_unit(path) ? path : "";

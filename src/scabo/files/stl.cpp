@@ -62,8 +62,12 @@ std::vector<Triangle> text_triangles(const std::string& bytes, const std::string
 double volume_of_stl(const std::string& path) {
   const auto bytes = bytes_of_file(path);
   if (!bytes) fail_in_file(path, 0, 0, why_unreadable(path));
-  std::vector<Triangle> triangles = binary_triangles(*bytes);
-  if (triangles.empty() && bytes->rfind("solid", 0) == 0) triangles = text_triangles(*bytes, path);
+  return volume_of_stl(*bytes, path);
+}
+
+double volume_of_stl(const std::string& bytes, const std::string& path) {
+  std::vector<Triangle> triangles = binary_triangles(bytes);
+  if (triangles.empty() && bytes.rfind("solid", 0) == 0) triangles = text_triangles(bytes, path);
   if (triangles.empty())
     fail_in_file(path, 0, 0, "the file has no triangles of an STL file, or is cut off; write it again");
   std::map<std::pair<Point, Point>, int> sides;  // in the direction of their triangle

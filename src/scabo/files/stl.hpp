@@ -9,5 +9,7 @@ namespace scabo::files {
 /// solid: every side of a triangle belongs to exactly one other one, which runs along it the other way, and normals
 /// point outwards.
 double volume_of_stl(const std::string& path);
+/// The same of the content of a file; `path`: in messages.
+double volume_of_stl(const std::string& bytes, const std::string& path);
 
 }  // namespace scabo::files

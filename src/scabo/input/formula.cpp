@@ -213,8 +213,16 @@ std::vector<std::string> words_of_formulas() {
   return words;
 }
 
-std::variant<double, std::string> value_of_formula(const std::string& formula, const ParameterValues& values) {
-  if (std::string mistake = first_mistake(formula); !mistake.empty()) return mistake;
+namespace {
+
+/// Why a formula cannot be read, whatever the values of its names.
+struct Unreadable {
+  std::string why;
+};
+
+/// Throws Unreadable, or NoNumber where it has no value.
+double evaluated(const std::string& formula, const ParameterValues& values) {
+  if (std::string mistake = first_mistake(formula); !mistake.empty()) throw Unreadable{std::move(mistake)};
   try {
     mu::Parser parser;
     // Operators of our own, which fail instead of going on with an infinite number; no assignment, no comparison.
@@ -237,15 +245,38 @@ std::variant<double, std::string> value_of_formula(const std::string& formula, c
     for (const std::string& name : names_in_formula(formula)) parser.DefineConst(name, values.find(name)->second);
     parser.SetExpr(formula);
     const double value = parser.Eval();
-    if (parser.GetNumResults() != 1) return "has a ',' outside the arguments of a function";
+    if (parser.GetNumResults() != 1) throw Unreadable{"has a ',' outside the arguments of a function"};
+    return value;
+  } catch (const mu::ParserError& error) {
+    throw Unreadable{explain_formula(error)};
+  }
+}
+
+}  // namespace
+
+std::variant<double, std::string> value_of_formula(const std::string& formula, const ParameterValues& values) {
+  try {
+    const double value = evaluated(formula, values);
     if (std::abs(value) > 1e100) return fmt::format("is {:.6g}, larger in size than 1e100", value);
     if (value != 0.0 && std::abs(value) < 1e-100) return fmt::format("is {:.6g}, smaller in size than 1e-100", value);
     return value == 0.0 ? 0.0 : value;  // no -0
   } catch (const NoNumber& reason) {
     return reason.why;
-  } catch (const mu::ParserError& error) {
-    return explain_formula(error);
+  } catch (const Unreadable& mistake) {
+    return mistake.why;
   }
+}
+
+std::string mistake_in_formula(const std::string& formula) {
+  ParameterValues ones;
+  for (const std::string& name : names_in_formula(formula)) ones[name] = 1.0;
+  try {
+    evaluated(formula, ones);
+  } catch (const NoNumber&) {  // with other values it may have one
+  } catch (const Unreadable& mistake) {
+    return mistake.why;
+  }
+  return {};
 }
 
 }  // namespace scabo::input

@@ -28,6 +28,9 @@ std::vector<std::string> names_in_formula(std::string_view formula);
 /// Functions and constants.
 std::vector<std::string> words_of_formulas();
 
+/// Why it cannot be read, whatever the values of its names, as a sentence without a subject; empty: it can.
+std::string mistake_in_formula(const std::string& formula);
+
 /// The value, or the reason why there is none, as a sentence without a subject. All its names must be in `values`.
 std::variant<double, std::string> value_of_formula(const std::string& formula, const ParameterValues& values);
 

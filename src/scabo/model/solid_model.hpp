@@ -60,6 +60,9 @@ struct SpaceFace {
   Source source;
 
   bool is_body() const { return side_set < 0 && node_set < 0 && of_shape.empty(); }
+  bool is_same(const SpaceFace& other) const {
+    return body == other.body && side_set == other.side_set && node_set == other.node_set && of_shape == other.of_shape;
+  }
 };
 
 /// A number at a point, or the reason why it has none, as a sentence without a subject.
@@ -137,6 +140,7 @@ struct SpaceModel {
   std::vector<SpacePoint> points;
   std::vector<SpaceSection> sections;
   double tolerance = 1e-10;  ///< of the certificate
+  bool uniqueness = false;   ///< whether other solutions are searched for
   std::vector<Warning> warnings;
 };
 

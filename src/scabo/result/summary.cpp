@@ -47,14 +47,6 @@ Json json_of(const analysis::ContactResult& contact) {
   return json;
 }
 
-Json json_of(const analysis::UniquenessResult& uniqueness) {
-  return {{"unique", uniqueness.verdict},
-          {"others", uniqueness.others},
-          {"complete", uniqueness.complete},
-          {"bound", number_or_null(uniqueness.bound)},
-          {"index", uniqueness.index}};
-}
-
 Json json_of(const contact::Certificate& certificate) {
   return {{"equilibrium", number_or_null(certificate.equilibrium)},
           {"penetration", number_or_null(certificate.penetration)},
@@ -129,12 +121,9 @@ Json json_of(const analysis::GrowthResult& growth) {
   if (growth.displacement) json["displacement"] = number_or_null(*growth.displacement);
   if (growth.reaction) json["reaction"] = number_or_null(*growth.reaction);
   if (const auto& energy = growth.energy)
-    json["energy"] = {{"external", number_or_null(energy->external)},
-                      {"elastic", number_or_null(energy->elastic)},
-                      {"contact", number_or_null(energy->contact)},
-                      {"released", number_or_null(energy->released)},
-                      {"integral", number_or_null(energy->integral)},
-                      {"remeshing", number_or_null(energy->remeshing)}};
+    json["energy"] = {{"external", number_or_null(energy->external)}, {"elastic", number_or_null(energy->elastic)},
+                      {"contact", number_or_null(energy->contact)},   {"released", number_or_null(energy->released)},
+                      {"integral", number_or_null(energy->integral)}, {"remeshing", number_or_null(energy->remeshing)}};
   for (const analysis::TipResult& tip : growth.tips) {
     Json& of = json["tips"][tip.name];
     of = {{"position", json_of(tip.position)},
@@ -247,7 +236,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
     for (const analysis::QuantityResult& quantity : increment.quantities)
       json["quantities"].push_back(json_of(quantity));
   }
-  if (increment.uniqueness) json["uniqueness"] = json_of(*increment.uniqueness);
+  if (increment.uniqueness) json["uniqueness"] = content_of(*increment.uniqueness);
   return json;
 }
 
@@ -328,6 +317,14 @@ Json json_of(const analysis::Timing& timing, bool running) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json content_of(const analysis::UniquenessResult& uniqueness) {
+  return {{"unique", uniqueness.verdict},
+          {"others", uniqueness.others},
+          {"complete", uniqueness.complete},
+          {"bound", number_or_null(uniqueness.bound)},
+          {"index", uniqueness.index}};
+}
 
 std::string_view name_of(analysis::Outcome outcome) {
   switch (outcome) {

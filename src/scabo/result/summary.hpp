@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,9 @@ std::optional<long long> peak_memory();
 std::string summary_content(const analysis::StaticSolution& solution, const analysis::Timing& timing, bool running,
                             const std::vector<HistoryExtremes>& history = {},
                             std::size_t most = std::numeric_limits<std::size_t>::max());
+
+/// What an increment says of other solutions.
+nlohmann::ordered_json content_of(const analysis::UniquenessResult& uniqueness);
 
 /// The summary of a run ended by an error: `summary` with status `failed` and the reason.
 std::string failed_summary(const std::string& summary, const std::string& reason);

@@ -14,6 +14,7 @@
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
 #include "scabo/result/solid/solid_faces.hpp"
+#include "scabo/result/solid/solid_mechanism_cells.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -334,6 +335,22 @@ std::string vtu_content(const SolidFaces& faces) {
   begin_cell_data(document);
   document.add_array("contact", 1, faces.cell_contact);
   return finish_piece(std::move(document), faces);
+}
+
+std::string vtu_content(const SolidMechanismCells& cells, int threads) {
+  const std::size_t points = cells.pair.size();
+  Document document = begin_piece(points, cells.types.size(), encoding_of(points), threads);
+  document.add(point_data("", true));
+  document.add_field("displacement", 3, cells.displacement);
+  document.add_field("opening", 1, cells.opening);
+  document.add_field("slip", 3, cells.slip);
+  document.add_array("pair", 1, cells.pair);
+  document.add_array("body", 1, cells.point_body);
+  begin_cell_data(document);
+  document.add_field("motion", 1, cells.motion);
+  document.add_array("body", 1, cells.body);
+  document.add_array("contact", 1, cells.contact);
+  return finish_piece(std::move(document), cells);
 }
 
 std::string vtu_content(const MechanismCells& cells, int threads) {

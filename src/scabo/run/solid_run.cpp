@@ -113,6 +113,7 @@ bool solve_increments(const analysis::PosedSolids& posed, analysis::SolidOptions
 analysis::SolidOptions options_of(const model::SpaceModel& model, int threads) {
   analysis::SolidOptions options;
   options.tolerance = model.tolerance;
+  options.uniqueness = model.uniqueness;
   options.threads = threads;
   return options;
 }

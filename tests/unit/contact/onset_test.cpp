@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <cmath>
 #include <vector>
@@ -118,6 +119,67 @@ TEST(Onset, IsNotThereForLessWorkThanItNeeds) {
   EXPECT_GT(enough, 100.0);  // a sweep over its ten rows
   EXPECT_LT(enough, 1e6);
   for (int round = 0; round < 20; ++round) EXPECT_FALSE(with(0.5 * enough)) << round;
+}
+
+/// A block in space on four corners at z = 0, its reference point `height` above their centre.
+Problem loaded_block_in_space(double friction, double height, const Vector& f) {
+  Problem problem;
+  problem.dimension = 3;
+  problem.W = Matrix(Matrix::Identity(12, 12));
+  problem.q = Vector::Zero(12);
+  problem.mu = Vector::Constant(4, friction);
+  problem.f = f;
+  Matrix G(12, 6);
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d arm(i % 2 == 0 ? 1.0 : -1.0, i < 2 ? 0.8 : -0.8, -height);
+    for (int row = 0; row < 3; ++row) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit((row + 2) % 3);  // z, x, y
+      G.row(3 * i + row) << axis.transpose(), arm.cross(axis).transpose();
+    }
+  }
+  problem.G = RigidMap(RigidMap::Sparse(G.sparseView()));
+  return problem;
+}
+
+TEST(Onset, OfABlockInSpaceIsAlongWhatPushesIt) {
+  for (const double azimuth : {0.0, 0.6, 2.5, 4.0}) {
+    Vector f = Vector::Zero(6);
+    f << 6.0 * std::cos(azimuth), 6.0 * std::sin(azimuth), -10.0, 0.0, 0.0, 0.0;
+    const auto v = onset_of_motion(loaded_block_in_space(0.5, 0.1, f), diagonal(Vector::Ones(6)));
+    ASSERT_TRUE(v.has_value());
+    Vector expected = Vector::Zero(6);
+    expected.head<2>() = f.head<2>().normalized();
+    EXPECT_LT((*v - expected).norm(), 1e-7) << v->transpose();
+    f.head<2>() *= 0.8;
+    EXPECT_FALSE(onset_of_motion(loaded_block_in_space(0.5, 0.1, f), diagonal(Vector::Ones(6))).has_value());
+  }
+}
+
+// The pyramid that the proof begins with is 2 % wider than the cone along some directions.
+TEST(Onset, InSpaceIsThatOfAMechanismThatIsProvenUpToTheBoundOfFriction) {
+  for (const double azimuth : {0.0, 0.1, 0.19634954, 2.5})
+    for (const double beyond : {0.9999, 1.0002, 1.01, 1.5}) {
+      Vector f = Vector::Zero(6);
+      f << 5.0 * beyond * std::cos(azimuth), 5.0 * beyond * std::sin(azimuth), -10.0, 0.0, 0.0, 0.0;
+      const Problem problem = loaded_block_in_space(0.5, 0.1, f);
+      const auto proof = find_mechanism(problem);
+      EXPECT_EQ(proof.has_value(), beyond > 1.0) << azimuth << ", " << beyond;
+      if (!proof) continue;
+      EXPECT_GT(f.dot(*proof), 0.0);
+      constexpr double half_side = 0.19634954;  // of the first pyramid: the proof slides across one of its sides
+      EXPECT_LT((proof->head<2>().normalized() - f.head<2>().normalized()).norm(), half_side);
+    }
+}
+
+// About the edge x = 1, without slip: M is the identity, and the edge stays.
+TEST(Onset, OfATallBlockInSpaceTurnsAboutItsEdge) {
+  Vector f = Vector::Zero(6);
+  f << 6.0, 0.0, -10.0, 0.0, 0.0, 0.0;
+  const auto v = onset_of_motion(loaded_block_in_space(5.0, 3.0, f), diagonal(Vector::Ones(6)));
+  ASSERT_TRUE(v.has_value());
+  Vector expected = Vector::Zero(6);
+  expected << 3.0, 0.0, 1.0, 0.0, 1.0, 0.0;  // rotation about y lifts the back; the centroid moves by it x [-1, 0, 3]
+  EXPECT_LT((*v - expected.normalized()).norm(), 1e-7) << v->transpose();
 }
 
 TEST(Onset, IsNotThereWithoutLoads) {

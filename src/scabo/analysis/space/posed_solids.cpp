@@ -72,6 +72,7 @@ void Posing::add_body(const model::SpaceBody& of) {
     shaped.mesh = mesh::solid_mesh_of(*of.mesh);
   }
   SolidBody body{std::move(shaped.mesh)};
+  body.name = of.name;
   if (of.rigid) {
     body.rigid_at = system::volume_of(body.mesh).centroid;
   } else {
@@ -88,6 +89,12 @@ void Posing::add_body(const model::SpaceBody& of) {
                           : "its curved face folds elements of this size: give it a smaller 'size'"});
       break;
     }
+  if (const auto cells = of.mesh && !of.made_of_shape ? mesh::overlapping_cells(body.mesh) : std::nullopt)
+    mistakes_.push_back(
+        {of.source, fmt::format("elements {} and {} of its mesh file lie on the same side of a face that "
+                                "both have: leave one of them out",
+                                of.mesh->cells[static_cast<std::size_t>((*cells)[0])].number,
+                                of.mesh->cells[static_cast<std::size_t>((*cells)[1])].number)});
   boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});
   of_shapes_.push_back(std::move(shaped.faces));
   posed_.model.bodies.push_back(std::move(body));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "scabo/analysis/quasistatic/branch.hpp"
+#include "scabo/analysis/space/solid_mechanism.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/friction_work.hpp"
 #include "scabo/analysis/state/loads.hpp"
@@ -355,22 +357,13 @@ Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, 
   return energy;
 }
 
-std::optional<LargeMotion> large_motion_in(const SolidModel& model, const std::vector<Vector>& u) {
-  std::vector<SolidMotion> motions;
-  std::vector<bool> rigid;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    motions.push_back(motion_of(model.bodies[b].mesh, u[b]));
-    rigid.push_back(model.bodies[b].rigid_at.has_value());
-  }
-  return large_motion_of(motions, rigid);
-}
-
 /// Increments in their order, each from the state that the one before it left.
 class SolidMarch {
  public:
   SolidMarch(const SolidModel& model, const SolidOptions& options)
       : prepared_(prepared_solids(model, options.threads)), before_(solids_at_rest(prepared_)) {
     solver_.tolerance = options.tolerance;
+    uniqueness_ = options.uniqueness;
     if (options.from == nullptr) {
       const Eigen::Index pairs = prepared_.contact.gap.size();
       state_.slip = Vector::Zero(2 * pairs);
@@ -390,11 +383,44 @@ class SolidMarch {
   const SolidState& state() const { return state_; }
 
  private:
+  MovingSolids moving(const std::vector<std::size_t>& tightened) const {
+    return {prepared_.model,        prepared_.structure,     prepared_.contact,      tightened,
+            prepared_.paired.pairs, prepared_.paired.points, prepared_.paired.turned};
+  }
+  /// The solution of the contact problem; `to` has what it says of it.
+  contact::Solution solved(const AppliedToSolids& applied, const SolidFactors& factors,
+                           const std::vector<std::size_t>& tightened, SolidIncrement& to) const;
+
   PreparedSolids prepared_;
   contact::SolverOptions solver_;
+  bool uniqueness_ = false;
   SolidState state_;
   MovedSolids before_;
+  std::vector<Warning> given_;
 };
+
+contact::Solution SolidMarch::solved(const AppliedToSolids& applied, const SolidFactors& factors,
+                                     const std::vector<std::size_t>& tightened, SolidIncrement& to) const {
+  const Eigen::Index motions = state_.a.size();
+  contact::Start start{state_.p, state_.a};
+  start.a.conservativeResize(motions + static_cast<Eigen::Index>(tightened.size()));
+  for (std::size_t k = 0; k < tightened.size(); ++k)
+    start.a[motions + static_cast<Eigen::Index>(k)] = state_.shortening[static_cast<Eigen::Index>(tightened[k])];
+  contact::Evolution evolution;
+  evolution.problem = problem_of_solids(prepared_, applied, factors, state_.slip, tightened);
+  evolution.solution = contact::solve(evolution.problem, start, solver_);
+  if (uniqueness_ && evolution.problem.pairs() > 0)
+    to.uniqueness = follow_history(evolution.problem, prepared_.contact.laws,
+                                   contact::History(prepared_.contact.pairs.size()), start, solver_, evolution);
+  const contact::Solution& solution = evolution.solution;
+  to.factors = factors;
+  to.status = solution.status;
+  to.iterations = solution.iterations;
+  if (solution.status == contact::Status::mechanism || solution.status == contact::Status::collapse)
+    to.mechanism = solid_mechanism(moving(tightened), evolution.problem, solution);
+  to.reason = reason_of_solids(prepared_.model, solution, to.mechanism);
+  return std::move(evolution.solution);
+}
 
 SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   const SolidModel& model = prepared_.model;
@@ -407,20 +433,11 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   for (const std::size_t i : tightened)
     state_.force_scale = std::max(state_.force_scale, std::abs(*model.preloads[i].force));
   solver_.force_scale = state_.force_scale;
-  const Eigen::Index motions = state_.a.size();
-  Vector start = state_.a;
-  start.conservativeResize(motions + static_cast<Eigen::Index>(tightened.size()));
-  for (std::size_t k = 0; k < tightened.size(); ++k)
-    start[motions + static_cast<Eigen::Index>(k)] = state_.shortening[static_cast<Eigen::Index>(tightened[k])];
-  const contact::Solution solution = contact::solve(
-      problem_of_solids(prepared_, applied, factors, state_.slip, tightened), {state_.p, start}, solver_);
   SolidIncrement to;
-  to.factors = factors;
-  to.status = solution.status;
-  to.reason = solution.reason;
-  to.iterations = solution.iterations;
+  const contact::Solution solution = solved(applied, factors, tightened, to);
   if (solution.status != contact::Status::solved) return to;
   to.certificate = solution.certificate;
+  const Eigen::Index motions = state_.a.size();
   const Vector a = solution.a.head(motions);
   for (std::size_t k = 0; k < tightened.size(); ++k)
     shortening[static_cast<Eigen::Index>(tightened[k])] = solution.a[motions + static_cast<Eigen::Index>(k)];
@@ -442,7 +459,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
     to.reason = "the forces at some node do not balance to the tolerance of the certificate";
   }
   if (to.status != contact::Status::solved) return to;
-  to.large = large_motion_in(model, to.u);
+  add_warnings(moving(tightened), solution, given_, to);
   state_ = {factors, slip, solution.gap, solution.p, a, shortening, solution.states, state_.force_scale, to.energy};
   before_ = std::move(moved);
   return to;

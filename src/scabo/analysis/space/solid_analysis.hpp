@@ -7,13 +7,15 @@
 // displacements and rotations.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scabo/analysis/space/large_motions.hpp"
 #include "scabo/analysis/state/results.hpp"
+#include "scabo/analysis/state/solution.hpp"
+#include "scabo/base/warning.hpp"
 #include "scabo/contact/certificate.hpp"
 #include "scabo/contact/solution.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
@@ -29,6 +31,7 @@ struct SolidBody {
   double expansion = 0.0;                         ///< strain per change of temperature
   /// It does not deform; `supports` are system::held_motion of this point.
   std::optional<Eigen::Vector3d> rigid_at = {};
+  std::string name = {};  ///< in messages
 };
 
 /// Two faces of different bodies, one of which is elastic.
@@ -88,6 +91,29 @@ struct SolidTension {
   double force = 0.0, shortening = 0.0;  ///< in the cut of a preload; tension positive
 };
 
+/// Of a body without deformation: u(x) = shift + rotation x (x - about).
+struct SolidBodyMotion {
+  Eigen::Vector3d about = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero(), rotation = Eigen::Vector3d::Zero();
+  double largest = 0.0, size = 0.0;  ///< largest displacement of a node, largest distance from `about`; length
+
+  /// Whether it is more than rounding beside the largest displacement of all bodies, which is 1.
+  bool moves() const { return largest > 1e-4; }
+  /// The point nearest to `about` of the axis about which the body turns; none: it does not turn.
+  std::optional<Eigen::Vector3d> axis() const;
+  Eigen::Vector3d at(const Eigen::Vector3d& x) const { return shift + rotation.cross(x - about); }
+};
+
+/// How bodies begin to move where no forces balance the loads, as Mechanism in the plane: the largest displacement
+/// is 1.
+struct SolidMechanism {
+  FlowRule rule = FlowRule::coulomb;
+  std::vector<SolidBodyMotion> bodies;  ///< one for each of the model
+  std::vector<int> bolts;               ///< bodies whose preload shortens without end
+  std::vector<SolidPair> pairs;         ///< gap and slip are the motion of the pair; without forces
+  double work = 0.0;                    ///< of the loads, force times length
+  Vector motion;                        ///< as amplitudes of the contact problem
+};
+
 struct SolidIncrement {
   SolidFactors factors;
   contact::Status status = contact::Status::not_converged;
@@ -100,7 +126,9 @@ struct SolidIncrement {
   contact::Certificate certificate;
   Energy energy;
   int iterations = 0;
-  std::optional<LargeMotion> large;  ///< beyond the theory; none: displacements and rotations are small
+  std::optional<SolidMechanism> mechanism;     ///< of a mechanism or collapse
+  std::optional<UniquenessResult> uniqueness;  ///< if requested
+  std::vector<Warning> warnings;               ///< that no increment before it has given
 };
 
 /// All that the next increment depends on. Displacements follow from the factors, the contact forces and the motions.
@@ -117,6 +145,7 @@ struct SolidState {
 struct SolidOptions {
   double tolerance = 1e-10;  ///< of the certificate
   int threads = 1;
+  bool uniqueness = false;           ///< whether other solutions are searched for
   std::size_t first = 0;             ///< of the increments, those before it are done,
   const SolidState* from = nullptr;  ///< and this is the state after them; null: nothing is done
   /// Told of every increment as soon as it is known, with the state after it, which an unsolved one does not change.

@@ -68,9 +68,9 @@ Problem of_moved_pairs(const Problem& problem, const std::vector<int>& pairs, do
   return part;
 }
 
-/// v to its last digits, for the states of a solution: H v = 0, v = M^-1 (f + G'(p_0 + C y)), with the rows H of gaps
-/// that stay closed and of tangents that stick, and the forces p_0 + C y that are admissible in these states. Close to
-/// the loads that can be balanced v is a small difference of large forces.
+/// v of a plane problem to its last digits, for the states of a solution: H v = 0, v = M^-1 (f + G'(p_0 + C y)), with
+/// the rows H of gaps that stay closed and of tangents that stick, and the forces p_0 + C y that are admissible in
+/// these states. Close to the loads that can be balanced v is a small difference of large forces.
 Vector of_states(const Problem& problem, const RigidMap::Sparse& inverse_mass, const Solution& solution) {
   const Matrix& G = problem.G.dense();
   std::vector<Vector> held, forces;
@@ -111,7 +111,7 @@ Vector of_states(const Problem& problem, const RigidMap::Sparse& inverse_mass, c
 
 std::optional<Vector> onset_of_motion(const Problem& problem, const RigidMap::Sparse& inverse_mass,
                                       double most_operations) {
-  if (problem.dimension != 2 || problem.f.size() == 0 || problem.f.isZero(0.0)) return std::nullopt;
+  if (problem.f.size() == 0 || problem.f.isZero(0.0)) return std::nullopt;
   const std::vector<int> pairs = moved_pairs(problem);
   const bool many = has_many_motions(problem);
   if (entries_of(problem, pairs, many) > most_entries_of_onset) return std::nullopt;
@@ -134,7 +134,7 @@ std::optional<Vector> onset_of_motion(const Problem& problem, const RigidMap::Sp
   if (solution.status != Status::solved) return std::nullopt;
 
   Vector v = fall + inverse_mass * (whole.G.transpose() * solution.p);
-  if (!many) {
+  if (!many && problem.dimension == 2) {
     constexpr double of_solver = 1e-8;  // of the free fall: what the solver may have left
     const Vector exact = of_states(whole, inverse_mass, solution);
     if ((exact - v).norm() <= of_solver * fall.norm()) v = exact;

@@ -35,12 +35,14 @@ Vector slide_of(const Problem& problem, const Vector& motion) {
   return slide.norm() > 0.7 ? Vector(slide.normalized()) : motion;
 }
 
+/// Of a pyramid around a friction cone in space, which is up to 2 % wider.
+constexpr int fewest_sides = 16;
+
 /// Effects on the rigid motions of rays whose non-negative combinations hold all friction forces: in the plane the
 /// extreme rays n + mu_b t and n - mu_f t, in space those of a pyramid around the cone, so that a proof against it is
-/// one against the cone.
-Matrix rays_of(const Problem& problem) {
+/// one against the cone; or, `inside`, of one that the cone holds.
+Matrix rays_of(const Problem& problem, int sides = fewest_sides, bool inside = false) {
   const Eigen::Index N = problem.pairs(), d = problem.dimension;
-  constexpr int sides = 16;
   const int count = d == 2 ? 2 : sides;
   Matrix rays(problem.G.cols(), count * N);
   rays.setZero();  // of pairs whose forces are unlimited: unlimited()
@@ -52,7 +54,7 @@ Matrix rays_of(const Problem& problem) {
         ray += side * problem.mu_against(i, side) * problem.G.dense().row(2 * i + 1).transpose();
       } else {
         const double angle = 2.0 * std::numbers::pi * k / sides,
-                     reach = problem.mu[i] / std::cos(std::numbers::pi / sides);
+                     reach = inside ? problem.mu[i] : problem.mu[i] / std::cos(std::numbers::pi / sides);
         ray += reach *
                (std::cos(angle) * problem.G.dense().row(3 * i + 1) + std::sin(angle) * problem.G.dense().row(3 * i + 2))
                    .transpose();
@@ -197,6 +199,19 @@ std::optional<Vector> find_mechanism(const Problem& in_its_unit) {
 
 namespace {
 
+/// What rays leave of the loads f: f'unbalanced = |unbalanced|^2 > 0, rays'unbalanced >= 0.
+Vector unbalanced_by(const Matrix& rays, const Vector& f) {
+  return f + rays * linalg::nonnegative_least_squares(rays, -f);
+}
+
+/// The motion along what rays leave of the loads, if that proves that they hold nothing.
+std::optional<Vector> motion_of_proof(const Problem& problem, const Matrix& rays, const Vector& unbalanced) {
+  if (unbalanced.norm() <= 1e-9 * problem.f.norm() ||
+      !separates(rays, -unbalanced, unbalanced.squaredNorm(), problem.f.norm()))
+    return std::nullopt;
+  return slide_of(problem, unbalanced.normalized());
+}
+
 std::optional<Vector> mechanism_of(const Problem& problem) {
   const bool strong = problem.cohesion.size() > 0 || problem.tension.size() > 0;
   if (has_many_motions(problem)) {
@@ -207,12 +222,19 @@ std::optional<Vector> mechanism_of(const Problem& problem) {
   }
   const Matrix rays = rays_of(problem);
   if (problem.cohesion.size() > 0 || problem.tension.size() > 0) return mechanism_against_strengths(problem, rays);
-  const Vector strengths = linalg::nonnegative_least_squares(rays, -problem.f);
-  const Vector unbalanced = problem.f + rays * strengths;  // f'unbalanced = |unbalanced|^2 > 0, rays'unbalanced >= 0
-  if (unbalanced.norm() <= 1e-9 * problem.f.norm() ||
-      !separates(rays, -unbalanced, unbalanced.squaredNorm(), problem.f.norm()))
-    return std::nullopt;
-  return slide_of(problem, unbalanced.normalized());
+  Vector unbalanced = unbalanced_by(rays, problem.f);
+  const auto balances = [&] { return unbalanced.norm() <= 1e-9 * problem.f.norm(); };
+  if (problem.dimension == 2 || !balances()) return motion_of_proof(problem, rays, unbalanced);
+  // In space the loads may be balanced by a pyramid and not by the cone.
+  constexpr double most_rays = 3e5;
+  for (int sides = 4 * fewest_sides; sides <= 16 * fewest_sides && sides * problem.pairs() <= most_rays; sides *= 4) {
+    unbalanced = unbalanced_by(rays_of(problem, sides / 4, true), problem.f);
+    if (balances()) break;
+    const Matrix closer = rays_of(problem, sides);
+    unbalanced = unbalanced_by(closer, problem.f);
+    if (!balances()) return motion_of_proof(problem, closer, unbalanced);
+  }
+  return std::nullopt;
 }
 
 }  // namespace

@@ -243,11 +243,27 @@ void SpaceReader::load(const Entry& entry) {
       map.refuse("at", "is the point through which a 'force' acts: leave it out");
     else if (const auto at = map.get("at"))
       load.at = vector(*at);
+  } else if (given.size() > 1) {
+    report_.error(entry.value, fmt::format("has '{}' and '{}': make two loads of them", given[0], given[1]));
   } else if (map.all_known()) {
     report_.error(entry.value,
                   "needs one of 'pressure', 'traction', 'force', 'nodal_force', 'moment', 'gravity' and 'temperature'");
   }
+  for (const SpaceSupport& support : model_.supports)
+    if (support.named && support.name == load.name)
+      report_.error(
+          entry.key_source,
+          fmt::format("a support is also named '{}', and a step could mean either: rename one of them", load.name));
   model_.loads.push_back(load);
+}
+
+/// Two faces are joined once.
+void SpaceReader::refuse_joined_faces(const Entry& entry, const SpaceContact& contact) {
+  for (const SpaceContact& other : model_.contacts)
+    if ((contact.a.is_same(other.a) && contact.b.is_same(other.b)) ||
+        (contact.a.is_same(other.b) && contact.b.is_same(other.a)))
+      report_.error(entry.key_source, fmt::format("{} '{}' already connects the same two faces: remove one of the two",
+                                                  other.friction ? "contact" : "tie", other.name));
 }
 
 void SpaceReader::pair_of_faces(const Entry& entry, bool tied) {
@@ -284,6 +300,7 @@ void SpaceReader::pair_of_faces(const Entry& entry, bool tied) {
       else if (a && b && body_at(a->body).rigid && body_at(b->body).rigid)
         report_.error(*between, "both bodies are rigid: in space one of two bodies in contact is elastic");
       if (a && b) contact.a = *a, contact.b = *b;
+      if (a && b) refuse_joined_faces(entry, contact);
     }
   }
   model_.contacts.push_back(contact);

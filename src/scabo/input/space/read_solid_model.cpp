@@ -18,8 +18,10 @@ void SpaceReader::analysis(const Value& value) {
 }
 
 void SpaceReader::solver(const Value& value) {
-  const MapReader map(report_, value, {"tolerance"}, "{tolerance: 1e-10}",
-                      only_in_the_plane({"iterations", "halvings", "uniqueness", "factorisation"}));
+  const MapReader map(report_, value, {"tolerance", "uniqueness"}, "{tolerance: 1e-10}",
+                      only_in_the_plane({"iterations", "halvings", "factorisation"}));
+  if (const auto uniqueness = map.get("uniqueness"))
+    model_.uniqueness = read_flag(report_, *uniqueness).value_or(false);
   const auto tolerance = map.get("tolerance");
   if (!tolerance) return;
   model_.tolerance = read_number(report_, *tolerance).value_or(model_.tolerance);
@@ -64,6 +66,10 @@ SpaceModel SpaceReader::read(const Value& root) {
     for (const Entry& entry :
          read_named(report_, *value, "bodies", "{block: {material: steel, mesh: {file: block.inp}}}"))
       body(entry);
+  if (const auto value = map.get("bodies");
+      value && (value->node->kind == Node::Kind::null ||
+                (value->node->kind == Node::Kind::map && value->node->entries.empty())))
+    report_.error(*value, "contains no body: define at least one");
   if (const auto value = map.get("supports"))
     for (const Value& item :
          read_list(report_, *value, "[{on: block.bottom, fix: [x, y, z]}]").value_or(std::vector<Value>{}))

@@ -17,6 +17,21 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// What lies too far away, or is too large, has no digits left. `sizes`: all greater than 0, or not reported.
+void check_extent(Report& report, const Value& value, const Vector3d& at, std::initializer_list<double> sizes) {
+  const double least = std::min(sizes), largest = std::max(sizes);
+  constexpr double most = 1e30, digits = 1e-8;
+  if (!(least > 0.0)) return;  // reported
+  if (least < 1.0 / most || largest > most)
+    report.error(value, fmt::format("has a size of {:.2g}, but sizes must be from 1e-30 to 1e30: use another unit of "
+                                    "length",
+                                    largest > most ? largest : least));
+  else if (least < digits * at.cwiseAbs().maxCoeff())
+    report.error(value, fmt::format("with a size of {:.2g} lies {:.2g} away from the origin, where coordinates have "
+                                    "too few digits for it: move the model to the origin",
+                                    least, at.cwiseAbs().maxCoeff()));
+}
+
 SolidBox solid_box_of(Report& report, const Value& value) {
   const MapReader map(report, value, {"corner", "size"}, "{corner: [0, 0, 0], size: [1, 1, 1]}");
   SolidBox box{needed_vector(report, map, "corner"), Vector3d::Zero()};
@@ -24,6 +39,7 @@ SolidBox solid_box_of(Report& report, const Value& value) {
   if (size) box.size = read_vector_in_space(report, *size);
   if (size && size->node->kind == Node::Kind::sequence && size->node->items.size() == 3 && !(box.size.minCoeff() > 0.0))
     report.error(*size, "the three sides must be greater than 0");
+  check_extent(report, value, box.corner, {box.size.x(), box.size.y(), box.size.z()});
   return box;
 }
 
@@ -38,7 +54,9 @@ std::pair<Vector3d, Vector3d> axis_of(Report& report, const MapReader& map) {
 SolidCylinder cylinder_of(Report& report, const Value& value) {
   const MapReader map(report, value, {"from", "to", "radius"}, "{from: [0, 0, 0], to: [0, 0, 1], radius: 0.2}");
   const auto [from, to] = axis_of(report, map);
-  return {from, to, read_positive(report, map.need("radius"))};
+  SolidCylinder cylinder{from, to, read_positive(report, map.need("radius"))};
+  check_extent(report, value, from, {(to - from).norm(), cylinder.radius});
+  return cylinder;
 }
 
 SolidTube tube_of(Report& report, const Value& value) {
@@ -48,6 +66,7 @@ SolidTube tube_of(Report& report, const Value& value) {
   SolidTube tube{from, to, read_positive(report, map.need("inner")), read_positive(report, map.need("outer"))};
   if (map.has("inner") && map.has("outer") && !(tube.inner < tube.outer))
     report.error(*map.get("outer"), "'outer', a radius, must be greater than 'inner'");
+  check_extent(report, value, from, {(to - from).norm(), tube.inner, tube.outer - tube.inner});
   return tube;
 }
 
@@ -71,6 +90,7 @@ SolidSphere sphere_of(Report& report, const Value& value) {
   const MapReader map(report, value, {"centre", "radius", "keep"}, "{centre: [0, 0, 0], radius: 0.1, keep: [-z]}");
   SolidSphere sphere{needed_vector(report, map, "centre"), read_positive(report, map.need("radius"))};
   if (const auto keep = map.get("keep")) sphere.kept = kept_of(report, *keep);
+  check_extent(report, value, sphere.centre, {sphere.radius});
   return sphere;
 }
 
@@ -114,7 +134,10 @@ std::optional<AnyShape> read_solid_shape(Report& report, const Value& value, con
   for (const std::string& kind : kinds)
     if (map.has(kind)) given.push_back(kind);
   if (given.size() != 1) {
-    if (map.all_known())
+    if (given.size() > 1)
+      report.error(value,
+                   fmt::format("has '{}' and '{}': a body has one shape; 'union' joins two", given[0], given[1]));
+    else if (map.all_known())
       report.error(value,
                    "needs one of 'box', 'cylinder', 'tube', 'sphere', 'extrude', 'revolve', 'union', 'subtract', "
                    "'intersect' and 'file'");

@@ -57,6 +57,10 @@ SpaceFormula read_formula_in_space(Report& report, const Value& value) {
                                       quoted_name(*text), quoted_name(name)));
       return {};
     }
+  if (const std::string mistake = mistake_in_formula(*text); !mistake.empty()) {
+    report.error(value, fmt::format("the formula {} {}", quoted_name(*text), mistake));
+    return {};
+  }
   return [text = *text](const Vector3d& at) {
     return value_of_formula(text, {{"x", at.x()}, {"y", at.y()}, {"z", at.z()}});
   };

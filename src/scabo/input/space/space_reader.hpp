@@ -53,6 +53,7 @@ class SpaceReader {
   void place_of_load(const MapReader& map, const Entry& entry, model::SpaceLoad& load);
   void check_gravity(const Entry& entry, const model::SpaceLoad& load);
   void pair_of_faces(const Entry& entry, bool tied);
+  void refuse_joined_faces(const Entry& entry, const model::SpaceContact& contact);
 
   // read_solid_output.cpp
   void output(const Value& value);

@@ -142,6 +142,34 @@ using Triangle = std::array<Vec2, 3>;
 
 double area_of(const Triangle& triangle) { return 0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]); }
 
+/// Triangles of a convex polygon between its corners and its centroid. Which ones they are depends neither on where the
+/// polygon begins nor on corners that rounding alone makes, at which it turns by less than `least`, an area.
+std::vector<Triangle> triangles_around_centroid(CommonPart polygon, double least) {
+  const auto size = [&] { return polygon.size(); };
+  const auto turn = [&](std::size_t i) {
+    return area_of(Triangle{polygon[(i + size() - 1) % size()], polygon[i], polygon[(i + 1) % size()]});
+  };
+  while (size() > 2) {
+    std::size_t straightest = 0;
+    for (std::size_t i = 1; i < size(); ++i)
+      if (turn(i) < turn(straightest)) straightest = i;
+    if (turn(straightest) > least) break;
+    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(straightest));
+  }
+  if (size() < 3) return {};
+  Vec2 centroid = Vec2::Zero();
+  double area = 0.0;
+  for (std::size_t k = 2; k < size(); ++k) {
+    const Triangle part{polygon[0], polygon[k - 1], polygon[k]};
+    centroid += area_of(part) / 3.0 * (part[0] + part[1] + part[2]);
+    area += area_of(part);
+  }
+  std::vector<Triangle> triangles;
+  for (std::size_t k = 0; k < size(); ++k)
+    triangles.push_back({centroid / area, polygon[k], polygon[(k + 1) % size()]});
+  return triangles;
+}
+
 /// Adds the integrals over a triangle that lies on both facets, whose pairs have the functions `phi` of the
 /// barycentric coordinates on b.
 template <class Functions>
@@ -177,10 +205,15 @@ class CommonTriangles {
 
   void add(const Seen& a) {
     constexpr double least = 1e-12;  // of the smaller facet: rounding, where facets only touch
+    const double rounding = least * std::min(a.area(), b_.area());
     const CommonPart common = clipped({a.corners.begin(), a.corners.end()}, b_.corners);
+    if (b_.places.size() > 0) {  // on curved facets what is integrated is no polynomial
+      for (const Triangle& triangle : triangles_around_centroid(common, rounding)) triangles_.emplace_back(triangle, a);
+      return;
+    }
     for (std::size_t k = 2; k < common.size(); ++k) {
       const Triangle triangle{common[0], common[k - 1], common[k]};
-      if (area_of(triangle) > least * std::min(a.area(), b_.area())) triangles_.emplace_back(triangle, a);
+      if (area_of(triangle) > rounding) triangles_.emplace_back(triangle, a);
     }
   }
 

@@ -49,6 +49,21 @@ std::vector<SolidFacet> boundary_facets(const SolidMesh& mesh) {
   return facets;
 }
 
+std::optional<std::array<int, 2>> overlapping_cells(const SolidMesh& mesh) {
+  std::vector<std::pair<std::array<int, 3>, int>> sides;  // corners in their order, the least one first
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const std::array<int, 3>& side : facets_of_cell) {
+      std::array<int, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.cells[c][static_cast<std::size_t>(side[k])];
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      sides.emplace_back(corners, static_cast<int>(c));
+    }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].first == sides[i - 1].first) return std::array<int, 2>{sides[i - 1].second, sides[i].second};
+  return std::nullopt;
+}
+
 std::vector<SolidFacet> facets_in_plane(const SolidMesh& mesh, const std::vector<SolidFacet>& facets,
                                         const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double distance) {
   std::vector<SolidFacet> chosen;

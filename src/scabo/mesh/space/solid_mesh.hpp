@@ -1,6 +1,8 @@
 // A body in space as tetrahedra: nodes and cells, and the facets of its boundary.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "scabo/base/types.hpp"
@@ -23,6 +25,9 @@ SolidFacet facet_of(const std::vector<int>& cell, int side);
 
 /// The facets that belong to one cell only, in the order of the cells.
 std::vector<SolidFacet> boundary_facets(const SolidMesh& mesh);
+
+/// Two cells that lie on the same side of a facet that both have; none: no such cells.
+std::optional<std::array<int, 2>> overlapping_cells(const SolidMesh& mesh);
 
 /// Of these facets, those whose corners lie at most `distance` from the plane through `point` across `normal`, a unit
 /// vector, and whose outward normal is along it.

@@ -6,8 +6,6 @@ namespace scabo::result {
 
 namespace {
 
-constexpr std::uint8_t vtk_tetra = 10, vtk_quadratic_tetra = 24;
-
 void add_stress(const element::Vec6& stress, SolidCells& cells) {
   const StressInSpace measures(stress);
   for (int k = 0; k < 6; ++k) cells.stress.push_back(static_cast<float>(stress[k]));

@@ -9,6 +9,8 @@
 
 namespace scabo::result {
 
+inline constexpr std::uint8_t vtk_tetra = 10, vtk_quadratic_tetra = 24;
+
 struct SolidCells {
   std::vector<double> points;  // 3 per point
   std::vector<std::int32_t> connectivity, offsets;

@@ -13,6 +13,9 @@
 #include "scabo/result/report.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
 #include "scabo/result/solid/solid_faces.hpp"
+#include "scabo/result/solid/solid_mechanism_cells.hpp"
+#include "scabo/result/solid/solid_outcome.hpp"
+#include "scabo/result/summary.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -119,6 +122,7 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   if (!posed.model.preloads.empty()) json["preloads"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
+  if (increment.uniqueness) json["uniqueness"] = content_of(*increment.uniqueness);
   if (!solved) return json;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     json["contacts"][model.contacts[c].name] = json_of(totals_of(increment, c, model.contacts[c].about));
@@ -211,19 +215,6 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
   return json;
 }
 
-/// Adds the warning of large displacements to a summary without one. What was added; nothing if they are small.
-std::optional<Warning> add_large_motion(const model::SpaceModel& model, const analysis::PosedSolids& posed,
-                                        const analysis::SolidIncrement& increment, std::size_t number, Json& summary) {
-  if (!increment.large || summary["warnings"].size() > model.warnings.size()) return std::nullopt;
-  const auto& [step, of_step] = posed.step_and_number[number];
-  const std::string& name = model.bodies[static_cast<std::size_t>(increment.large->body)].name;
-  Warning warning{
-      WarningKind::large_displacement, "",
-      fmt::format("step {}, increment {}: {}", model.steps[step].name, of_step, increment.large->text(name))};
-  summary["warnings"].push_back(warning.text);
-  return warning;
-}
-
 std::string text_of(const Json& summary) { return summary.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
 std::string log_header(const model::SpaceModel& model, const Json& summary) {
@@ -253,7 +244,10 @@ std::string log_line(const model::SpaceModel& model, const Json& json, const ana
     text.back() = ';', text += ' ';
   text += model::counted(increment.iterations, "iteration");
   if (increment.status == contact::Status::solved)
-    return text + fmt::format(", certificate {:.2g}\n", increment.certificate.worst());
+    text += fmt::format(", certificate {:.2g}", increment.certificate.worst());
+  if (increment.uniqueness) text += fmt::format(", unique: {}", increment.uniqueness->verdict);
+  if (increment.status == contact::Status::solved) return text + '\n';
+  if (increment.mechanism) return text + fmt::format("; {}\n", increment.reason);  // begins with the status
   return text + fmt::format("; {}: {}\n", status_of(increment.status), increment.reason);
 }
 
@@ -278,9 +272,10 @@ std::string totals_of(const Json& increment) {
 }
 
 /// Of an increment that has been added to the summary.
-void note_outcome(const analysis::SolidIncrement& increment, Json& json) {
+void note_outcome(const analysis::SolidModel& model, const analysis::SolidIncrement& increment, Json& json) {
   json["status"] = status_of(increment.status);
   if (!increment.reason.empty()) json["reason"] = increment.reason;
+  if (increment.mechanism) json["mechanism"] = content_of(*increment.mechanism, model);
 }
 
 std::string which_increment(const Json& summary, const Json& increment) {
@@ -323,6 +318,7 @@ SolidResults::SolidResults(std::filesystem::path path, DirectoryLock lock, const
     throw WriteError("cannot continue", path_ / "summary.json",
                      "it has fewer increments than the run finished: run the model again with `scabo run`");
   for (std::size_t k = 0; k < count; ++k) summary_->json["increments"].push_back(std::move(before["increments"][k]));
+  if (before["warnings"].is_array()) summary_->json["warnings"] = std::move(before["warnings"]);
   open_files(&written);
   remove_later_fields(path_, written.fields_written);
   replace_summary();
@@ -375,8 +371,8 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
   std::vector<long long> sizes;
   for (const GrowingFile* file : growing_files()) sizes.push_back(file->size());
   const int finished = finished_;
-  const std::size_t not_synchronised = not_synchronised_.size();
-  const Json warnings = summary_->json["warnings"];
+  const std::size_t not_synchronised = not_synchronised_.size(), warnings = warnings_.size();
+  const Json texts = summary_->json["warnings"];
   try {
     add_files(increment);
   } catch (const WriteError&) {  // nothing is left of the increment
@@ -384,6 +380,8 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
     for (std::size_t i = 0; i < files.size(); ++i) files[i]->cut_back(sizes[i]);
     finished_ = finished;
     not_synchronised_.resize(not_synchronised);
+    warnings_.resize(warnings);
+    summary_->json["warnings"] = texts;
     remove_later_fields(path_, finished_);
     Json& made = summary_->json["increments"];
     made.erase(made.size() - 1);
@@ -410,10 +408,11 @@ void SolidResults::add_files(const analysis::SolidIncrement& increment) {
   log_->append(log_line(model_, made.back(), increment));
   summary_->json["status"] = "running";
   summary_->json["reason"] = nullptr;
-  const std::optional<Warning> large = add_large_motion(model_, posed_, increment, number, summary_->json);
+  note_warnings(model_, made.back(), increment.warnings, summary_->json["warnings"], warnings_);
   replace_summary();
-  note_outcome(increment, summary_->json);
-  if (large) warnings_.push_back(*large);
+  note_outcome(posed_.model, increment, summary_->json);
+  if (increment.mechanism)
+    replace_file(path_ / mechanism_name, vtu_content(solid_mechanism_cells(posed_.model, *increment.mechanism)));
 }
 
 analysis::WrittenResults SolidResults::written() {
@@ -457,6 +456,7 @@ SolidEnd end_of(Json& json, int finished, bool interrupted) {
 SolidEnd SolidResults::finish(bool interrupted) {
   Json& json = summary_->json;
   SolidEnd end = end_of(json, finished_, interrupted);
+  end.warnings = warnings_;
   std::string text = end.status == "solved" ? "\nSolved: every increment converged and is certified.\n"
                      : interrupted          ? fmt::format("\nInterrupted: {}\n", end.reason)
                                             : fmt::format("\nNot solved: {}\n", end.reason);
@@ -464,6 +464,8 @@ SolidEnd SolidResults::finish(bool interrupted) {
     const Json& last = json["increments"][static_cast<std::size_t>(finished_ - 1)];
     text += fmt::format("\nAfter {}:\n{}", which_increment(json, last), end.totals);
   }
+  if (json.contains("mechanism"))
+    text += fmt::format("{} shows the motion: {}\n", mechanism_name, json["mechanism"]["text"].get<std::string>());
   for (const Json& warning : json["warnings"]) text += "warning: " + warning.get<std::string>() + '\n';
   log_->append(text);
   replace_summary();
@@ -474,13 +476,13 @@ SolidEnd SolidResults::finish(bool interrupted) {
 std::pair<std::string, SolidEnd> summary_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
                                             const std::vector<analysis::SolidIncrement>& increments, bool interrupted) {
   Json json = begun_summary(model, posed);
-  std::vector<Warning> warnings;
   int finished = 0;
+  std::vector<Warning> warnings;
   for (std::size_t k = 0; k < increments.size(); ++k) {
     json["increments"].push_back(json_of(model, posed, increments[k], k));
     finished += increments[k].status == contact::Status::solved;
-    if (const auto large = add_large_motion(model, posed, increments[k], k, json)) warnings.push_back(*large);
-    note_outcome(increments[k], json);
+    note_warnings(model, json["increments"].back(), increments[k].warnings, json["warnings"], warnings);
+    note_outcome(posed.model, increments[k], json);
   }
   SolidEnd end = end_of(json, finished, interrupted);
   end.warnings = std::move(warnings);

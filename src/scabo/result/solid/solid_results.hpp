@@ -19,13 +19,13 @@ namespace scabo::result {
 
 /// How a run in space has ended.
 struct SolidEnd {
-  std::string status;        ///< `solved`, `mechanism`, `collapse`, `not_converged` or `interrupted`
-  std::string reason;        ///< empty: it is solved
-  int finished = 0;          ///< increments that are solved
-  double certificate = 0.0;  ///< its worst figure in all of them
-  std::string at;            ///< `step press, increment 2`, of the last increment; empty: there is none
-  std::string totals;        ///< of contacts and supports after the last solved increment, for people; likewise
-  std::vector<Warning> warnings = {};  ///< of the increments that were added; those of the model are not among them
+  std::string status;             ///< `solved`, `mechanism`, `collapse`, `not_converged` or `interrupted`
+  std::string reason;             ///< empty: it is solved
+  int finished = 0;               ///< increments that are solved
+  double certificate = 0.0;       ///< its worst figure in all of them
+  std::string at;                 ///< `step press, increment 2`, of the last increment; empty: there is none
+  std::vector<Warning> warnings;  ///< of increments
+  std::string totals;             ///< of contacts and supports after the last solved increment, for people; likewise
 };
 
 /// Content of summary.json of increments in memory, and how the run has ended.
@@ -66,7 +66,7 @@ class SolidResults {
   std::optional<GrowingFile> table_, log_, points_, history_;  // the last two if the model asks for them
   std::optional<FieldCollection> collection_, faces_;          // the latter of models with contacts
   std::vector<std::filesystem::path> not_synchronised_;
-  std::vector<Warning> warnings_;  // as SolidEnd::warnings
+  std::vector<Warning> warnings_;  // of increments
 };
 
 }  // namespace scabo::result
