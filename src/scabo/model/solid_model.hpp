@@ -14,6 +14,7 @@
 #include "scabo/base/error.hpp"
 #include "scabo/base/warning.hpp"
 #include "scabo/files/imported_solid_mesh.hpp"
+#include "scabo/model/contact.hpp"
 #include "scabo/model/curve.hpp"
 #include "scabo/model/solid_shape.hpp"
 #include "scabo/model/step.hpp"
@@ -78,8 +79,8 @@ struct SpaceSupport {
 
 struct SpaceLoad {
   /// Force: the total over a face, as a constant traction, or on a rigid body at its centroid. Moment: on a face as the
-  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body. Nodal force:
-  /// at every node of a set.
+  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body. Nodal
+  /// force: at every node of a set.
   enum class Kind { pressure, traction, force, nodal_force, moment, gravity, temperature };
   std::string name;
   Kind kind = Kind::pressure;
@@ -93,12 +94,13 @@ struct SpaceLoad {
   bool varies() const { return formula[0] || formula[1] || formula[2]; }
 };
 
-/// Also a tie: without friction.
+/// Also a tie: its law is a bond.
 struct SpaceContact {
   std::string name;
   SpaceFace a, b;
-  std::optional<double> friction;  ///< none: tied
-  double gap = 0.0;                ///< added to that of the meshes; negative: an interference
+  bool tied = false;
+  Contact law;       ///< as of a contact of the plane; its sides, gap, step and point have no meaning
+  double gap = 0.0;  ///< added to that of the meshes; negative: an interference
   /// Index of the step over which interferences, negative gaps of pairs, grow from 0 to their values; -1: they are
   /// there from the start.
   int fit_in = -1;

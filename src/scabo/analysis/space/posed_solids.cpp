@@ -9,6 +9,7 @@
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
 #include "scabo/model/limits.hpp"
+#include "scabo/system/contact_laws.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
@@ -265,7 +266,7 @@ void Posing::add_contact(const model::SpaceContact& contact) {
   SolidContact posed;
   posed.a = {contact.a.body, facets(contact.a)};
   posed.b = {contact.b.body, facets(contact.b)};
-  posed.friction = contact.friction;
+  posed.law = contact.law;
   posed.gap = contact.gap;
   if (posed.a.facets.empty() || posed.b.facets.empty()) return;
   const mesh::Face a{body(contact.a.body).mesh, posed.a.facets}, b{body(contact.b.body).mesh, posed.b.facets};
@@ -313,17 +314,22 @@ void Posing::add_steps() {
       if (curves[i] >= 0)
         factors[static_cast<Eigen::Index>(i)] = model::value_of(model_.curves[static_cast<std::size_t>(curves[i])], s);
   };
+  std::vector<model::Contact> laws;
+  for (const model::SpaceContact& contact : model_.contacts) laws.push_back(contact.law);
+  Vector coefficients = vector(system::coefficients_of(laws));
   Vector loads = Vector::Zero(static_cast<Eigen::Index>(model_.loads.size())),
          supports = Vector::Zero(static_cast<Eigen::Index>(model_.supports.size()));
   for (std::size_t s = 0; s < model_.steps.size(); ++s) {
     const model::Step& step = model_.steps[s];
-    const Vector last_loads = vector(step.load_factors), last_supports = vector(step.support_factors);
+    const Vector last_loads = vector(step.load_factors), last_supports = vector(step.support_factors),
+                 last_coefficients = vector(model::coefficients_of(step));
     for (int k = 1; k <= step.increments; ++k) {
       const double t =
           step.ends.empty() ? static_cast<double>(k) / step.increments : step.ends[static_cast<std::size_t>(k - 1)];
       SolidFactors factors{(1.0 - t) * loads + t * last_loads, (1.0 - t) * supports + t * last_supports};
       follow(step.load_curves, t, factors.loads);
       follow(step.support_curves, t, factors.supports);
+      if (last_coefficients.size() > 0) factors.coefficients = (1.0 - t) * coefficients + t * last_coefficients;
       factors.fits = Vector::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
       for (std::size_t c = 0; c < model_.contacts.size(); ++c)
         if (const int fit = model_.contacts[c].fit_in; fit >= static_cast<int>(s))
@@ -338,6 +344,7 @@ void Posing::add_steps() {
     }
     loads = last_loads;
     supports = last_supports;
+    if (last_coefficients.size() > 0) coefficients = last_coefficients;
   }
 }
 

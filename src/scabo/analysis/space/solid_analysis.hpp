@@ -14,8 +14,10 @@
 
 #include "scabo/analysis/state/results.hpp"
 #include "scabo/contact/certificate.hpp"
+#include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/solution.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
+#include "scabo/model/contact.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/solid_cut.hpp"
 
@@ -30,15 +32,15 @@ struct SolidBody {
   std::optional<Eigen::Vector3d> rigid_at = {};
 };
 
-/// Two faces of different bodies, one of which is elastic.
+/// Two faces of different bodies.
 struct SolidContact {
   struct Side {
     int body = -1;
     std::vector<mesh::SolidFacet> facets;
   };
   Side a, b;
-  std::optional<double> friction;  ///< >= 0; none: the faces are tied, and keep their gap
-  double gap = 0.0;                ///< added to that of the meshes; negative: an interference
+  model::Contact law;  ///< without directions of friction, and without friction that varies along the contact
+  double gap = 0.0;    ///< added to that of the meshes; negative: an interference
 };
 
 /// A bolt that is tightened. Supports do not hold both of its parts along the normal of the cut.
@@ -62,6 +64,8 @@ struct SolidModel {
 /// Factors of loads, supports and interferences at the end of an increment.
 struct SolidFactors {
   Vector loads, supports;
+  /// Coefficients of friction and lasting cohesions (model::coefficients_of); empty: those of the contacts.
+  Vector coefficients = Vector();
   /// For each contact the part of the negative gaps of its pairs that is there, 0 to 1; empty: all of them.
   Vector fits = Vector();
   /// For each preload the part of it that is there, 0 to 1. One with a force has this part of it in increments in which
@@ -79,6 +83,7 @@ struct SolidPair {
   Eigen::Vector3d slip = Eigen::Vector3d::Zero();   ///< of b relative to a, since the first increment
   double area = 0.0, gap = 0.0;
   contact::ContactState state = contact::ContactState::open;
+  bool broken = false;  ///< it has lost its cohesion
 
   double normal_force() const { return force.dot(normal); }  ///< compression positive
 };
@@ -108,7 +113,8 @@ struct SolidState {
   Vector p, a;           ///< contact forces, rigid motions
   Vector shortening;     ///< of each preload
   std::vector<contact::ContactState> states;
-  double force_scale = 0.0;  ///< largest applied force so far
+  contact::History history;
+  double force_scale = 0.0;  ///< largest force so far
   Energy energy;
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "scabo/input/laws.hpp"
 #include "scabo/input/space/solid_values.hpp"
 #include "scabo/model/solid_model.hpp"
 
@@ -52,6 +53,7 @@ class SpaceReader {
   void load_value(const std::string& kind, const Value& value, model::SpaceLoad& load);
   void place_of_load(const MapReader& map, const Entry& entry, model::SpaceLoad& load);
   void check_gravity(const Entry& entry, const model::SpaceLoad& load);
+  void law(const MapReader& map, model::SpaceContact& contact);
   void pair_of_faces(const Entry& entry, bool tied);
 
   // read_solid_output.cpp
@@ -64,6 +66,8 @@ class SpaceReader {
   void curves(const Value& value);
   void steps(const std::optional<Value>& value);
   model::Step step(const Value& value, const model::Step& before, std::size_t number);
+  void friction(const Value& value, model::Step& step);
+  std::vector<model::Contact> laws() const;
   void factor(const Entry& entry, model::Step& step);
   void find_fits();
   void find_tightened();
@@ -79,7 +83,9 @@ class SpaceReader {
   const model::SpaceBody& body_at(int index) const { return model_.bodies[static_cast<std::size_t>(index)]; }
 
   Report& report_;
+  Value root_;
   model::SpaceModel model_;
+  ContactProperties properties_;
   std::map<std::string, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
   std::vector<std::pair<std::size_t, Value>> fits_;       ///< contacts, and the names of the steps of `fit_in`
   std::vector<std::pair<std::size_t, Value>> tightened_;  ///< bodies, and the names of the steps of their preloads

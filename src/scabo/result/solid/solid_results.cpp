@@ -32,7 +32,7 @@ struct SolidTotals {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(), tangential = Eigen::Vector3d::Zero(),
                   moment = Eigen::Vector3d::Zero();
   double largest_pressure = 0.0, largest_gap = 0.0;
-  int open = 0, stick = 0, slip = 0;
+  int open = 0, stick = 0, slip = 0, broken = 0;
 };
 
 SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t contact, const Eigen::Vector3d& about) {
@@ -48,19 +48,22 @@ SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t con
     totals.open += pair.state == contact::ContactState::open;
     totals.stick += pair.state == contact::ContactState::stick;
     totals.slip += pair.state == contact::ContactState::slip;
+    totals.broken += pair.broken;
   }
   return totals;
 }
 
-Json json_of(const SolidTotals& totals) {
-  return {{"normal_force", json_of(totals.normal)},
-          {"tangential_force", json_of(totals.tangential)},
-          {"moment", json_of(totals.moment)},
-          {"max_pressure", totals.largest_pressure},
-          {"max_gap", totals.largest_gap},
-          {"open", totals.open},
-          {"stick", totals.stick},
-          {"slip", totals.slip}};
+Json json_of(const SolidTotals& totals, const model::Contact& law) {
+  Json json = {{"normal_force", json_of(totals.normal)},
+               {"tangential_force", json_of(totals.tangential)},
+               {"moment", json_of(totals.moment)},
+               {"max_pressure", totals.largest_pressure},
+               {"max_gap", totals.largest_gap},
+               {"open", totals.open},
+               {"stick", totals.stick},
+               {"slip", totals.slip}};
+  if (law.cohesion > 0.0) json["broken"] = totals.broken;
+  return json;
 }
 
 /// What a support exerts on its body.
@@ -121,7 +124,8 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   json["certificate"] = nullptr;
   if (!solved) return json;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    json["contacts"][model.contacts[c].name] = json_of(totals_of(increment, c, model.contacts[c].about));
+    json["contacts"][model.contacts[c].name] =
+        json_of(totals_of(increment, c, model.contacts[c].about), model.contacts[c].law);
   const std::vector<SolidReaction> reactions = reactions_of(posed, model.supports.size(), increment);
   for (std::size_t i = 0; i < reactions.size(); ++i) {
     json["reactions"][model.supports[i].name] = json_of(reactions[i].force);
@@ -203,10 +207,9 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
                                        {"finite_elements", mesh.cells.size()}});
   }
   for (const model::SpaceContact& contact : model.contacts)
-    json["model"]["contacts"].push_back(
-        {{"name", contact.name},
-         {"between", {contact.a.text, contact.b.text}},
-         {"law", contact.friction ? fmt::format("friction {:g}", *contact.friction) : "tied"}});
+    json["model"]["contacts"].push_back({{"name", contact.name},
+                                         {"between", {contact.a.text, contact.b.text}},
+                                         {"law", contact.tied ? "tied" : describe_law(contact.law)}});
   json["increments"] = Json::array();
   return json;
 }
@@ -222,8 +225,8 @@ std::string log_header(const model::SpaceModel& model, const Json& summary) {
                       model.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", model.bodies.size()),
                       sizes["nodes"].get<long>(), sizes["dofs"].get<long>(), sizes["finite_elements"].get<long>());
   for (const model::SpaceContact& contact : model.contacts)
-    text += fmt::format("{} {}: {} on {}{}\n", contact.friction ? "contact" : "tie", contact.name, contact.b.text,
-                        contact.a.text, contact.friction ? fmt::format("; friction {:g}", *contact.friction) : "");
+    text += fmt::format("{} {}: {} on {}{}\n", contact.tied ? "tie" : "contact", contact.name, contact.b.text,
+                        contact.a.text, contact.tied ? "" : "; " + describe_law(contact.law));
   return text + '\n';
 }
 
