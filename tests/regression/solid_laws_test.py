@@ -220,7 +220,6 @@ class TwoRigidBodies(Solved):
     """Two blocks of stone on a floor: what rests on what follows from equilibrium."""
     text = """scabo: 1
 analysis: {space: true}
-materials: {none: {young: 1, poisson: 0}}
 bodies:
   floor: {rigid: true, shape: {box: {corner: [-1, -1, -1], size: [3, 3, 1]}}, mesh: {size: 1.5}}
   stone: {rigid: true, density: 2000, shape: {box: {corner: [0, 0, 0], size: [1, 1, 0.5]}}, mesh: {size: 0.5}}

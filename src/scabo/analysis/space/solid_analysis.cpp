@@ -94,16 +94,26 @@ struct PreparedSolids {
 PreparedSolids prepared_solids(const SolidModel& model, int threads) {
   PreparedSolids prepared{model, paired_faces(model), {}, {}, {}};
   for (const SolidContact& contact : model.contacts) prepared.given.push_back(contact.law);
+  std::vector<std::vector<system::SolidSpring>> springs(model.bodies.size());
+  for (const SolidSpringOfBody& of : model.springs) springs[static_cast<std::size_t>(of.body)].push_back(of.spring);
   std::vector<system::ElasticPart> parts;
-  for (const SolidBody& body : model.bodies)
-    if (!body.rigid_at)
-      parts.push_back(
-          {system::solid_stiffness(body.mesh, elasticity_of(body)), system::Positions(body.mesh.nodes), body.supports});
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const SolidBody& body = model.bodies[b];
+    if (body.rigid_at) continue;
+    system::Stiffness stiffness = system::solid_stiffness(body.mesh, elasticity_of(body));
+    for (const system::SolidSpring& spring : springs[b])
+      stiffness.springs.matrix =
+          stiffness.springs.none() ? spring.on_nodes : linalg::SparseMatrix(stiffness.springs.matrix + spring.on_nodes);
+    parts.push_back({std::move(stiffness), system::Positions(body.mesh.nodes), body.supports});
+  }
   std::vector<std::unique_ptr<system::BodySystem>> elastic = system::elastic_bodies(std::move(parts), threads);
   auto next = elastic.begin();
-  for (const SolidBody& body : model.bodies)
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const SolidBody& body = model.bodies[b];
     prepared.structure.parts.push_back(
-        body.rigid_at ? system::rigid_solid(body.mesh.nodes, *body.rigid_at, body.supports) : std::move(*next++));
+        body.rigid_at ? system::rigid_solid(body.mesh.nodes, *body.rigid_at, body.supports, springs[b])
+                      : std::move(*next++));
+  }
   prepared.contact = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
   for (system::ContactSystem::Pair& pair : prepared.contact.pairs)
     pair.contact = prepared.paired.pairs[static_cast<std::size_t>(pair.index)].contact;
@@ -253,6 +263,19 @@ double imbalance_of(const PreparedSolids& prepared, const MovedSolids& moved, do
   for (std::size_t i = 0; i < moved.u.size(); ++i)
     imbalance = std::max(imbalance, prepared.structure.parts[i]->imbalance_of(moved.unbalanced[i]));
   return largest > 0.0 ? imbalance / largest : 0.0;
+}
+
+/// What every spring exerts on its body.
+std::vector<Eigen::Vector3d> spring_resultants_of_solids(const SolidModel& model, const SolidFactors& factors,
+                                                         const std::vector<Vector>& u) {
+  std::vector<Eigen::Vector3d> resultants;
+  for (const SolidSpringOfBody& of : model.springs) {
+    const auto b = static_cast<std::size_t>(of.body);
+    Vector forces = -of.spring.times(u[b]);
+    if (of.load >= 0) forces += factors.loads[of.load] * model.loads[static_cast<std::size_t>(of.load)][b];
+    resultants.emplace_back(forces.reshaped(3, forces.size() / 3).rowwise().sum());
+  }
+  return resultants;
 }
 
 /// All pairs; those that supports hold on both sides as they are at rest.
@@ -428,6 +451,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   to.reactions = moved.reactions;
   to.heated = moved.applied.heated;
   to.tensions = tensions_of(model, shortening, moved.u);
+  to.springs = spring_resultants_of_solids(model, factors, moved.u);
   SolidState reached{factors,         state_.slip + solution.slip_increment, solution.gap, solution.p, a, shortening,
                      solution.states, std::move(evolution.history),          largest,      {}};
   to.energy = reached.energy = energy_of_solids(prepared_, state_, before_, reached, moved);

@@ -20,6 +20,7 @@
 #include "scabo/model/contact.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/solid_cut.hpp"
+#include "scabo/system/solid_springs.hpp"
 
 namespace scabo::analysis {
 
@@ -51,6 +52,13 @@ struct SolidPreload {
   double shortening = 0.0;
 };
 
+/// Springs between a body and the ground; without force at its displacement times the factor of a load, or at 0.
+struct SolidSpringOfBody {
+  int body = -1;
+  system::SolidSpring spring;
+  int load = -1;  ///< index into SolidModel::loads: its forces on a body that stays
+};
+
 struct SolidModel {
   std::vector<SolidBody> bodies;
   std::vector<SolidContact> contacts;
@@ -59,6 +67,7 @@ struct SolidModel {
   /// its forces. As long as `loads`, or empty.
   std::vector<std::vector<Vector>> temperatures = {};
   std::vector<SolidPreload> preloads = {};
+  std::vector<SolidSpringOfBody> springs = {};
 };
 
 /// Factors of loads, supports and interferences at the end of an increment.
@@ -100,7 +109,8 @@ struct SolidIncrement {
   std::vector<Vector> reactions;  ///< [body], of its constraints
   std::vector<Vector> heated;     ///< [body], change of temperature of the nodes; empty: none
   std::vector<SolidPair> pairs;
-  std::vector<SolidTension> tensions;  ///< of each preload
+  std::vector<SolidTension> tensions;    ///< of each preload
+  std::vector<Eigen::Vector3d> springs;  ///< of each, what they exert on their body
   contact::Certificate certificate;
   Energy energy;
   int iterations = 0;

@@ -234,6 +234,10 @@ void SpaceReader::load(const Entry& entry) {
   if (!map.is_map()) return;
   SpaceLoad load;
   load.name = entry.key;
+  for (const SpaceLoad& other : model_.loads)
+    if (other.name == entry.key)
+      report_.error(entry.key_source,
+                    fmt::format("springs are called '{}' already: give the load another name", entry.key));
   std::vector<std::string> given;
   for (const std::string& kind : kinds)
     if (map.has(kind)) given.push_back(kind);
@@ -301,6 +305,13 @@ void SpaceReader::pair_of_faces(const Entry& entry, bool tied) {
       const auto a = face((*items)[0]), b = face((*items)[1]);
       if (a && b && a->body == b->body)
         report_.error(*between, "both faces belong to the same body: name faces of two bodies");
+      else if (a && b && !contact.law.bond && !contact.law.modulus && body_at(a->body).rigid && body_at(b->body).rigid)
+        model_.warnings.push_back(
+            {WarningKind::input, "contacts." + entry.key,
+             fmt::format(
+                 "contact '{}' is one of two rigid bodies: which of its pairs carry a force does not follow from "
+                 "equilibrium, and its pressures are some that are in balance; a 'modulus' gives those of a bed",
+                 entry.key)});
       if (a && b) contact.a = *a, contact.b = *b;
     }
   }

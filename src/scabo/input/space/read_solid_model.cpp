@@ -48,16 +48,15 @@ void SpaceReader::material(const Entry& entry) {
 SpaceModel SpaceReader::read(const Value& root) {
   root_ = root;
   const MapReader map(report_, root,
-                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads",
-                       "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output"},
-                      "'scabo: 1' and sections",
-                      only_in_the_plane({"springs", "bars", "tolerance", "restart", "initial"}));
+                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs",
+                       "loads", "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output"},
+                      "'scabo: 1' and sections", only_in_the_plane({"bars", "tolerance", "restart", "initial"}));
   if (const auto version = map.need("scabo"); version && number(version, 1.0) != 1.0)
     report_.error(*version, fmt::format("this program reads format version 1, not {}", version->node->text));
   if (const auto title = map.get("title")) model_.title = read_text(report_, *title).value_or("");
   if (const auto value = map.get("analysis")) analysis(*value);
   if (const auto value = map.get("solver")) solver(*value);
-  if (const auto value = map.need("materials"))
+  if (const auto value = map.get("materials"))
     for (const Entry& entry : read_named(report_, *value, "materials", "{steel: {young: 210e9, poisson: 0.3}}"))
       material(entry);
   if (const auto value = map.need("bodies"))
@@ -68,6 +67,7 @@ SpaceModel SpaceReader::read(const Value& root) {
     for (const Value& item :
          read_list(report_, *value, "[{on: block.bottom, fix: [x, y, z]}]").value_or(std::vector<Value>{}))
       support(item);
+  if (const auto value = map.get("springs")) springs(*value);
   if (const auto value = map.get("loads"))
     for (const Entry& entry : read_named(report_, *value, "loads", "{press: {on: block.top, pressure: 1e6}}"))
       load(entry);

@@ -49,6 +49,9 @@ class SpaceReader {
   Formulas formulas(const Value& value);
   void support(const Value& value);
   void rigid_support(const MapReader& map, model::SpaceSupport& support);
+  void springs(const Value& value);
+  void spring(const Value& value);
+  void spring_at_rest(const Value& value, model::SpaceSpring& spring);
   void load(const Entry& entry);
   void load_value(const std::string& kind, const Value& value, model::SpaceLoad& load);
   void place_of_load(const MapReader& map, const Entry& entry, model::SpaceLoad& load);
@@ -60,6 +63,7 @@ class SpaceReader {
   void output(const Value& value);
   void point(const Value& value);
   void section(const Entry& entry);
+  void quantity(const Entry& entry);
   int body_named(const Value& value);
 
   // read_solid_steps.cpp

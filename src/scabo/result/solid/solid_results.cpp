@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "scabo/result/report.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
 #include "scabo/result/solid/solid_faces.hpp"
+#include "scabo/result/solid/solid_figures.hpp"
 #include "scabo/result/version.hpp"
 
 namespace scabo::result {
@@ -27,32 +27,6 @@ constexpr std::string_view columns_of_solids =
 
 Json json_of(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-/// Of the pairs of one contact; forces on side b.
-struct SolidTotals {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero(), tangential = Eigen::Vector3d::Zero(),
-                  moment = Eigen::Vector3d::Zero();
-  double largest_pressure = 0.0, largest_gap = 0.0;
-  int open = 0, stick = 0, slip = 0, broken = 0;
-};
-
-SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t contact, const Eigen::Vector3d& about) {
-  SolidTotals totals;
-  for (const analysis::SolidPair& pair : increment.pairs) {
-    if (pair.contact != static_cast<int>(contact)) continue;
-    const Eigen::Vector3d normal = pair.normal_force() * pair.normal;
-    totals.normal += normal;
-    totals.tangential += pair.force - normal;
-    totals.moment += (pair.point - about).cross(pair.force);
-    totals.largest_pressure = std::max(totals.largest_pressure, pair.normal_force() / pair.area);
-    totals.largest_gap = std::max(totals.largest_gap, pair.gap);
-    totals.open += pair.state == contact::ContactState::open;
-    totals.stick += pair.state == contact::ContactState::stick;
-    totals.slip += pair.state == contact::ContactState::slip;
-    totals.broken += pair.broken;
-  }
-  return totals;
-}
-
 Json json_of(const SolidTotals& totals, const model::Contact& law) {
   Json json = {{"normal_force", json_of(totals.normal)},
                {"tangential_force", json_of(totals.tangential)},
@@ -64,31 +38,6 @@ Json json_of(const SolidTotals& totals, const model::Contact& law) {
                {"slip", totals.slip}};
   if (law.cohesion > 0.0) json["broken"] = totals.broken;
   return json;
-}
-
-/// What a support exerts on its body.
-struct SolidReaction {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< the latter about the origin
-};
-std::vector<SolidReaction> reactions_of(const analysis::PosedSolids& posed, std::size_t supports,
-                                        const analysis::SolidIncrement& increment) {
-  std::vector<SolidReaction> sums(supports);
-  for (std::size_t b = 0; b < increment.reactions.size(); ++b)
-    for (std::size_t c = 0; c < posed.model.bodies[b].supports.size(); ++c) {
-      const analysis::SolidBody& body = posed.model.bodies[b];
-      const system::Constraint& held = body.supports[c];
-      const Eigen::Vector3d value =
-          increment.reactions[b][static_cast<Eigen::Index>(c)] * Eigen::Vector3d::Unit(held.component);
-      SolidReaction& sum = sums[static_cast<std::size_t>(held.support)];
-      if (held.rotation) {
-        sum.moment += value;
-        continue;
-      }
-      const Eigen::Vector3d at = body.rigid_at ? *body.rigid_at : Eigen::Vector3d(body.mesh.nodes.col(held.dof / 3));
-      sum.force += value;
-      sum.moment += at.cross(value);
-    }
-  return sums;
 }
 
 Json figures_of(const contact::Certificate& certificate) {
@@ -120,6 +69,7 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   json["reactions"] = Json::object();
   json["moments"] = Json::object();
   if (!posed.model.preloads.empty()) json["preloads"] = Json::object();
+  if (!model.springs.empty()) json["springs"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
   if (!solved) return json;
@@ -134,6 +84,8 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   for (std::size_t i = 0; i < posed.model.preloads.size(); ++i)
     json["preloads"][model.bodies[static_cast<std::size_t>(posed.model.preloads[i].body)].name] = {
         {"force", increment.tensions[i].force}, {"shortening", increment.tensions[i].shortening}};
+  for (std::size_t i = 0; i < increment.springs.size(); ++i)
+    json["springs"][model.springs[i].name] = json_of(increment.springs[i]);
   const analysis::Energy& energy = increment.energy;
   json["energy"] = {{"external", energy.external},
                     {"elastic", energy.elastic},
@@ -259,6 +211,8 @@ std::string totals_of(const Json& increment) {
     add(name + ", tangential", contact["tangential_force"]);
   }
   for (const auto& [name, force] : increment["reactions"].items()) add(name, force);
+  if (increment.contains("springs"))
+    for (const auto& [name, force] : increment["springs"].items()) add("springs " + name, force);
   std::string text = table(rows);
   if (increment.contains("preloads"))
     for (const auto& [name, preload] : increment["preloads"].items())
