@@ -18,6 +18,7 @@
 #include "interrupt.hpp"
 #include "scabo/analysis/state/checkpoint.hpp"
 #include "scabo/input/settings.hpp"
+#include "scabo/input/space/read_solid_model.hpp"
 #include "scabo/model/wording.hpp"
 #include "scabo/result/files.hpp"
 #include "scabo/result/results_directory.hpp"
@@ -51,11 +52,11 @@ std::string name_of_point(std::size_t point, std::size_t points) {
 }
 
 /// The model of the first point. Throws InputError, with the mistakes of a varied value named by its --vary.
-model::Model first_model(const SweepOptions& options, const std::vector<SweepAxis>& axes) {
+input::AnyModel first_model(const SweepOptions& options, const std::vector<SweepAxis>& axes) {
   std::vector<std::string> settings = options.settings;
   for (std::string& setting : settings_at(axes, 0)) settings.push_back(std::move(setting));
   try {
-    return input::read_model(options.model, input::parse_settings(settings));
+    return input::read_any_model(options.model, input::parse_settings(settings));
   } catch (const InputError& error) {
     std::vector<Diagnostic> mistakes = error.diagnostics();
     for (Diagnostic& mistake : mistakes)
@@ -76,10 +77,14 @@ void refuse_pipe(const std::string& model) {
 }
 
 /// What decides the results of a sweep.
-Json manifest_of(const SweepOptions& options, const std::vector<SweepAxis>& axes, const model::Model& model) {
+Json manifest_of(const SweepOptions& options, const std::vector<SweepAxis>& axes, const input::AnyModel& read) {
   Json manifest = {{"scabo", result::version()}, {"kind", "sweep"}, {"settings", options.settings}};
-  manifest["files"] = {analysis::source_of(options.model, *model.text).digest};
-  for (const std::string& file : model.files) manifest["files"].push_back(analysis::source_file(file).digest);
+  std::visit(
+      [&](const auto& model) {
+        manifest["files"] = {analysis::source_of(options.model, *model.text).digest};
+        for (const std::string& file : model.files) manifest["files"].push_back(analysis::source_file(file).digest);
+      },
+      read);
   manifest["vary"] = Json::array();
   for (const SweepAxis& axis : axes) manifest["vary"].push_back({{"path", axis.path}, {"values", axis.values}});
   return manifest;
@@ -271,8 +276,9 @@ ExitStatus sweep(SweepOptions options) {
   for (const std::string& text : options.vary) axes.push_back(parse_axis(text));
   count_points(axes);
   refuse_pipe(options.model);
-  const model::Model model = first_model(options, axes);
-  if (model.analysis.type == model::AnalysisType::modal)
+  const input::AnyModel model = first_model(options, axes);
+  if (const auto* plane = std::get_if<model::Model>(&model);
+      plane != nullptr && plane->analysis.type == model::AnalysisType::modal)
     refuse_sweep(options.model, "a sweep runs static analyses: leave out type: modal");
   if (options.output.empty()) options.output = fs::path(options.model).replace_extension("sweep");
   const int processors = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

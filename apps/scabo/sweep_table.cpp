@@ -39,11 +39,12 @@ class RowReader {
       if ((value.is_number() || value.is_null()) && !without.contains(key)) add(prefix + "." + key, value);
   }
 
-  /// `prefix_x` and `prefix_y`; empty if there is none.
+  /// `prefix_x` and `prefix_y`, and in space `prefix_z`; empty if there is none.
   void add_vector(const std::string& prefix, const Json& vector) {
-    const bool there = vector.is_array() && vector.size() == 2;
+    const bool there = vector.is_array() && (vector.size() == 2 || vector.size() == 3);
     add(prefix + "_x", there ? vector[0] : Json());
     add(prefix + "_y", there ? vector[1] : Json());
+    if (there && vector.size() == 3) add(prefix + "_z", vector[2]);
   }
 
   void add_increment(const Json& increment) {
@@ -53,12 +54,19 @@ class RowReader {
                cracks = increment.value("cracks", Json::object());
     for (const auto& [name, contact] : contacts.items()) {
       add_numbers(name, contact, {"first_pair_in_contact", "last_pair_in_contact", "centre_of_pressure"});
+      if (in_space(contact)) {
+        for (const char* key : {"normal_force", "tangential_force", "moment"})
+          add_vector(name + "." + key, contact.value(key, Json()));
+        continue;
+      }
       add_vector(name + ".force", contact.value("force", Json()));
       add_vector(name + ".centre", contact.value("centre_of_pressure", Json()));
     }
     for (const auto& [name, reaction] : reactions.items()) {
       add_vector(name + ".reaction", reaction);
     }
+    const Json preloads = increment.value("preloads", Json::object());
+    for (const auto& [name, preload] : preloads.items()) add_numbers(name + ".preload", preload);
     add_numbers("energy", increment.value("energy", Json()));
     for (const auto& [name, crack] : cracks.items())
       for (const char* key : {"K_I", "K_II", "K_tt", "K_rt"})
@@ -72,6 +80,10 @@ class RowReader {
   }
 
  private:
+  static bool in_space(const Json& contact) {
+    return contact.contains("normal_force") && contact["normal_force"].is_array();
+  }
+
   SweepRow& row_;
 };
 

@@ -26,7 +26,7 @@ BEYOND_SCHEMA = re.compile(
     r"|polygon_(?!two_vertices|vertex_of_three)|outline_(not_|full_circle|arc_radii|arc_crosses|arc_swallows"
     r"|name_twice|without_area)"
     r"|shape_too_|centre_|mesh_(1e9|too_many|(quadtree|polygons)_of_a_sliver|min_size_(of|above)|refine_(of|on_un)|tolerance_of_a_body|quadtree_centre)"
-    r"|bars_(in_the|on_a_|of_one|tightened_in|in_time|history)|bed_|repeat_around_by|springs_(both_zero|leave_|named_|of_|on_|at_rest_(named|never|without_stiffness))|field_(below_|on_|with_szz)|moment_on_|pores_(in_no|over_|enter_)|load_enters_an_edge|rotation_(of_an|beside_a_direction)"
+    r"|bars_(in_the|on_a_|of_one|tightened_in|in_time|history)|bed_|repeat_around_by|springs_(both_zero|leave_|named_|of_|on_|at_rest_(named|never|of_one|without_stiffness))|field_(below_|on_|with_szz)|moment_on_|pores_(in_no|over_|enter_)|load_enters_an_edge|rotation_(of_an|beside_a_direction)"
     r"|revolution_|load_spin_|stage_|fit_|restart_|symmetry_(?!of_nothing)"
     r"|body_thickness_(in_plane|of_rev)|image_|tie_(all_|with_itself|rigid|of_body_and|of_corner|nothing|and_contact|apart)|repeat_one_step|contact_(reach_between|edge_and|all_touch)|hole_(outside|crosses|named|too_)|regions?_(of_unknown|of_the_same|outside|overlap|in_a_hole|too_)|outside_of_polygons"
     r"|place_(unknown|near_far|near_a_rigid)"

@@ -126,6 +126,67 @@ class Outputs(support.InTemporaryDirectory):
             for axis in "xy":
                 self.assertAlmostEqual(float(last[f"{name}.force_{axis}"]), 0.0, delta=0.01 * 50e3)
 
+    numbers = """scabo: 1
+analysis: {space: true}
+materials: {m: {young: 1e9, poisson: 0}}
+bodies:
+  block: {material: m, shape: {box: {corner: [0, 0, 0], size: [2, 1, 1]}}, mesh: {size: 0.5}}
+  table: {rigid: true, shape: {box: {corner: [-1, -1, -1], size: [4, 3, 1]}}, mesh: {size: 2}}
+supports: [{on: table, fix: [x, y, z], name: ground}]
+springs: [{on: block.right, k_n: 1e7, k_t: 1e7, name: wall}]
+loads: {press: {on: block.top, traction: [2e4, -1e4, -1e5]}}
+contacts: {joint: {between: [table.top, block.bottom], friction: 0.4, cohesion: 1e5, about: [1, 0.5, 0]}}
+output:
+  history:
+    cut: {section: {point: [0, 0, 0.5], normal: [0, 0, 1], body: block}}
+    push: joint.tangential_force_x
+    all: joint.force_z
+    turn: joint.moment_y
+    peak: joint.max_pressure
+    held: joint.stick
+    lost: joint.broken
+    ground: ground.reaction_y
+    tip: ground.moment_x
+    wall: wall.reaction_x
+    work: external_energy
+steps: [{name: press, increments: 2}]
+"""
+
+    def test_a_history_has_the_numbers_of_the_summary(self):
+        self.solve(self.numbers)
+        increments = summary_of(self.directory / "results")["increments"]
+        for row, increment in zip(self.rows("history.csv"), increments, strict=True):
+            joint, ground = increment["contacts"]["joint"], increment["reactions"]["ground"]
+            for name, value in (("push", joint["tangential_force"][0]), ("all", joint["normal_force"][2] + joint["tangential_force"][2]),
+                                ("turn", joint["moment"][1]), ("peak", joint["max_pressure"]), ("held", joint["stick"]), ("lost", joint["broken"]),
+                                ("ground", ground[1]), ("tip", increment["moments"]["ground"][0]), ("wall", increment["springs"]["wall"][0]),
+                                ("work", increment["energy"]["external"])):
+                self.assertEqual(float(row[name]), value, name)
+            self.assertAlmostEqual(float(row["cut.normal"]), -1e5 * int(row["increment"]), delta=0.02 * 1e5)  # the wall takes some of it
+            self.assertGreater(abs(float(row["wall"])), 1)
+            self.assertGreater(float(row["work"]), 0)
+
+    def test_a_sweep_varies_values(self):
+        """A table of friction and pressure: what slides is told as it is."""
+        (self.directory / "model.yaml").write_text(self.numbers.replace("cohesion: 1e5, ", "")
+                                                   .replace("    lost: joint.broken\n", "").replace("springs:", "springs: []\n#").replace("    wall: wall.reaction_x\n", ""), encoding="utf-8")
+        command = ("sweep", self.directory / "model.yaml", "-o", self.directory / "sweep", "--vary", "contacts.joint.friction=0.1,0.3",
+                   "--vary", "materials.m.young=1e9,2e9", "--quiet", "-j", "1")
+        done = scabo(*command)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        with open(self.directory / "sweep" / "sweep.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(row["contacts.joint.friction"], row["materials.m.young"], row["status"]) for row in rows],
+                         [("0.1", "1e9", "mechanism"), ("0.1", "2e9", "mechanism"), ("0.3", "1e9", "solved"), ("0.3", "2e9", "solved")])
+        for row in rows[2:]:
+            last = summary_of(self.directory / "sweep" / f"point_{int(row['point']):03d}")["increments"][-1]
+            self.assertEqual([float(row[f"ground.reaction_{axis}"]) for axis in "xyz"], last["reactions"]["ground"])
+            self.assertEqual([float(row[f"joint.normal_force_{axis}"]) for axis in "xyz"], last["contacts"]["joint"]["normal_force"])
+            self.assertEqual(float(row["energy.elastic"]), last["energy"]["elastic"])
+        before = (self.directory / "sweep" / "sweep.csv").read_bytes()
+        self.assertEqual(scabo(*command).returncode, 2)  # all of it is there
+        self.assertEqual((self.directory / "sweep" / "sweep.csv").read_bytes(), before)
+
     def test_mistakes_that_only_the_mesh_shows(self):
         for part, by, message in (
                 ("[0.3, 0.4, 0.2]", "[0.3, 0.4, 0.51]", r"output.points.0: the point \(0.3, 0.4, 0.51\) lies in no body: move it"),

@@ -195,75 +195,6 @@ void add_touching(Reading& reading, const Touching& touching, Taken& taken) {
                          : nothing_touches(reading, outlines, is_tie));
 }
 
-/// Laws that several contacts share, by name; nothing for one that is broken.
-struct ContactProperty {
-  std::optional<Contact> law;
-  bool used = false;
-  Source source;
-};
-using ContactProperties = std::map<std::string, ContactProperty>;
-
-constexpr std::array law_keys{"friction", "cohesion", "tension", "bond", "shear_strength"};
-
-ContactProperties read_properties(Reading& reading, const std::optional<Value>& given) {
-  ContactProperties properties;
-  if (!given) return properties;
-  for (const Entry& entry : read_named(reading.report, *given, "contact properties", "{rough: {friction: 0.6}}")) {
-    const std::size_t before = reading.report.count();
-    const MapReader map(reading.report, entry.value, {law_keys.begin(), law_keys.end()}, "{friction: 0.6}",
-                        {{"gap", "a gap belongs to each contact"}, {"between", "it belongs to each contact"}});
-    Contact law;
-    if (map.is_map()) read_law(reading, map, law);
-    ContactProperty& property = properties[entry.key];
-    property.source = entry.key_source;
-    if (reading.report.count() == before) property.law = law;
-  }
-  return properties;
-}
-
-/// The law of a contact: its own keys, or those of a property.
-void read_law_or_property(Reading& reading, const MapReader& map, ContactProperties& properties, Contact& contact) {
-  const auto value = map.get("property");
-  if (!value) return read_law(reading, map, contact);
-  for (const char* key : law_keys)
-    if (map.has(key)) map.refuse(key, "is given by the 'property' of the contact: remove one of the two");
-  const auto name = read_text(reading.report, *value);
-  if (!name) return;
-  const auto found = properties.find(*name);
-  if (found == properties.end()) {
-    std::vector<std::string> known;
-    for (const auto& [other, property] : properties) known.push_back(other);
-    reading.report.error(*value, fmt::format("there is no contact property named {}{}", quoted_name(*name),
-                                             known.empty() ? ": define it in the section contact_properties"
-                                                           : suggestion(*name, known)));
-    return;
-  }
-  found->second.used = true;
-  if (!found->second.law) {
-    reading.conditions_known = false;
-    return;
-  }
-  const Contact& law = *found->second.law;
-  contact.friction = law.friction;
-  contact.backward_friction = law.backward_friction;
-  contact.dynamic_friction = law.dynamic_friction;
-  contact.backward_dynamic_friction = law.backward_dynamic_friction;
-  contact.slip_distance = law.slip_distance;
-  contact.friction_along = law.friction_along;
-  contact.cohesion = law.cohesion;
-  contact.lasting_cohesion = law.lasting_cohesion;
-  contact.tension = law.tension;
-  contact.bond = law.bond;
-  contact.shear_strength = law.shear_strength;
-}
-
-void tell_of_unused(Reading& reading, const ContactProperties& properties) {
-  for (const auto& [name, property] : properties)
-    if (!property.used)
-      reading.model.warnings.push_back({WarningKind::input, "contact_properties." + name,
-                                        fmt::format("contact property '{}' has no effect: no contact uses it", name)});
-}
-
 std::optional<Contact> read_contact(Reading& reading, ContactProperties& properties, const Entry& entry,
                                     Between& between_of, double& reach) {
   Report& report = reading.report;
@@ -286,7 +217,7 @@ std::optional<Contact> read_contact(Reading& reading, ContactProperties& propert
     if (between && !between->many)
       map.refuse("reach", "applies to between: all or to two bodies: two edges are in contact at any distance");
   }
-  read_law_or_property(reading, map, properties, contact);
+  if (!read_law_or_property(report, map, properties, contact)) reading.conditions_known = false;
   if (const auto slip = map.get("slip"))
     if (const auto kind = read_text(report, *slip)) {
       contact.large_slip = *kind == "large";
@@ -363,9 +294,9 @@ void read_contacts_and_ties(Reading& reading, const std::optional<Value>& proper
   if (ties) named_ties = read_named(reading.report, *ties, "ties", "{glue: {between: [wall.bottom, base.top]}}");
   if (reading.report.count() > before) reading.places_known = reading.conditions_known = false;
   Joints joints;
-  ContactProperties properties = read_properties(reading, properties_section);
+  ContactProperties properties = read_properties(reading.report, properties_section);
   for (const Entry& entry : named_contacts) read_contact_entry(reading, properties, entry, joints);
-  tell_of_unused(reading, properties);
+  tell_of_unused(properties, reading.model.warnings);
   for (const Entry& entry : named_ties) read_tie_entry(reading, entry, joints);
   // Contacts and ties that name their edges come first, then those between two bodies, then those between all; ties
   // before contacts.

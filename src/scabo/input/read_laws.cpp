@@ -1,9 +1,15 @@
 // Contact laws: friction, cohesion, tensile strength, bond, prescribed bound.
 #include <fmt/format.h>
 
-#include "scabo/input/reading.hpp"
+#include <array>
+
+#include "scabo/input/laws.hpp"
+#include "scabo/input/suggestions.hpp"
+#include "scabo/model/wording.hpp"
 
 namespace scabo::input {
+
+using namespace model;
 
 namespace {
 
@@ -12,6 +18,8 @@ constexpr const char* friction_example =
     "0.5]]}";
 constexpr const char* directions_of_each =
     "write {static: {forward: 0.5, backward: 0.8}, dynamic: {forward: 0.3, backward: 0.6}}";
+
+constexpr std::array law_keys{"friction", "cohesion", "tension", "bond", "shear_strength"};
 
 /// `[[s, mu], ...]`.
 void read_along(Report& report, const Value& value, Contact& contact) {
@@ -110,8 +118,7 @@ std::optional<std::pair<double, double>> read_coefficients(Report& report, const
   return report.count() > before ? std::nullopt : std::optional(coefficients);
 }
 
-void read_law(Reading& reading, const MapReader& map, Contact& contact) {
-  Report& report = reading.report;
+void read_law(Report& report, const MapReader& map, Contact& contact) {
   if (const auto friction = map.get("friction")) read_friction(report, *friction, contact);
   if (const auto cohesion = map.get("cohesion")) read_cohesion(report, *cohesion, contact);
   if (const auto tension = map.get("tension")) contact.tension = read_number(report, *tension).value_or(0.0);
@@ -124,6 +131,65 @@ void read_law(Reading& reading, const MapReader& map, Contact& contact) {
   if (!contact.bond && contact.shear_strength)
     for (const char* other : {"friction", "cohesion", "tension"})
       if (map.has(other)) map.refuse(other, replaced_by_shear_strength);
+}
+
+ContactProperties read_properties(Report& report, const std::optional<Value>& given) {
+  ContactProperties properties;
+  if (!given) return properties;
+  for (const Entry& entry : read_named(report, *given, "contact properties", "{rough: {friction: 0.6}}")) {
+    const std::size_t before = report.count();
+    const MapReader map(report, entry.value, {law_keys.begin(), law_keys.end()}, "{friction: 0.6}",
+                        {{"gap", "a gap belongs to each contact"}, {"between", "it belongs to each contact"}});
+    Contact law;
+    if (map.is_map()) read_law(report, map, law);
+    ContactProperty& property = properties[entry.key];
+    property.source = entry.key_source;
+    if (report.count() == before) property.law = law;
+  }
+  return properties;
+}
+
+bool read_law_or_property(Report& report, const MapReader& map, ContactProperties& properties, Contact& contact) {
+  const auto value = map.get("property");
+  if (!value) {
+    read_law(report, map, contact);
+    return true;
+  }
+  for (const char* key : law_keys)
+    if (map.has(key)) map.refuse(key, "is given by the 'property' of the contact: remove one of the two");
+  const auto name = read_text(report, *value);
+  if (!name) return true;
+  const auto found = properties.find(*name);
+  if (found == properties.end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, property] : properties) known.push_back(other);
+    report.error(*value, fmt::format("there is no contact property named {}{}", quoted_name(*name),
+                                     known.empty() ? ": define it in the section contact_properties"
+                                                   : suggestion(*name, known)));
+    return true;
+  }
+  found->second.used = true;
+  if (!found->second.law) return false;
+  const Contact& law = *found->second.law;
+  contact.friction = law.friction;
+  contact.backward_friction = law.backward_friction;
+  contact.dynamic_friction = law.dynamic_friction;
+  contact.backward_dynamic_friction = law.backward_dynamic_friction;
+  contact.slip_distance = law.slip_distance;
+  contact.friction_along = law.friction_along;
+  contact.cohesion = law.cohesion;
+  contact.lasting_cohesion = law.lasting_cohesion;
+  contact.tension = law.tension;
+  contact.bond = law.bond;
+  contact.shear_strength = law.shear_strength;
+  return true;
+}
+
+void tell_of_unused(const ContactProperties& properties, std::vector<Warning>& warnings) {
+  for (const auto& [name, property] : properties)
+    if (!property.used)
+      warnings.push_back({WarningKind::input, "contact_properties." + name,
+                          fmt::format("contact property '{}' has no effect: no contact uses it", name)});
 }
 
 }  // namespace scabo::input

@@ -321,8 +321,8 @@ NodePtr tree_of_text(std::string_view text, const std::string& file, const std::
 void refuse_space(const Node& root, const std::string& file) {
   if (is_in_space(root))
     refuse_file(file,
-                "is a model in space (analysis: {space: true}), which `scabo run`, `scabo check` and Python take, "
-                "in one process: use these");
+                "is a model in space (analysis: {space: true}), which `scabo run`, `scabo check`, `scabo sweep` "
+                "and Python take, in one process: use these");
 }
 
 }  // namespace

@@ -229,32 +229,6 @@ void read_dynamic(Reading& reading, const Value& value, Step& step) {
   step.dynamic = dynamic;
 }
 
-/// `friction: {joint: 0.3}`: coefficients at the end of the step.
-void read_friction_of_step(Reading& reading, const Value& value, Step& step) {
-  const std::vector<Contact>& contacts = reading.model.contacts;
-  if (step.friction.empty()) add_coefficients(contacts, step);
-  std::vector<std::string> known;
-  for (const Contact& contact : contacts) known.push_back(contact.name);
-  for (const Entry& entry : read_named(reading.report, value, "coefficients", "{joint: 0.3}")) {
-    const auto coefficients = read_coefficients(reading.report, entry.value);
-    const auto found = std::find(known.begin(), known.end(), entry.key);
-    if (found == known.end()) {
-      if (reading.conditions_known)
-        reading.report.error(entry.key_source, fmt::format("there is no contact named {}{}", quoted_name(entry.key),
-                                                           suggestion(entry.key, known)));
-      continue;
-    }
-    const auto c = static_cast<std::size_t>(found - known.begin());
-    if (!has_one_coefficient(contacts[c]))
-      reading.report.error(entry.key_source,
-                           fmt::format("contact '{}' has no single coefficient of friction that a step could change: "
-                                       "give it 'friction' as one number, or as one for each direction",
-                                       entry.key));
-    else if (coefficients)
-      std::tie(step.friction[c], step.backward_friction[c]) = *coefficients;
-  }
-}
-
 /// Whether a body or support is put in place or taken away, or a bar tightened, in the step of this name.
 bool has_stage(const Reading& reading, const std::string& step) {
   const auto named = [&](const std::optional<Value>& value) { return value && value->node->text == step; };
@@ -306,7 +280,8 @@ Step read_step(Reading& reading, const Index& supports, const Value& value, cons
         value, "needs 'dynamic', as in dynamic: {duration: 10}: every step of a dynamic analysis is one in time");
   if (read_limit(reading, map, step)) return step;
   if (const auto increments = map.get("increments")) read_increments(reading, *increments, step);
-  if (const auto friction = map.get("friction")) read_friction_of_step(reading, *friction, step);
+  if (const auto friction = map.get("friction"))
+    read_friction_of_step(reading.report, *friction, reading.model.contacts, reading.conditions_known, step);
   read_loads_of_step(reading, supports, map, step, number);
   if (const auto growth = map.get("growth")) read_growth(reading, *growth, supports, before, step);
   return step;
@@ -394,6 +369,31 @@ long read_cycles(Report& report, const Value& value, const Step& step) {
     return 1;
   }
   return count;
+}
+
+void read_friction_of_step(Report& report, const Value& value, const std::vector<Contact>& contacts, bool all_known,
+                           Step& step) {
+  if (step.friction.empty()) add_coefficients(contacts, step);
+  std::vector<std::string> known;
+  for (const Contact& contact : contacts) known.push_back(contact.name);
+  for (const Entry& entry : read_named(report, value, "coefficients", "{joint: 0.3}")) {
+    const auto coefficients = read_coefficients(report, entry.value);
+    const auto found = std::find(known.begin(), known.end(), entry.key);
+    if (found == known.end()) {
+      if (all_known)
+        report.error(entry.key_source, fmt::format("there is no contact named {}{}", quoted_name(entry.key),
+                                                   suggestion(entry.key, known)));
+      continue;
+    }
+    const auto c = static_cast<std::size_t>(found - known.begin());
+    if (!has_one_coefficient(contacts[c]))
+      report.error(entry.key_source,
+                   fmt::format("contact '{}' has no single coefficient of friction that a step could change: "
+                               "give it 'friction' as one number, or as one for each direction",
+                               entry.key));
+    else if (coefficients)
+      std::tie(step.friction[c], step.backward_friction[c]) = *coefficients;
+  }
 }
 
 void add_coefficients(const std::vector<Contact>& contacts, Step& step) {

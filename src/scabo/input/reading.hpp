@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "scabo/input/laws.hpp"
 #include "scabo/input/reader.hpp"
 #include "scabo/model/model.hpp"
 #include "scabo/model/wording.hpp"
@@ -126,8 +127,6 @@ std::optional<CurveTable> read_record_of(Reading& reading, const Value& value, C
 void read_growth(Reading& reading, const Value& value, const Index& supports, const Step& before, Step& step);
 /// `limit` or `reduce` of a step that has the factors of the one before; false if it has neither.
 bool read_limit(Reading& reading, const MapReader& step_map, Step& step);
-/// The coefficients of the contacts themselves become those of a step.
-void add_coefficients(const std::vector<Contact>& contacts, Step& step);
 /// If the section is absent, there is one step that takes everything to factor 1.
 void read_steps(Reading& reading, const std::optional<Value>& value);
 void read_output(Reading& reading, const Value& value);
@@ -142,12 +141,6 @@ void read_quantities(Reading& reading, const Value& value, std::vector<Quantity>
 void read_history(Reading& reading, const Value& value);
 /// `body` of a point, line or section: its index, or -1 without the key; nothing if it is broken.
 std::optional<int> read_body_of(Reading& reading, const MapReader& map);
-
-/// Contact law: `friction`, `cohesion`, `tension`, `bond`, `shear_strength`.
-void read_law(Reading& reading, const MapReader& map, Contact& contact);
-/// `0.3` or `{forward: 0.3, backward: 0.6}`: coefficients of friction against forward and backward slip; nothing if
-/// broken.
-std::optional<std::pair<double, double>> read_coefficients(Report& report, const Value& value);
 
 /// A rectangle whose lower left corner is `a`, with its named edges and corners.
 Outline rectangle_outline(const Vec2& a, const Vec2& size, const Source& source);

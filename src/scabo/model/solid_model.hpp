@@ -14,6 +14,7 @@
 #include "scabo/base/error.hpp"
 #include "scabo/base/warning.hpp"
 #include "scabo/files/imported_solid_mesh.hpp"
+#include "scabo/model/contact.hpp"
 #include "scabo/model/curve.hpp"
 #include "scabo/model/solid_shape.hpp"
 #include "scabo/model/step.hpp"
@@ -79,11 +80,21 @@ struct SpaceSupport {
   std::optional<Eigen::Vector3d> at;              ///< none: its centroid
 };
 
+/// Springs between a body and the ground.
+struct SpaceSpring {
+  std::string name;  ///< given by the user, or that of the place, made unique
+  SpaceFace on;      ///< a face; or a set of nodes, or a rigid body, at whose centroid they act
+  bool along_face = true;
+  double normal = 0.0, tangential = 0.0;                ///< of a face, force / length^3
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();  ///< of nodes or a body, along the axes, force / length
+  Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();    ///< where they are without force; of a face [along n, 0, 0]
+};
+
 struct SpaceLoad {
   /// Force: the total over a face, as a constant traction, or on a rigid body at its centroid. Moment: on a face as the
-  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body. Nodal force:
-  /// at every node of a set.
-  enum class Kind { pressure, traction, force, nodal_force, moment, gravity, temperature };
+  /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body. Nodal
+  /// force: at every node of a set.
+  enum class Kind { pressure, traction, force, nodal_force, moment, gravity, temperature, at_rest };
   std::string name;
   Kind kind = Kind::pressure;
   SpaceFace on;           ///< of gravity and temperature a body; without one, all of them
@@ -92,17 +103,19 @@ struct SpaceLoad {
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> at;    ///< of a force: the point through which it acts; none: the centroid
   double constant = 0.0;                ///< of a change of temperature: at the origin
+  int spring = -1;                      ///< that is at rest elsewhere
   std::array<SpaceFormula, 3> formula;  ///< of a traction, or the first one of a pressure, instead of the value
 
   bool varies() const { return formula[0] || formula[1] || formula[2]; }
 };
 
-/// Also a tie: without friction.
+/// Also a tie: its law is a bond.
 struct SpaceContact {
   std::string name;
   SpaceFace a, b;
-  std::optional<double> friction;  ///< none: tied
-  double gap = 0.0;                ///< added to that of the meshes; negative: an interference
+  bool tied = false;
+  Contact law;       ///< as of a contact of the plane; its sides, gap, step and point have no meaning
+  double gap = 0.0;  ///< added to that of the meshes; negative: an interference
   /// Index of the step over which interferences, negative gaps of pairs, grow from 0 to their values; -1: they are
   /// there from the start.
   int fit_in = -1;
@@ -126,6 +139,36 @@ struct SpaceSection {
   Source source;
 };
 
+/// A number of `output: {history: ...}`.
+struct SpaceQuantity {
+  /// Of a contact: its force on b and the parts of it, moment, largest pressure and gap, numbers of pairs; of a
+  /// support; of springs; of a bolt; of the model.
+  enum class Kind {
+    force,
+    normal_force,
+    tangential_force,
+    contact_moment,
+    max_pressure,
+    max_gap,
+    open,
+    stick,
+    slip,
+    broken,
+    reaction,
+    support_moment,
+    spring_force,
+    tension,
+    shortening,
+    elastic_energy,
+    external_energy,
+    friction_energy
+  };
+  std::string name;
+  Kind kind = Kind::elastic_energy;
+  int of = -1;        ///< index of the contact, support, springs or body
+  int component = 0;  ///< of a vector
+};
+
 struct SpaceModel {
   std::string file, title;
   std::vector<std::string> files;           ///< that it names
@@ -133,12 +176,14 @@ struct SpaceModel {
   std::vector<SpaceMaterial> materials;
   std::vector<SpaceBody> bodies;
   std::vector<SpaceSupport> supports;
+  std::vector<SpaceSpring> springs;
   std::vector<SpaceLoad> loads;
   std::vector<SpaceContact> contacts;
   std::vector<Curve> curves;
   std::vector<Step> steps;  ///< counted ones
   std::vector<SpacePoint> points;
   std::vector<SpaceSection> sections;
+  std::vector<SpaceQuantity> quantities;
   double tolerance = 1e-10;  ///< of the certificate
   bool uniqueness = false;   ///< whether other solutions are searched for
   std::vector<Warning> warnings;

@@ -14,8 +14,6 @@ namespace scabo::system {
 
 namespace {
 
-using LawPointer = std::shared_ptr<const contact::Law>;
-
 /// Linear between the given points, constant beyond them.
 double coefficient_at(const std::vector<model::FrictionPoint>& along, double s) {
   std::size_t next = 0;
@@ -39,6 +37,8 @@ LawPointer friction_law(const model::Contact& contact, double s) {
   return std::make_shared<contact::Coulomb>(mu, backward);
 }
 
+}  // namespace
+
 LawPointer law_of(const model::Contact& contact, double s) {
   if (contact.bond) return std::make_shared<contact::Bonded>();
   if (contact.shear_strength) return std::make_shared<contact::Tresca>(*contact.shear_strength);
@@ -48,8 +48,6 @@ LawPointer law_of(const model::Contact& contact, double s) {
   if (contact.cohesion == 0.0 && contact.tension == 0.0) return friction;
   return std::make_shared<contact::Cohesive>(std::move(friction), contact.cohesion, contact.tension);
 }
-
-}  // namespace
 
 std::vector<double> positions_along(const mesh::Interface& interface) {
   std::vector<double> positions;
@@ -90,15 +88,24 @@ contact::JointLaws contact_laws(const std::vector<ContactSystem::Pair>& pairs, c
   return laws;
 }
 
+std::vector<double> coefficients_of(const std::vector<model::Contact>& contacts) {
+  std::vector<double> coefficients;
+  for (const model::Contact& contact : contacts) coefficients.push_back(contact.friction);
+  for (const model::Contact& contact : contacts)
+    coefficients.push_back(contact.backward_friction.value_or(contact.friction));
+  for (const model::Contact& contact : contacts) coefficients.push_back(contact.lasting_cohesion);
+  return coefficients;
+}
+
 contact::JointLaws with_coefficients(const contact::JointLaws& laws, const std::vector<ContactSystem::Pair>& pairs,
-                                     const model::Model& model, const std::vector<double>& coefficients) {
+                                     const std::vector<model::Contact>& all, const std::vector<double>& coefficients) {
   contact::JointLaws changed = laws;
-  const std::size_t contacts = model.contacts.size();
+  const std::size_t contacts = all.size();
   std::vector<LawPointer> of_contact(contacts);  // one for all pairs
   for (std::size_t k = 0; k < pairs.size() && !coefficients.empty(); ++k) {
     if (pairs[k].is_bar()) continue;
     const auto c = static_cast<std::size_t>(pairs[k].contact);
-    const model::Contact& given = model.contacts[c];
+    const model::Contact& given = all[c];
     const double forward = coefficients[c], backward = coefficients[contacts + c];
     const double cohesion = coefficients[2 * contacts + c];
     if (!model::has_one_coefficient(given) ||

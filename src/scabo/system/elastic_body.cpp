@@ -35,15 +35,18 @@ ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const Positions& no
 }
 
 void ElasticBody::find_rigid_motions_in_space(const Matrix& nodes) {
-  ensure(inclined_.none() && !has_springs(), "in space supports hold along the axes, and there are no springs");
+  ensure(inclined_.none(), "in space supports hold along the axes");
   const RigidMotionsInSpace motions(nodes);
   lever_ = motions.lever();
   Matrix held(static_cast<Eigen::Index>(constraints_.size()), 6);
   for (std::size_t c = 0; c < constraints_.size(); ++c)
     held.row(static_cast<Eigen::Index>(c)) = motions.along(constraints_[c].dof);
+  Matrix all(size(), 6);
+  for (Eigen::Index dof = 0; dof < size(); ++dof) all.row(dof) = motions.along(dof);
   rigid_coordinates_ = null_space(held);
-  rigid_motions_.resize(size(), rigid_coordinates_.cols());
-  for (Eigen::Index dof = 0; dof < size(); ++dof) rigid_motions_.row(dof) = motions.along(dof) * rigid_coordinates_;
+  if (has_springs())
+    rigid_coordinates_ = at_rest(rigid_coordinates_, all.transpose() * (stiffness().springs.matrix * all));
+  rigid_motions_ = all * rigid_coordinates_;
 }
 
 void ElasticBody::find_rigid_motions(const Positions& nodes) {

@@ -58,6 +58,15 @@ Matrix at_rest(const Matrix& free, const std::vector<HeldDirection>& springs, co
   return free * eigen.eigenvectors().leftCols(still);
 }
 
+Matrix at_rest(const Matrix& free, const Matrix& S) {
+  if (free.cols() == 0) return free;
+  constexpr double none = 1e-12;  // of the stiffness along all motions, which are lengths
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(free.transpose() * S * free);
+  Eigen::Index still = 0;
+  while (still < free.cols() && eigen.eigenvalues()[still] <= none * S.trace()) ++still;
+  return free * eigen.eigenvectors().leftCols(still);
+}
+
 Matrix free_motions(const std::vector<Vec2>& nodes, const std::vector<Constraint>& constraints,
                     const std::vector<HeldDirection>& springs, Vec2& reference, double& lever, bool revolved) {
   Vec2 low = nodes.front(), high = nodes.front();

@@ -1,7 +1,9 @@
 #include "scabo/system/rigid_solid.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
+
+#include "scabo/system/rigid_motions.hpp"
 
 namespace scabo::system {
 
@@ -20,7 +22,9 @@ Matrix motions_of(const Matrix& nodes, const Eigen::Vector3d& at, double lever) 
 
 class RigidSolid final : public BodySystem {
  public:
-  RigidSolid(const Matrix& nodes, const Eigen::Vector3d& at, std::vector<Constraint> constraints) {
+  RigidSolid(const Matrix& nodes, const Eigen::Vector3d& at, std::vector<Constraint> constraints,
+             const std::vector<SolidSpring>& springs)
+      : springs_(springs) {
     lever_ = 0.5 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
     constraints_ = std::move(constraints);
     motions_ = motions_of(nodes, at, lever_);
@@ -29,18 +33,22 @@ class RigidSolid final : public BodySystem {
       if (std::none_of(constraints_.begin(), constraints_.end(),
                        [&](const Constraint& held) { return held_motion(held) == k; }))
         free.push_back(k);
-    rigid_motions_ = motions_(Eigen::all, free);
-    rigid_coordinates_ = Matrix(Matrix::Identity(6, 6))(Eigen::all, free);
+    left_free_ = Matrix(Matrix::Identity(6, 6))(Eigen::all, free);
+    rigid_coordinates_ = left_free_;
+    if (!springs_.empty()) find_flexibility();
+    rigid_motions_ = motions_ * rigid_coordinates_;
   }
 
   Eigen::Index size() const override { return motions_.rows(); }
   bool is_revolved() const override { return false; }
-  Displaced displaced(const Vector&, const Vector& prescribed, const Balanced&, const BegunSolve*) const override {
-    Vector u = Vector::Zero(size());
+  Displaced displaced(const Vector& f, const Vector& prescribed, const Balanced&, const BegunSolve*) const override {
+    Vector q = Vector::Zero(6);
     for (std::size_t c = 0; c < constraints_.size(); ++c)
-      u += prescribed[static_cast<Eigen::Index>(c)] * unit_of(constraints_[c]) *
-           motions_.col(held_motion(constraints_[c]));
-    return {std::move(u), {}};
+      q[held_motion(constraints_[c])] = prescribed[static_cast<Eigen::Index>(c)] * unit_of(constraints_[c]);
+    if (is_flexible())
+      for (int round = 0; round < 2; ++round)  // the second refines
+        q += flexibility_ * (motions_.transpose() * f - stiffness_ * q);
+    return {motions_ * q, {}};
   }
   Vector displacement_at(const Vector& f, const Vector& prescribed, const std::vector<int>&,
                          BegunSolve*) const override {
@@ -48,26 +56,34 @@ class RigidSolid final : public BodySystem {
   }
   Matrix flexibility(const std::vector<int>& dofs) const override {
     const auto n = static_cast<Eigen::Index>(dofs.size());
-    return Matrix::Zero(n, n);
+    if (!is_flexible()) return Matrix::Zero(n, n);
+    const Matrix R = motions_(dofs, Eigen::all);
+    return R * flexibility_ * R.transpose();
   }
   Matrix flexibility_by_factor(const std::vector<int>& dofs) const override { return flexibility(dofs); }
-  Vector flexed(const std::vector<int>& dofs, const Vector&) const override {
-    return Vector::Zero(static_cast<Eigen::Index>(dofs.size()));
+  Vector flexed(const std::vector<int>& dofs, const Vector& forces) const override {
+    if (!is_flexible()) return Vector::Zero(static_cast<Eigen::Index>(dofs.size()));
+    const Matrix R = motions_(dofs, Eigen::all);
+    return R * (flexibility_ * (R.transpose() * forces));
   }
+  /// v: the motions that springs resist, then the free ones.
   FreeStiffness free_stiffness() const override {
-    const Eigen::Index m = rigid_motions_.cols();
+    const Eigen::Index resisted = resisted_.cols(), m = rigid_motions_.cols();
+    Matrix map(size(), resisted + m), K = Matrix::Zero(resisted + m, resisted + m);
+    map << motions_ * resisted_, rigid_motions_;
+    if (resisted > 0) K.topLeftCorner(resisted, resisted) = resisted_.transpose() * stiffness_ * resisted_;
     FreeStiffness free;
-    free.map = rigid_motions_.sparseView();
-    free.K = linalg::SparseMatrix(m, m);
-    free.dofs.assign(static_cast<std::size_t>(m), 0);
-    for (Eigen::Index k = 0; k < m; ++k) free.further.push_back(static_cast<int>(k));
+    free.map = map.sparseView();
+    free.K = K.sparseView();
+    free.dofs.assign(static_cast<std::size_t>(resisted + m), 0);
+    for (Eigen::Index k = 0; k < m; ++k) free.further.push_back(static_cast<int>(resisted + k));
     free.motions = Matrix::Identity(m, m);
     return free;
   }
   double operations() const override { return 0.0; }
 
   /// The constraints take part of it, and resultants are what must balance.
-  Vector unbalanced(const Vector&, const Vector& f) const override { return -f; }
+  Vector unbalanced(const Vector& u, const Vector& f) const override { return -f - spring_forces(u); }
   Vector reactions_of(const Vector& unbalanced) const override {
     const Vector resultants = motions_.transpose() * unbalanced;
     Vector reactions(static_cast<Eigen::Index>(constraints_.size()));
@@ -76,21 +92,41 @@ class RigidSolid final : public BodySystem {
     return reactions;
   }
   double imbalance_of(const Vector& unbalanced) const override {
-    return rigid_motions_.cols() > 0 ? (rigid_motions_.transpose() * unbalanced).lpNorm<Eigen::Infinity>() : 0.0;
+    if (left_free_.cols() == 0) return 0.0;
+    return (left_free_.transpose() * (motions_.transpose() * unbalanced)).lpNorm<Eigen::Infinity>();
   }
-  double elastic_energy(const Vector&) const override { return 0.0; }
-  double elastic_energy(const Vector&, const Vector&, const Vector&) const override { return 0.0; }
+  double elastic_energy(const Vector& u) const override { return -0.5 * u.dot(spring_forces(u)); }
+  double elastic_energy(const Vector& u, const Vector&, const Vector&) const override { return elastic_energy(u); }
   double energy_lost(const Vector&) const override { return 0.0; }
   double stiff_force(const Vector&) const override { return 0.0; }
-  Vector spring_forces(const Vector& u) const override { return Vector::Zero(u.size()); }
-  bool is_flexible() const override { return false; }
-  bool has_springs() const override { return false; }
+  Vector spring_forces(const Vector& u) const override {
+    Vector forces = Vector::Zero(u.size());
+    for (const SolidSpring& spring : springs_) forces -= spring.times(u);
+    return forces;
+  }
+  bool is_flexible() const override { return flexibility_.size() > 0; }
+  bool has_springs() const override { return !springs_.empty(); }
 
  private:
   /// Of q per unit of what is prescribed.
   double unit_of(const Constraint& held) const { return held.rotation ? lever_ : 1.0; }
 
-  Matrix motions_;  // R
+  void find_flexibility() {
+    stiffness_ = Matrix::Zero(6, 6);
+    for (const SolidSpring& spring : springs_) stiffness_ += motions_.transpose() * spring.times(motions_);
+    rigid_coordinates_ = at_rest(left_free_, stiffness_);
+    resisted_ = left_free_ * null_space((left_free_.transpose() * rigid_coordinates_).transpose());
+    if (resisted_.cols() == 0) return;
+    const Matrix along = resisted_.transpose() * stiffness_ * resisted_;
+    flexibility_ = resisted_ * along.ldlt().solve(resisted_.transpose());
+    flexibility_ = 0.5 * (flexibility_ + flexibility_.transpose()).eval();
+  }
+
+  Matrix motions_;    // R
+  Matrix left_free_;  // by the supports, 6 x k
+  std::vector<SolidSpring> springs_;
+  Matrix stiffness_, flexibility_;  // R'S R, and its inverse along the motions that springs resist; else none
+  Matrix resisted_;                 // Y
 };
 
 }  // namespace
@@ -106,8 +142,8 @@ Constraint held_motion(int motion, double value) {
 int held_motion(const Constraint& constraint) { return constraint.component + (constraint.rotation ? 3 : 0); }
 
 std::unique_ptr<BodySystem> rigid_solid(const Matrix& nodes, const Eigen::Vector3d& at,
-                                        std::vector<Constraint> constraints) {
-  return std::make_unique<RigidSolid>(nodes, at, std::move(constraints));
+                                        std::vector<Constraint> constraints, const std::vector<SolidSpring>& springs) {
+  return std::make_unique<RigidSolid>(nodes, at, std::move(constraints), springs);
 }
 
 }  // namespace scabo::system

@@ -3,7 +3,8 @@
 //
 //     u = R q,  q = [displacement of the point `at`, L rotations about it],  held rows of q prescribed
 //
-// with L half the diagonal of the box around the nodes, so that all six of q are lengths. Its flexibility is 0.
+// with L half the diagonal of the box around the nodes, so that all six of q are lengths. Without springs its
+// flexibility is 0; with them it is R Y (Y'R'S R Y)^-1 Y'R' for the motions Y that they resist.
 #pragma once
 
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "scabo/system/body_system.hpp"
+#include "scabo/system/solid_springs.hpp"
 
 namespace scabo::system {
 
@@ -22,6 +24,7 @@ int held_motion(const Constraint& constraint);
 /// Constraints by held_motion(), each motion at most once; prescribed values are lengths and radians, and reactions
 /// forces at `at` and moments about it.
 std::unique_ptr<BodySystem> rigid_solid(const Matrix& nodes, const Eigen::Vector3d& at,
-                                        std::vector<Constraint> constraints);
+                                        std::vector<Constraint> constraints,
+                                        const std::vector<SolidSpring>& springs = {});
 
 }  // namespace scabo::system

@@ -78,7 +78,8 @@ TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
   constexpr double p = 1e6;
   for (const std::optional<double> friction : {std::optional(0.0), std::optional(0.4), std::optional<double>()}) {
     Stack stack(GetParam());
-    stack.model.contacts[0].friction = friction;
+    stack.model.contacts[0].law.bond = !friction;
+    stack.model.contacts[0].law.friction = friction.value_or(0.0);
     hold_plane(stack.model.bodies[0], 2, -1.0, {2});
     for (SolidBody& body : stack.model.bodies) hold_plane(body, 0, 0.0, {0}), hold_plane(body, 1, 0.0, {1});
     stack.load(system::pressure_forces(stack.model.bodies[1].mesh, stack.top(), p));
@@ -105,7 +106,7 @@ TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
 TEST_P(Stacks, SlideWhereThePushExceedsFriction) {
   constexpr double mu = 0.3;
   Stack stack(GetParam(), 1.2);
-  stack.model.contacts[0].friction = mu;
+  stack.model.contacts[0].law.friction = mu;
   hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
   const mesh::SolidMesh& block = stack.model.bodies[1].mesh;
   const double weight = density_weight * 1.2 * 1.2;
@@ -136,7 +137,7 @@ std::set<int> open_pairs(const SolidIncrement& increment) {
 /// bits; stored energy and work of friction are together the work done.
 TEST_P(Stacks, GoOnFromAnyStateWithTheSameBits) {
   Stack stack(GetParam(), 1.2);
-  stack.model.contacts[0].friction = 0.3;
+  stack.model.contacts[0].law.friction = 0.3;
   hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
   hold_plane(stack.model.bodies[1], 0, 0.4, {0}, 2e-6);
   stack.load(system::pressure_forces(stack.model.bodies[1].mesh, stack.top(), 1e5));
@@ -175,7 +176,7 @@ TEST_P(Stacks, GoOnFromAnyStateWithTheSameBits) {
 /// Sides swapped: the same forces, gaps and slips, with the opposite sign where it is that of a side.
 TEST_P(Stacks, GiveTheSameWithTheirSidesSwapped) {
   Stack stack(GetParam(), 1.2);
-  stack.model.contacts[0].friction = 0.3;
+  stack.model.contacts[0].law.friction = 0.3;
   stack.model.contacts[0].gap = 1e-6;
   hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
   const mesh::SolidMesh& block = stack.model.bodies[1].mesh;
@@ -198,7 +199,7 @@ TEST_P(Stacks, GiveTheSameWithTheirSidesSwapped) {
 TEST_P(Stacks, GiveTheSameTurnedMovedAndInOtherUnits) {
   constexpr double millimetres = 1e3, meganewtons = 1e-6;
   Stack stack(GetParam(), 1.2);
-  stack.model.contacts[0].friction = 0.3;
+  stack.model.contacts[0].law.friction = 0.3;
   hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
   const Eigen::Vector3d pushed(0.25 * density_weight, 0.1 * density_weight, -density_weight);
   stack.load(system::volume_forces(stack.model.bodies[1].mesh, pushed));

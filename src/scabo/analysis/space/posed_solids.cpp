@@ -10,6 +10,7 @@
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
 #include "scabo/model/limits.hpp"
+#include "scabo/system/contact_laws.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
@@ -30,7 +31,9 @@ class Posing {
   void add_support(std::size_t number);
   void add_rigid_support(std::size_t number);
   std::optional<double> displacement_at(const model::SpaceSupport& support, std::size_t axis, int node);
+  void add_spring(const model::SpaceSpring& spring);
   void add_load(const model::SpaceLoad& load);
+  Vector forces_at_rest(const model::SpaceLoad& load);
   void add_load_on_bodies(const model::SpaceLoad& load, std::vector<Vector>& forces);
   Vector load_on_face(const model::SpaceLoad& load);
   Vector varying_load(const model::SpaceLoad& load, const std::vector<mesh::SolidFacet>& on);
@@ -264,12 +267,33 @@ Vector Posing::load_on_face(const model::SpaceLoad& load) {
   return forces;
 }
 
+void Posing::add_spring(const model::SpaceSpring& spring) {
+  const mesh::SolidMesh& mesh = body(spring.on.body).mesh;
+  posed_.model.springs.push_back(
+      {spring.on.body,
+       spring.along_face     ? system::springs_on_facets(mesh, facets(spring.on), spring.normal, spring.tangential)
+       : spring.on.is_body() ? system::springs_at_centroid(mesh, spring.stiffness)
+                             : system::springs_at_nodes(mesh, set_of_nodes(spring.on), spring.stiffness)});
+}
+
+/// What springs that are at rest elsewhere exert on a body that stays where it is.
+Vector Posing::forces_at_rest(const model::SpaceLoad& load) {
+  const model::SpaceSpring& spring = model_.springs[static_cast<std::size_t>(load.spring)];
+  SolidSpringOfBody& posed = posed_.model.springs[static_cast<std::size_t>(load.spring)];
+  const mesh::SolidMesh& mesh = body(spring.on.body).mesh;
+  posed.load = static_cast<int>(posed_.model.loads.size()) - 1;
+  if (spring.along_face) return system::pressure_forces(mesh, facets(spring.on), -spring.normal * spring.at_rest[0]);
+  return posed.spring.times(spring.at_rest.replicate(mesh.nodes.cols(), 1));
+}
+
 void Posing::add_load(const model::SpaceLoad& load) {
   using Kind = model::SpaceLoad::Kind;
   std::vector<Vector>& forces = posed_.model.loads.emplace_back(model_.bodies.size());
   posed_.model.temperatures.emplace_back(model_.bodies.size());
   if (load.kind == Kind::gravity || load.kind == Kind::temperature)
     add_load_on_bodies(load, forces);
+  else if (load.kind == Kind::at_rest)
+    forces[static_cast<std::size_t>(load.on.body)] = forces_at_rest(load);
   else
     forces[static_cast<std::size_t>(load.on.body)] = load_on_face(load);
 }
@@ -278,7 +302,7 @@ void Posing::add_contact(const model::SpaceContact& contact) {
   SolidContact posed;
   posed.a = {contact.a.body, facets(contact.a)};
   posed.b = {contact.b.body, facets(contact.b)};
-  posed.friction = contact.friction;
+  posed.law = contact.law;
   posed.gap = contact.gap;
   if (posed.a.facets.empty() || posed.b.facets.empty()) return;
   const mesh::Face a{body(contact.a.body).mesh, posed.a.facets}, b{body(contact.b.body).mesh, posed.b.facets};
@@ -304,6 +328,9 @@ void Posing::add_preload(std::size_t number) {
       system::cut_of(at.mesh, element::elasticity_in_space(at.young, at.poisson), given.point, given.normal),
       given.force, given.shortening};
   if (preload.cut.stiffness == 0.0) return mistake("has all of it on one side: move 'point', or make 'size' smaller");
+  for (const model::SpaceSpring& spring : model_.springs)
+    if (spring.on.body == static_cast<int>(number) && given.force)
+      return mistake("is that of a body on springs, whose tension is not the force alone: give 'shortening'");
   std::array<bool, 2> held{};  // along the normal: the part below, that above
   for (std::size_t c = 0; c < at.mesh.cells.size(); ++c)
     for (const int node : at.mesh.cells[c])
@@ -326,17 +353,22 @@ void Posing::add_steps() {
       if (curves[i] >= 0)
         factors[static_cast<Eigen::Index>(i)] = model::value_of(model_.curves[static_cast<std::size_t>(curves[i])], s);
   };
+  std::vector<model::Contact> laws;
+  for (const model::SpaceContact& contact : model_.contacts) laws.push_back(contact.law);
+  Vector coefficients = vector(system::coefficients_of(laws));
   Vector loads = Vector::Zero(static_cast<Eigen::Index>(model_.loads.size())),
          supports = Vector::Zero(static_cast<Eigen::Index>(model_.supports.size()));
   for (std::size_t s = 0; s < model_.steps.size(); ++s) {
     const model::Step& step = model_.steps[s];
-    const Vector last_loads = vector(step.load_factors), last_supports = vector(step.support_factors);
+    const Vector last_loads = vector(step.load_factors), last_supports = vector(step.support_factors),
+                 last_coefficients = vector(model::coefficients_of(step));
     for (int k = 1; k <= step.increments; ++k) {
       const double t =
           step.ends.empty() ? static_cast<double>(k) / step.increments : step.ends[static_cast<std::size_t>(k - 1)];
       SolidFactors factors{(1.0 - t) * loads + t * last_loads, (1.0 - t) * supports + t * last_supports};
       follow(step.load_curves, t, factors.loads);
       follow(step.support_curves, t, factors.supports);
+      if (last_coefficients.size() > 0) factors.coefficients = (1.0 - t) * coefficients + t * last_coefficients;
       factors.fits = Vector::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
       for (std::size_t c = 0; c < model_.contacts.size(); ++c)
         if (const int fit = model_.contacts[c].fit_in; fit >= static_cast<int>(s))
@@ -351,6 +383,7 @@ void Posing::add_steps() {
     }
     loads = last_loads;
     supports = last_supports;
+    if (last_coefficients.size() > 0) coefficients = last_coefficients;
   }
 }
 
@@ -358,6 +391,7 @@ PosedSolids Posing::posed() {
   for (const model::SpaceBody& of : model_.bodies) add_body(of);
   if (mistakes_.empty()) {
     for (std::size_t s = 0; s < model_.supports.size(); ++s) add_support(s);
+    for (const model::SpaceSpring& spring : model_.springs) add_spring(spring);
     for (const model::SpaceLoad& load : model_.loads) add_load(load);
     for (const model::SpaceContact& contact : model_.contacts) add_contact(contact);
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)

@@ -12,9 +12,7 @@
 #include "scabo/analysis/state/friction_work.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
-#include "scabo/contact/laws/bonded.hpp"
-#include "scabo/contact/laws/coulomb.hpp"
-#include "scabo/contact/solve.hpp"
+#include "scabo/system/contact_laws.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
@@ -36,12 +34,12 @@ const SolidBody& body_of(const SolidModel& model, const SolidContact::Side& side
   return model.bodies[static_cast<std::size_t>(side.body)];
 }
 
-/// A rigid side has no pairs.
+/// A rigid side has pairs only against another one.
 bool has_pairs_on_first(const SolidModel& model, const SolidContact& contact, const mesh::Face& a,
                         const mesh::Face& b) {
-  ensure(!body_of(model, contact.a).rigid_at || !body_of(model, contact.b).rigid_at, "one of two bodies is elastic");
-  if (body_of(model, contact.a).rigid_at) return false;
-  return body_of(model, contact.b).rigid_at || !mesh::has_pairs_on_second(a, b);
+  const bool rigid_a = body_of(model, contact.a).rigid_at.has_value(),
+             rigid_b = body_of(model, contact.b).rigid_at.has_value();
+  return rigid_a == rigid_b ? !mesh::has_pairs_on_second(a, b) : rigid_b;
 }
 
 PairedFaces paired_faces(const SolidModel& model) {
@@ -55,13 +53,15 @@ PairedFaces paired_faces(const SolidModel& model) {
     const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
     const bool turned = has_pairs_on_first(model, contact, a, b);
     const std::vector<mesh::FacetPair> found =
-        turned ? mesh::facet_pairs(b, a, !contact.friction) : mesh::facet_pairs(a, b, !contact.friction);
+        turned ? mesh::facet_pairs(b, a, contact.law.bond) : mesh::facet_pairs(a, b, contact.law.bond);
     const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),
                second = static_cast<std::size_t>(turned ? contact.a.body : contact.b.body);
-    std::shared_ptr<const contact::Law> law = std::make_shared<contact::Bonded>();
-    if (contact.friction) law = std::make_shared<contact::Coulomb>(*contact.friction);
-    for (system::PairPoints& points : system::points_of(found, first, second)) {
+    const system::LawPointer law = system::law_of(contact.law);
+    std::vector<system::PairPoints> of_contact = system::points_of(found, first, second);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      system::PairPoints& points = of_contact[i];
       points.gap += contact.gap;
+      if (contact.law.modulus) points.softness = 1.0 / (*contact.law.modulus * found[i].area);
       paired.points.push_back(std::move(points));
     }
     for (const mesh::FacetPair& pair : found) {
@@ -90,22 +90,42 @@ struct PreparedSolids {
   PairedFaces paired;
   system::Structure structure;
   system::ContactSystem contact;
+  std::vector<model::Contact> given;  // laws of the contacts of the model
 };
 
 PreparedSolids prepared_solids(const SolidModel& model, int threads) {
-  PreparedSolids prepared{model, paired_faces(model), {}, {}};
+  PreparedSolids prepared{model, paired_faces(model), {}, {}, {}};
+  for (const SolidContact& contact : model.contacts) prepared.given.push_back(contact.law);
+  std::vector<std::vector<system::SolidSpring>> springs(model.bodies.size());
+  for (const SolidSpringOfBody& of : model.springs) springs[static_cast<std::size_t>(of.body)].push_back(of.spring);
   std::vector<system::ElasticPart> parts;
-  for (const SolidBody& body : model.bodies)
-    if (!body.rigid_at)
-      parts.push_back(
-          {system::solid_stiffness(body.mesh, elasticity_of(body)), system::Positions(body.mesh.nodes), body.supports});
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const SolidBody& body = model.bodies[b];
+    if (body.rigid_at) continue;
+    system::Stiffness stiffness = system::solid_stiffness(body.mesh, elasticity_of(body));
+    for (const system::SolidSpring& spring : springs[b])
+      stiffness.springs.matrix =
+          stiffness.springs.none() ? spring.on_nodes : linalg::SparseMatrix(stiffness.springs.matrix + spring.on_nodes);
+    parts.push_back({std::move(stiffness), system::Positions(body.mesh.nodes), body.supports});
+  }
   std::vector<std::unique_ptr<system::BodySystem>> elastic = system::elastic_bodies(std::move(parts), threads);
   auto next = elastic.begin();
-  for (const SolidBody& body : model.bodies)
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const SolidBody& body = model.bodies[b];
     prepared.structure.parts.push_back(
-        body.rigid_at ? system::rigid_solid(body.mesh.nodes, *body.rigid_at, body.supports) : std::move(*next++));
+        body.rigid_at ? system::rigid_solid(body.mesh.nodes, *body.rigid_at, body.supports, springs[b])
+                      : std::move(*next++));
+  }
   prepared.contact = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
+  for (system::ContactSystem::Pair& pair : prepared.contact.pairs)
+    pair.contact = prepared.paired.pairs[static_cast<std::size_t>(pair.index)].contact;
   return prepared;
+}
+
+/// Laws of the pairs that move.
+contact::JointLaws laws_of_solids(const PreparedSolids& prepared, const SolidFactors& factors) {
+  return system::with_coefficients(prepared.contact.laws, prepared.contact.pairs, prepared.given,
+                                   {factors.coefficients.begin(), factors.coefficients.end()});
 }
 
 /// Loads and prescribed displacements of all bodies, and of each the sum of the sizes of all its loads.
@@ -166,8 +186,8 @@ double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors
   return gap * factors.fits[prepared.paired.pairs[i].contact];
 }
 
-/// The contact problem of the pairs that move; `slip`: (d - 1) numbers of each so far; `tightened`: preloads whose
-/// shortenings are unknowns too.
+/// The contact problem of the pairs that move, its laws not yet included; `slip`: (d - 1) numbers of each so far;
+/// `tightened`: preloads whose shortenings are unknowns too.
 contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied,
                                    const SolidFactors& factors, const Vector& slip,
                                    const std::vector<std::size_t>& tightened) {
@@ -195,7 +215,6 @@ contact::Problem problem_of_solids(const PreparedSolids& prepared, const Applied
         resultants_of_loads(part, applied.forces[p], applied.sums[p]);
   }
   add_shortenings(prepared.model, tightened, factors.tightened, prepared.structure, system, u, problem);
-  contact::set_limits(system.laws, contact::History(static_cast<std::size_t>(pairs)), problem);
   return problem;
 }
 
@@ -231,20 +250,38 @@ MovedSolids solids_at_rest(const PreparedSolids& prepared) {
   return rest;
 }
 
-/// The largest imbalance of a node over the largest force.
-double imbalance_of(const PreparedSolids& prepared, const MovedSolids& moved, const Vector& p) {
-  double largest = p.size() > 0 ? p.lpNorm<Eigen::Infinity>() : 0.0, imbalance = 0.0;
-  for (std::size_t i = 0; i < moved.u.size(); ++i) {
+/// Of nodes and pairs.
+double largest_force_of_solids(const MovedSolids& moved, const Vector& p) {
+  double largest = p.size() > 0 ? p.lpNorm<Eigen::Infinity>() : 0.0;
+  for (std::size_t i = 0; i < moved.u.size(); ++i)
     largest =
         std::max({largest, moved.forces[i].lpNorm<Eigen::Infinity>(), moved.unbalanced[i].lpNorm<Eigen::Infinity>()});
+  return largest;
+}
+
+/// The largest imbalance of a node over the largest force so far.
+double imbalance_of(const PreparedSolids& prepared, const MovedSolids& moved, double largest) {
+  double imbalance = 0.0;
+  for (std::size_t i = 0; i < moved.u.size(); ++i)
     imbalance = std::max(imbalance, prepared.structure.parts[i]->imbalance_of(moved.unbalanced[i]));
-  }
   return largest > 0.0 ? imbalance / largest : 0.0;
 }
 
+/// What every spring exerts on its body.
+std::vector<Eigen::Vector3d> spring_resultants_of_solids(const SolidModel& model, const SolidFactors& factors,
+                                                         const std::vector<Vector>& u) {
+  std::vector<Eigen::Vector3d> resultants;
+  for (const SolidSpringOfBody& of : model.springs) {
+    const auto b = static_cast<std::size_t>(of.body);
+    Vector forces = -of.spring.times(u[b]);
+    if (of.load >= 0) forces += factors.loads[of.load] * model.loads[static_cast<std::size_t>(of.load)][b];
+    resultants.emplace_back(forces.reshaped(3, forces.size() / 3).rowwise().sum());
+  }
+  return resultants;
+}
+
 /// All pairs; those that supports hold on both sides as they are at rest.
-std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const contact::Solution& solution,
-                                   const Vector& slip) {
+std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const SolidState& state) {
   const PairedFaces& paired = prepared.paired;
   std::vector<SolidPair> pairs = paired.pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap = paired.points[i].gap;
@@ -253,10 +290,11 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const contact
     const auto i = static_cast<std::size_t>(prepared.contact.pairs[k].index);
     const Eigen::Matrix3d directions = paired.points[i].directions;
     const double sense = paired.turned[i] ? -1.0 : 1.0;
-    pairs[i].force = sense * (directions * solution.p.segment<3>(in_space.of(row)));
-    pairs[i].slip = sense * (directions.rightCols<2>() * slip.segment<2>(2 * row));
-    pairs[i].gap = solution.gap[row];
-    pairs[i].state = solution.states[k];
+    pairs[i].force = sense * (directions * state.p.segment<3>(in_space.of(row)));
+    pairs[i].slip = sense * (directions.rightCols<2>() * state.slip.segment<2>(2 * row));
+    pairs[i].gap = state.gap[row];
+    pairs[i].state = state.states[k];
+    pairs[i].broken = state.history[k].broken;
   }
   return pairs;
 }
@@ -275,7 +313,7 @@ std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
     const Eigen::Vector3d moved = motion.segment<3>(in_space.of(static_cast<Eigen::Index>(k)));
     SolidPair& pair = to.pairs[i];
     pair.gap = gap_of_solids(prepared, to.factors, i) + moved[0];
-    const bool tied = !prepared.model.contacts[static_cast<std::size_t>(pair.contact)].friction;
+    const bool tied = prepared.given[static_cast<std::size_t>(pair.contact)].bond;
     const double wrong = tied ? moved.norm() : -pair.gap;
     constexpr double rounding = 1e-12;
     if (wrong <= std::max(most, rounding * std::max(pair.point.norm(), std::abs(pair.gap)))) continue;
@@ -289,32 +327,18 @@ std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
   return worst;
 }
 
-/// Whether a pair may have begun or ended to slip anywhere within the increment. One that touches without force slips
-/// from the start, as the force grows.
-bool has_changed(const SolidState& from, const contact::Solution& to, std::size_t k) {
-  const auto row = static_cast<Eigen::Index>(k);
-  const Eigen::Vector3d before = from.p.segment<3>(in_space.of(row));
-  if (from.states[k] == contact::ContactState::open && before[0] == 0.0 && from.gap[row] <= 0.0) return false;
-  const bool turned = before.tail<2>().dot(to.slip_increment.segment<2>(2 * row)) > 0.0;
-  return turned || from.states[k] != to.states[k];
-}
-
-/// As analysis/state/friction_work.hpp, with a constant coefficient.
-FrictionWork friction_work_of_solids(const PreparedSolids& prepared, const SolidState& from,
-                                     const contact::Solution& to) {
+FrictionWork friction_work_of_solids(const PreparedSolids& prepared, const SolidState& from, const SolidState& to) {
   FrictionWork total;
+  const contact::JointLaws before = laws_of_solids(prepared, from.factors),
+                           after = laws_of_solids(prepared, to.factors);
   for (std::size_t k = 0; k < prepared.contact.pairs.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    const auto i = static_cast<std::size_t>(prepared.contact.pairs[k].index);
-    const auto& friction = prepared.model.contacts[static_cast<std::size_t>(prepared.paired.pairs[i].contact)].friction;
-    const Eigen::Vector2d slip = to.slip_increment.segment<2>(2 * row);
-    if (!friction || slip.isZero(0.0)) continue;
-    const Eigen::Vector3d before = from.p.segment<3>(in_space.of(row)), after = to.p.segment<3>(in_space.of(row));
-    const double way = slip.norm(), bound = *friction * std::max(before[0], 0.0),
-                 at_end = std::max(-after.tail<2>().dot(slip) / way, 0.0), work = 0.5 * (bound + at_end) * way;
-    total.work += work;
-    total.beyond_rule += work + 0.5 * (before + after).tail<2>().dot(slip);
-    if (has_changed(from, to, k)) total.error += 0.5 * std::abs(at_end - bound) * way;
+    const Eigen::Index at = in_space.of(row);
+    add_friction_work(
+        {*before.of_pair[k], *after.of_pair[k], after.area[row], from.history[k], to.history[k], from.p[at], to.p[at],
+         from.p.segment<2>(at + 1), to.p.segment<2>(at + 1),
+         to.slip.segment<2>(2 * row) - from.slip.segment<2>(2 * row), from.gap[row], from.states[k], to.states[k]},
+        total);
   }
   return total;
 }
@@ -337,7 +361,7 @@ double initial_energy_of_solid(const PreparedSolids& prepared, const SolidFactor
 
 /// The energy of `from` and what an increment adds to it.
 Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, const MovedSolids& before,
-                        const SolidFactors& factors, const MovedSolids& after, const contact::Solution& solution) {
+                        const SolidState& to, const MovedSolids& after) {
   Energy energy = from.energy;
   energy.elastic = 0.0;
   for (std::size_t i = 0; i < after.u.size(); ++i) {
@@ -346,11 +370,13 @@ Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, 
         0.5 *
         (before.reactions[i] + after.reactions[i]).dot(after.applied.prescribed[i] - before.applied.prescribed[i]);
     energy.elastic += prepared.structure.parts[i]->elastic_energy(after.u[i], after.forces[i], after.unbalanced[i]);
-    const double initial = initial_energy_of_solid(prepared, factors, i, after.applied, after.u[i]);
+    const double initial = initial_energy_of_solid(prepared, to.factors, i, after.applied, after.u[i]);
     energy.elastic += initial;
     energy.external += initial - initial_energy_of_solid(prepared, from.factors, i, before.applied, before.u[i]);
   }
-  const FrictionWork friction = friction_work_of_solids(prepared, from, solution);
+  const Vector normal = to.p(Eigen::seqN(0, to.p.size() / in_space.dimension, in_space.dimension));
+  energy.elastic += 0.5 * prepared.contact.softness.dot(normal.cwiseAbs2());
+  const FrictionWork friction = friction_work_of_solids(prepared, from, to);
   energy.friction += friction.work;
   energy.external += friction.beyond_rule;
   energy.friction_error += friction.error;
@@ -371,6 +397,7 @@ class SolidMarch {
       state_.p = Vector::Zero(in_space.count(pairs));
       state_.a = Vector::Zero(prepared_.contact.rigid_motions());
       state_.states.assign(static_cast<std::size_t>(pairs), contact::ContactState::open);
+      state_.history.resize(static_cast<std::size_t>(pairs));
       state_.shortening = before_.applied.shortening;
       return;
     }
@@ -388,8 +415,8 @@ class SolidMarch {
             prepared_.paired.pairs, prepared_.paired.points, prepared_.paired.turned};
   }
   /// The solution of the contact problem; `to` has what it says of it.
-  contact::Solution solved(const AppliedToSolids& applied, const SolidFactors& factors,
-                           const std::vector<std::size_t>& tightened, SolidIncrement& to) const;
+  contact::Evolution solved(const AppliedToSolids& applied, const SolidFactors& factors,
+                            const std::vector<std::size_t>& tightened, SolidIncrement& to) const;
 
   PreparedSolids prepared_;
   contact::SolverOptions solver_;
@@ -399,19 +426,18 @@ class SolidMarch {
   std::vector<Warning> given_;
 };
 
-contact::Solution SolidMarch::solved(const AppliedToSolids& applied, const SolidFactors& factors,
-                                     const std::vector<std::size_t>& tightened, SolidIncrement& to) const {
+contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const SolidFactors& factors,
+                                      const std::vector<std::size_t>& tightened, SolidIncrement& to) const {
   const Eigen::Index motions = state_.a.size();
   contact::Start start{state_.p, state_.a};
   start.a.conservativeResize(motions + static_cast<Eigen::Index>(tightened.size()));
   for (std::size_t k = 0; k < tightened.size(); ++k)
     start.a[motions + static_cast<Eigen::Index>(k)] = state_.shortening[static_cast<Eigen::Index>(tightened[k])];
-  contact::Evolution evolution;
-  evolution.problem = problem_of_solids(prepared_, applied, factors, state_.slip, tightened);
-  evolution.solution = contact::solve(evolution.problem, start, solver_);
-  if (uniqueness_ && evolution.problem.pairs() > 0)
-    to.uniqueness = follow_history(evolution.problem, prepared_.contact.laws,
-                                   contact::History(prepared_.contact.pairs.size()), start, solver_, evolution);
+  const contact::Problem problem = problem_of_solids(prepared_, applied, factors, state_.slip, tightened);
+  const contact::JointLaws laws = laws_of_solids(prepared_, factors);
+  contact::Evolution evolution = contact::evolve(problem, laws, state_.history, start, solver_);
+  if (uniqueness_ && problem.pairs() > 0)
+    to.uniqueness = follow_history(problem, laws, state_.history, start, solver_, evolution);
   const contact::Solution& solution = evolution.solution;
   to.factors = factors;
   to.status = solution.status;
@@ -419,7 +445,7 @@ contact::Solution SolidMarch::solved(const AppliedToSolids& applied, const Solid
   if (solution.status == contact::Status::mechanism || solution.status == contact::Status::collapse)
     to.mechanism = solid_mechanism(moving(tightened), evolution.problem, solution);
   to.reason = reason_of_solids(prepared_.model, solution, to.mechanism);
-  return std::move(evolution.solution);
+  return evolution;
 }
 
 SolidIncrement SolidMarch::next(const SolidFactors& factors) {
@@ -434,7 +460,8 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
     state_.force_scale = std::max(state_.force_scale, std::abs(*model.preloads[i].force));
   solver_.force_scale = state_.force_scale;
   SolidIncrement to;
-  const contact::Solution solution = solved(applied, factors, tightened, to);
+  contact::Evolution evolution = solved(applied, factors, tightened, to);
+  const contact::Solution& solution = evolution.solution;
   if (solution.status != contact::Status::solved) return to;
   to.certificate = solution.certificate;
   const Eigen::Index motions = state_.a.size();
@@ -443,14 +470,17 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
     shortening[static_cast<Eigen::Index>(tightened[k])] = solution.a[motions + static_cast<Eigen::Index>(k)];
   if (!tightened.empty()) applied = applied_to_solids(prepared_, factors, shortening);
   MovedSolids moved = moved_solids(prepared_, std::move(applied), solution.p, a);
-  to.certificate.equilibrium = imbalance_of(prepared_, moved, solution.p);
+  const double largest = std::max(state_.force_scale, largest_force_of_solids(moved, solution.p));
+  to.certificate.equilibrium = imbalance_of(prepared_, moved, largest);
   to.u = moved.u;
   to.reactions = moved.reactions;
   to.heated = moved.applied.heated;
   to.tensions = tensions_of(model, shortening, moved.u);
-  to.energy = energy_of_solids(prepared_, state_, before_, factors, moved, solution);
-  const Vector slip = state_.slip + solution.slip_increment;
-  to.pairs = solid_pairs(prepared_, solution, slip);
+  to.springs = spring_resultants_of_solids(model, factors, moved.u);
+  SolidState reached{factors,         state_.slip + solution.slip_increment, solution.gap, solution.p, a, shortening,
+                     solution.states, std::move(evolution.history),          largest,      {}};
+  to.energy = reached.energy = energy_of_solids(prepared_, state_, before_, reached, moved);
+  to.pairs = solid_pairs(prepared_, reached);
   if (std::string reason = add_held_gaps(prepared_, to); !reason.empty()) {
     to.status = contact::Status::not_converged;
     to.reason = std::move(reason);
@@ -460,7 +490,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   }
   if (to.status != contact::Status::solved) return to;
   add_warnings(moving(tightened), solution, given_, to);
-  state_ = {factors, slip, solution.gap, solution.p, a, shortening, solution.states, state_.force_scale, to.energy};
+  state_ = std::move(reached);
   before_ = std::move(moved);
   return to;
 }

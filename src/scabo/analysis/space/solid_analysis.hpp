@@ -17,10 +17,13 @@
 #include "scabo/analysis/state/solution.hpp"
 #include "scabo/base/warning.hpp"
 #include "scabo/contact/certificate.hpp"
+#include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/solution.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
+#include "scabo/model/contact.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/solid_cut.hpp"
+#include "scabo/system/solid_springs.hpp"
 
 namespace scabo::analysis {
 
@@ -34,15 +37,15 @@ struct SolidBody {
   std::string name = {};  ///< in messages
 };
 
-/// Two faces of different bodies, one of which is elastic.
+/// Two faces of different bodies.
 struct SolidContact {
   struct Side {
     int body = -1;
     std::vector<mesh::SolidFacet> facets;
   };
   Side a, b;
-  std::optional<double> friction;  ///< >= 0; none: the faces are tied, and keep their gap
-  double gap = 0.0;                ///< added to that of the meshes; negative: an interference
+  model::Contact law;  ///< without directions of friction, and without friction that varies along the contact
+  double gap = 0.0;    ///< added to that of the meshes; negative: an interference
 };
 
 /// A bolt that is tightened. Supports do not hold both of its parts along the normal of the cut.
@@ -53,6 +56,13 @@ struct SolidPreload {
   double shortening = 0.0;
 };
 
+/// Springs between a body and the ground; without force at its displacement times the factor of a load, or at 0.
+struct SolidSpringOfBody {
+  int body = -1;
+  system::SolidSpring spring;
+  int load = -1;  ///< index into SolidModel::loads: its forces on a body that stays
+};
+
 struct SolidModel {
   std::vector<SolidBody> bodies;
   std::vector<SolidContact> contacts;
@@ -61,11 +71,14 @@ struct SolidModel {
   /// its forces. As long as `loads`, or empty.
   std::vector<std::vector<Vector>> temperatures = {};
   std::vector<SolidPreload> preloads = {};
+  std::vector<SolidSpringOfBody> springs = {};
 };
 
 /// Factors of loads, supports and interferences at the end of an increment.
 struct SolidFactors {
   Vector loads, supports;
+  /// Coefficients of friction and lasting cohesions (model::coefficients_of); empty: those of the contacts.
+  Vector coefficients = Vector();
   /// For each contact the part of the negative gaps of its pairs that is there, 0 to 1; empty: all of them.
   Vector fits = Vector();
   /// For each preload the part of it that is there, 0 to 1. One with a force has this part of it in increments in which
@@ -83,6 +96,7 @@ struct SolidPair {
   Eigen::Vector3d slip = Eigen::Vector3d::Zero();   ///< of b relative to a, since the first increment
   double area = 0.0, gap = 0.0;
   contact::ContactState state = contact::ContactState::open;
+  bool broken = false;  ///< it has lost its cohesion
 
   double normal_force() const { return force.dot(normal); }  ///< compression positive
 };
@@ -122,7 +136,8 @@ struct SolidIncrement {
   std::vector<Vector> reactions;  ///< [body], of its constraints
   std::vector<Vector> heated;     ///< [body], change of temperature of the nodes; empty: none
   std::vector<SolidPair> pairs;
-  std::vector<SolidTension> tensions;  ///< of each preload
+  std::vector<SolidTension> tensions;    ///< of each preload
+  std::vector<Eigen::Vector3d> springs;  ///< of each, what they exert on their body
   contact::Certificate certificate;
   Energy energy;
   int iterations = 0;
@@ -138,7 +153,8 @@ struct SolidState {
   Vector p, a;           ///< contact forces, rigid motions
   Vector shortening;     ///< of each preload
   std::vector<contact::ContactState> states;
-  double force_scale = 0.0;  ///< largest applied force so far
+  contact::History history;
+  double force_scale = 0.0;  ///< largest force so far
   Energy energy;
 };
 

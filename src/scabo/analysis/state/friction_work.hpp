@@ -20,4 +20,18 @@ struct FrictionWork {
 
 FrictionWork friction_work(const Prepared& prepared, const State& from, const State& to);
 
+/// One pair over an increment in which it slips.
+struct PairCourse {
+  using Tangential = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>;  ///< d - 1 numbers
+  const contact::Law &law_before, &law_after;
+  double area = 0.0;
+  contact::PairHistory history_before, history_after;
+  double pressing_before = 0.0, pressing_after = 0.0;  ///< p_n
+  Tangential shearing_before, shearing_after;          ///< p_t
+  Tangential slip;                                     ///< of the increment
+  double gap_before = 0.0;
+  contact::ContactState state_before = contact::ContactState::open, state_after = state_before;
+};
+void add_friction_work(const PairCourse& pair, FrictionWork& total);
+
 }  // namespace scabo::analysis

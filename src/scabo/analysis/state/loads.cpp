@@ -101,17 +101,13 @@ Factors between(const Factors& from, const Factors& to, double part) {
 }
 
 contact::JointLaws laws_at(const Prepared& prepared, const Factors& factors) {
-  return system::with_coefficients(prepared.contact.laws, prepared.contact.pairs, prepared.model, factors.friction);
+  return system::with_coefficients(prepared.contact.laws, prepared.contact.pairs, prepared.model.contacts,
+                                   factors.friction);
 }
 
 std::vector<double> coefficients_at_start(const model::Model& model) {
-  std::vector<double> coefficients;
-  if (model.steps.empty() || model.steps.front().friction.empty()) return coefficients;
-  for (const model::Contact& contact : model.contacts) coefficients.push_back(contact.friction);
-  for (const model::Contact& contact : model.contacts)
-    coefficients.push_back(contact.backward_friction.value_or(contact.friction));
-  for (const model::Contact& contact : model.contacts) coefficients.push_back(contact.lasting_cohesion);
-  return coefficients;
+  if (model.steps.empty() || model.steps.front().friction.empty()) return {};
+  return system::coefficients_of(model.contacts);
 }
 
 double gap_at(const Prepared& prepared, const Factors& factors, Eigen::Index i) {

@@ -23,4 +23,8 @@ using TractionAt = std::function<Eigen::Vector3d(const Eigen::Vector3d& point, c
 /// edges.
 Matrix traction_integrals(const Matrix& nodes, const TractionAt& traction);
 
+/// int N' (k_n n n' + k_t (1 - n n')) N dA, 3n x 3n: springs on a facet with the normal n, exact where it is plane and
+/// its edges are straight.
+Matrix spring_integrals(const Matrix& nodes, double k_n, double k_t);
+
 }  // namespace scabo::element

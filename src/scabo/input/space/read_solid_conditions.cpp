@@ -6,6 +6,7 @@
 
 #include "scabo/input/space/space_reader.hpp"
 #include "scabo/input/suggestions.hpp"
+#include "scabo/model/checking.hpp"
 #include "scabo/model/wording.hpp"
 
 namespace scabo::input {
@@ -233,6 +234,10 @@ void SpaceReader::load(const Entry& entry) {
   if (!map.is_map()) return;
   SpaceLoad load;
   load.name = entry.key;
+  for (const SpaceLoad& other : model_.loads)
+    if (other.name == entry.key)
+      report_.error(entry.key_source,
+                    fmt::format("springs are called '{}' already: give the load another name", entry.key));
   std::vector<std::string> given;
   for (const std::string& kind : kinds)
     if (map.has(kind)) given.push_back(kind);
@@ -263,23 +268,46 @@ void SpaceReader::refuse_joined_faces(const Entry& entry, const SpaceContact& co
     if ((contact.a.is_same(other.a) && contact.b.is_same(other.b)) ||
         (contact.a.is_same(other.b) && contact.b.is_same(other.a)))
       report_.error(entry.key_source, fmt::format("{} '{}' already connects the same two faces: remove one of the two",
-                                                  other.friction ? "contact" : "tie", other.name));
+                                                  other.tied ? "tie" : "contact", other.name));
+}
+
+/// As in the plane, but for what has no meaning in space.
+void SpaceReader::law(const MapReader& map, SpaceContact& contact) {
+  const std::size_t before = report_.count();
+  contact.law.name = contact.name;
+  read_law_or_property(report_, map, properties_, contact.law);
+  if (const auto modulus = map.get("modulus")) contact.law.modulus = read_number(report_, *modulus);
+  if (contact.law.bond) {
+    map.refuse("gap", no_gap_beside_bond);
+    map.refuse("fit_in", "a bonded contact keeps its initial position: leave 'fit_in' out, or 'bond'");
+  }
+  if (report_.count() > before) return;
+  if (contact.law.backward_friction || !contact.law.friction_along.empty())
+    return report_.error(map.get("friction").value_or(map.map()),
+                         "must not depend on the direction of slip or on the place in a model in space: give a number, "
+                         "or {static: 0.5, dynamic: 0.3, slip_distance: 1e-4}");
+  const Model nothing;
+  Checking checking(nothing, Gaps());
+  contact.law.source = map.map().source();
+  check_law(checking, map.map().path, contact.law);
+  report_.add(root_, checking.found);
 }
 
 void SpaceReader::pair_of_faces(const Entry& entry, bool tied) {
-  const Later later =
-      only_in_the_plane({"property", "cohesion", "tension", "bond", "shear_strength", "slip", "modulus", "interference",
-                         "fit", "reach", "matching", "residual_friction", "slip_distance", "dynamic_friction"});
+  std::vector<std::string> known{"between"};
+  if (!tied)
+    known = {"between",        "property", "friction", "cohesion", "tension", "bond",
+             "shear_strength", "modulus",  "gap",      "fit_in",   "about"};
   const MapReader map(
-      report_, entry.value,
-      tied ? std::vector<std::string>{"between"}
-           : std::vector<std::string>{"between", "friction", "gap", "fit_in", "about"},
-      tied ? "{between: [base.top, block.bottom]}" : "{between: [base.top, block.bottom], friction: 0.3}", later);
+      report_, entry.value, known,
+      tied ? "{between: [base.top, block.bottom]}" : "{between: [base.top, block.bottom], friction: 0.3}",
+      only_in_the_plane({"slip", "reach"}));
   if (!map.is_map()) return;
   SpaceContact contact;
   contact.name = entry.key;
+  contact.tied = contact.law.bond = tied;
   if (!tied) {
-    contact.friction = number_from(map.need("friction"), 0.0, true);
+    law(map, contact);
     contact.gap = number(map.get("gap"));
     if (const auto fit = map.get("fit_in")) fits_.emplace_back(model_.contacts.size(), *fit);
   }
@@ -297,8 +325,13 @@ void SpaceReader::pair_of_faces(const Entry& entry, bool tied) {
       const auto a = face((*items)[0]), b = face((*items)[1]);
       if (a && b && a->body == b->body)
         report_.error(*between, "both faces belong to the same body: name faces of two bodies");
-      else if (a && b && body_at(a->body).rigid && body_at(b->body).rigid)
-        report_.error(*between, "both bodies are rigid: in space one of two bodies in contact is elastic");
+      else if (a && b && !contact.law.bond && !contact.law.modulus && body_at(a->body).rigid && body_at(b->body).rigid)
+        model_.warnings.push_back(
+            {WarningKind::input, "contacts." + entry.key,
+             fmt::format(
+                 "contact '{}' is one of two rigid bodies: which of its pairs carry a force does not follow from "
+                 "equilibrium, and its pressures are some that are in balance; a 'modulus' gives those of a bed",
+                 entry.key)});
       if (a && b) contact.a = *a, contact.b = *b;
       if (a && b) refuse_joined_faces(entry, contact);
     }

@@ -48,18 +48,17 @@ void SpaceReader::material(const Entry& entry) {
 }
 
 SpaceModel SpaceReader::read(const Value& root) {
-  const MapReader map(
-      report_, root,
-      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "loads", "contacts", "ties",
-       "curves", "steps", "solver", "output"},
-      "'scabo: 1' and sections",
-      only_in_the_plane({"springs", "bars", "contact_properties", "tolerance", "restart", "initial"}));
+  root_ = root;
+  const MapReader map(report_, root,
+                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs",
+                       "loads", "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output"},
+                      "'scabo: 1' and sections", only_in_the_plane({"bars", "tolerance", "restart", "initial"}));
   if (const auto version = map.need("scabo"); version && number(version, 1.0) != 1.0)
     report_.error(*version, fmt::format("this program reads format version 1, not {}", version->node->text));
   if (const auto title = map.get("title")) model_.title = read_text(report_, *title).value_or("");
   if (const auto value = map.get("analysis")) analysis(*value);
   if (const auto value = map.get("solver")) solver(*value);
-  if (const auto value = map.need("materials"))
+  if (const auto value = map.get("materials"))
     for (const Entry& entry : read_named(report_, *value, "materials", "{steel: {young: 210e9, poisson: 0.3}}"))
       material(entry);
   if (const auto value = map.need("bodies"))
@@ -74,14 +73,17 @@ SpaceModel SpaceReader::read(const Value& root) {
     for (const Value& item :
          read_list(report_, *value, "[{on: block.bottom, fix: [x, y, z]}]").value_or(std::vector<Value>{}))
       support(item);
+  if (const auto value = map.get("springs")) springs(*value);
   if (const auto value = map.get("loads"))
     for (const Entry& entry : read_named(report_, *value, "loads", "{press: {on: block.top, pressure: 1e6}}"))
       load(entry);
+  properties_ = read_properties(report_, map.get("contact_properties"));
   for (const bool tied : {false, true})
     if (const auto value = map.get(tied ? "ties" : "contacts"))
       for (const Entry& entry :
            read_named(report_, *value, tied ? "ties" : "contacts", "{joint: {between: [base.top, block.bottom]}}"))
         pair_of_faces(entry, tied);
+  tell_of_unused(properties_, model_.warnings);
   if (const auto value = map.get("output")) output(*value);
   if (const auto value = map.get("curves")) curves(*value);
   steps(map.get("steps"));

@@ -42,6 +42,91 @@ void SpaceReader::point(const Value& value) {
   if (report_.count() == before) model_.points.push_back(std::move(point));
 }
 
+namespace {
+
+struct SpaceWord {
+  const char* word;
+  SpaceQuantity::Kind kind;
+  bool vector;  // followed by _x, _y or _z
+};
+using NumberKind = SpaceQuantity::Kind;
+constexpr SpaceWord words_of_model[] = {{"elastic_energy", NumberKind::elastic_energy, false},
+                                        {"external_energy", NumberKind::external_energy, false},
+                                        {"friction_energy", NumberKind::friction_energy, false}};
+constexpr SpaceWord words_of_contact[] = {{"force", NumberKind::force, true},
+                                          {"normal_force", NumberKind::normal_force, true},
+                                          {"tangential_force", NumberKind::tangential_force, true},
+                                          {"moment", NumberKind::contact_moment, true},
+                                          {"max_pressure", NumberKind::max_pressure, false},
+                                          {"max_gap", NumberKind::max_gap, false},
+                                          {"open", NumberKind::open, false},
+                                          {"stick", NumberKind::stick, false},
+                                          {"slip", NumberKind::slip, false},
+                                          {"broken", NumberKind::broken, false}};
+constexpr SpaceWord words_of_support[] = {{"reaction", NumberKind::reaction, true},
+                                          {"moment", NumberKind::support_moment, true}};
+constexpr SpaceWord words_of_springs[] = {{"reaction", NumberKind::spring_force, true}};
+constexpr SpaceWord words_of_bolts[] = {{"tension", NumberKind::tension, false},
+                                        {"shortening", NumberKind::shortening, false}};
+
+/// Whether `text` is one of these words, which it then sets.
+template <std::size_t count>
+bool find_space_word(const SpaceWord (&words)[count], const std::string& text, SpaceQuantity& quantity) {
+  for (const SpaceWord& known : words)
+    for (int k = 0; k < (known.vector ? 3 : 1); ++k)
+      if (text == (known.vector ? fmt::format("{}_{}", known.word, "xyz"[k]) : known.word)) {
+        quantity.kind = known.kind;
+        quantity.component = k;
+        return true;
+      }
+  return false;
+}
+
+}  // namespace
+
+/// `sliding: joint.tangential_force_x`.
+void SpaceReader::quantity(const Entry& entry) {
+  const auto text = read_text(report_, entry.value);
+  if (!text) return;
+  SpaceQuantity quantity;
+  quantity.name = entry.key;
+  const auto dot = text->rfind('.');
+  const std::string name = dot == std::string::npos ? "" : text->substr(0, dot),
+                    word = dot == std::string::npos ? *text : text->substr(dot + 1);
+  bool found = name.empty() && find_space_word(words_of_model, word, quantity), named = found;
+  const auto look = [&](const auto& words, const auto& parts) {
+    if (found || name.empty()) return;
+    SpaceQuantity candidate = quantity;
+    if (!find_space_word(words, word, candidate)) return;
+    named = true;
+    for (std::size_t i = 0; i < parts.size() && !found; ++i)
+      if (parts[i].name == name) {
+        candidate.of = static_cast<int>(i);
+        quantity = candidate;
+        found = true;
+      }
+  };
+  look(words_of_contact, model_.contacts);
+  look(words_of_support, model_.supports);
+  look(words_of_springs, model_.springs);
+  look(words_of_bolts, model_.bodies);
+  if (found && (quantity.kind == NumberKind::tension || quantity.kind == NumberKind::shortening))
+    found = body_at(quantity.of).preload.has_value();
+  if (found && quantity.kind == NumberKind::broken &&
+      model_.contacts[static_cast<std::size_t>(quantity.of)].law.cohesion == 0.0)
+    return report_.error(entry.value, fmt::format("contact '{}' has no 'cohesion' that could be lost", name));
+  if (found) return model_.quantities.push_back(std::move(quantity));
+  if (named)
+    return report_.error(
+        entry.value,
+        fmt::format("there is no contact, support, springs or bolt called {} that has '{}'", quoted_name(name), word));
+  report_.error(
+      entry.value,
+      fmt::format("{} is not a number of a history in space, as joint.force_x, joint.max_pressure, joint.open, "
+                  "ground.reaction_z, bolt.tension or elastic_energy are",
+                  quoted_name(*text)));
+}
+
 /// `cut: {section: {point: [0, 0, 1], normal: [0, 0, 1], body: post}}`.
 void SpaceReader::section(const Entry& entry) {
   const MapReader quantity(report_, entry.value, {"section"}, "{section: {point: [0, 0, 1], normal: [0, 0, 1]}}",
@@ -79,8 +164,8 @@ void SpaceReader::output(const Value& value) {
     for (const Value& item : read_list(report_, *points, "[[0, 0, 1]]").value_or(std::vector<Value>{})) point(item);
   if (const auto history = map.get("history"))
     for (const Entry& entry :
-         read_named(report_, *history, "sections", "{cut: {section: {point: [0, 0, 1], normal: [0, 0, 1]}}}"))
-      section(entry);
+         read_named(report_, *history, "quantities", "{cut: {section: {point: [0, 0, 1], normal: [0, 0, 1]}}}"))
+      entry.value.node->kind == Node::Kind::scalar ? quantity(entry) : section(entry);
 }
 
 }  // namespace scabo::input

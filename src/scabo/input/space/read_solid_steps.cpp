@@ -66,10 +66,35 @@ void SpaceReader::factor(const Entry& entry, Step& step) {
     *value = value_of(model_.curves[static_cast<std::size_t>(*curve)], 1.0);
 }
 
+void SpaceReader::friction(const Value& value, Step& step) {
+  constexpr double largest = 1e6;
+  const std::size_t before = report_.count();
+  const std::vector<Contact> contacts = laws();
+  read_friction_of_step(report_, value, contacts, true, step);
+  if (report_.count() > before) return;
+  for (const Entry& entry : read_named(report_, value, "coefficients", "{joint: 0.3}")) {
+    const auto found =
+        std::find_if(contacts.begin(), contacts.end(), [&](const Contact& of) { return of.name == entry.key; });
+    const auto c = static_cast<std::size_t>(found - contacts.begin());
+    if (entry.value.node->kind == Node::Kind::map)
+      report_.error(entry.value, "must be a number: in space friction does not depend on the direction of slip");
+    else if (!(step.friction[c] >= 0.0 && step.friction[c] <= largest))
+      report_.error(entry.value,
+                    fmt::format("a coefficient of friction must be from 0 to 1e6, not {}", entry.value.node->text));
+  }
+}
+
+/// Of all contacts; those of ties have no name.
+std::vector<Contact> SpaceReader::laws() const {
+  std::vector<Contact> laws;
+  for (const SpaceContact& contact : model_.contacts) laws.push_back(contact.law);
+  return laws;
+}
+
 /// The step that follows one that ends with the factors of `before`.
 Step SpaceReader::step(const Value& value, const Step& before, std::size_t number) {
-  const MapReader map(report_, value, {"name", "increments", "loads", "cycles"}, "{name: press, increments: 10}",
-                      only_in_the_plane({"dynamic", "friction", "growth", "limit", "reduce"}));
+  const MapReader map(report_, value, {"name", "increments", "loads", "friction", "cycles"},
+                      "{name: press, increments: 10}", only_in_the_plane({"dynamic", "growth", "limit", "reduce"}));
   Step step;
   step.load_factors = before.load_factors;
   step.support_factors = before.support_factors;
@@ -84,12 +109,16 @@ Step SpaceReader::step(const Value& value, const Step& before, std::size_t numbe
   }
   if (const auto increments = map.get("increments"))
     step.increments = static_cast<int>(read_integer(report_, *increments, limits::increments).value_or(1));
+  step.friction = before.friction;
+  step.backward_friction = before.backward_friction;
+  step.cohesion = before.cohesion;
+  if (const auto friction = map.get("friction")) this->friction(*friction, step);
   if (const auto loads = map.get("loads")) {
     for (std::size_t i = 0; i < model_.supports.size(); ++i)
       if (!model_.supports[i].named) step.support_factors[i] = 1.0;
     for (const Entry& entry : read_named(report_, *loads, "factors", "{tip: 1.0}")) factor(entry, step);
     divide_at_corners(model_.curves, step);
-  } else {
+  } else if (number == 1 || !map.has("friction")) {  // else they stay as they are
     std::fill(step.load_factors.begin(), step.load_factors.end(), 1.0);
     std::fill(step.support_factors.begin(), step.support_factors.end(), 1.0);
   }
@@ -117,6 +146,10 @@ void SpaceReader::steps(const std::optional<Value>& value) {
       model_.steps.push_back(std::move(copy));
     }
   }
+  // A coefficient that a later step changes is, before it, that of the contact.
+  if (std::any_of(model_.steps.begin(), model_.steps.end(), [](const Step& of) { return !of.friction.empty(); }))
+    for (Step& of : model_.steps)
+      if (of.friction.empty()) add_coefficients(laws(), of);
   if (!model_.steps.empty() || !items) return;
   last.name = "step_1";
   std::fill(last.load_factors.begin(), last.load_factors.end(), 1.0);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "scabo/input/laws.hpp"
 #include "scabo/input/space/solid_values.hpp"
 #include "scabo/model/solid_model.hpp"
 
@@ -48,10 +49,14 @@ class SpaceReader {
   Formulas formulas(const Value& value);
   void support(const Value& value);
   void rigid_support(const MapReader& map, model::SpaceSupport& support);
+  void springs(const Value& value);
+  void spring(const Value& value);
+  void spring_at_rest(const Value& value, model::SpaceSpring& spring);
   void load(const Entry& entry);
   void load_value(const std::string& kind, const Value& value, model::SpaceLoad& load);
   void place_of_load(const MapReader& map, const Entry& entry, model::SpaceLoad& load);
   void check_gravity(const Entry& entry, const model::SpaceLoad& load);
+  void law(const MapReader& map, model::SpaceContact& contact);
   void pair_of_faces(const Entry& entry, bool tied);
   void refuse_joined_faces(const Entry& entry, const model::SpaceContact& contact);
 
@@ -59,12 +64,15 @@ class SpaceReader {
   void output(const Value& value);
   void point(const Value& value);
   void section(const Entry& entry);
+  void quantity(const Entry& entry);
   int body_named(const Value& value);
 
   // read_solid_steps.cpp
   void curves(const Value& value);
   void steps(const std::optional<Value>& value);
   model::Step step(const Value& value, const model::Step& before, std::size_t number);
+  void friction(const Value& value, model::Step& step);
+  std::vector<model::Contact> laws() const;
   void factor(const Entry& entry, model::Step& step);
   void find_fits();
   void find_tightened();
@@ -80,7 +88,9 @@ class SpaceReader {
   const model::SpaceBody& body_at(int index) const { return model_.bodies[static_cast<std::size_t>(index)]; }
 
   Report& report_;
+  Value root_;
   model::SpaceModel model_;
+  ContactProperties properties_;
   std::map<std::string, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
   std::vector<std::pair<std::size_t, Value>> fits_;       ///< contacts, and the names of the steps of `fit_in`
   std::vector<std::pair<std::size_t, Value>> tightened_;  ///< bodies, and the names of the steps of their preloads

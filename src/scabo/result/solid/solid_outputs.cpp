@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "scabo/result/contact_table.hpp"
+#include "scabo/result/solid/solid_figures.hpp"
 #include "scabo/result/solid/solid_stress.hpp"
 
 namespace scabo::result {
@@ -77,6 +78,7 @@ std::string SolidOutputs::header_of_history() const {
   for (const model::SpaceSection& section : model_.sections)
     for (const char* column : {"normal", "force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"})
       header += fmt::format(",{}.{}", section.name, column);
+  for (const model::SpaceQuantity& quantity : model_.quantities) header += "," + csv_quoted(quantity.name);
   return header + '\n';
 }
 
@@ -90,6 +92,8 @@ std::string SolidOutputs::row_of_history(const analysis::SolidIncrement& increme
     for (const double value : resultant.force) row += fmt::format(",{}", value);
     for (const double value : resultant.moment) row += fmt::format(",{}", value);
   }
+  for (const model::SpaceQuantity& quantity : model_.quantities)
+    row += fmt::format(",{}", value_of(model_, posed_, increment, quantity));
   return row + '\n';
 }
 

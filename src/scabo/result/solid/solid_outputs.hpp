@@ -16,7 +16,7 @@ class SolidOutputs {
   SolidOutputs(const model::SpaceModel& model, const analysis::PosedSolids& posed);
 
   bool has_points() const { return !places_.empty(); }
-  bool has_history() const { return !sections_.empty(); }
+  bool has_history() const { return !sections_.empty() || !model_.quantities.empty(); }
   std::string header_of_points() const;
   std::string header_of_history() const;
   /// Rows of an increment; `number` of all, from 0.

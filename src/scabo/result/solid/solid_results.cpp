@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "scabo/result/report.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
 #include "scabo/result/solid/solid_faces.hpp"
+#include "scabo/result/solid/solid_figures.hpp"
 #include "scabo/result/solid/solid_mechanism_cells.hpp"
 #include "scabo/result/solid/solid_outcome.hpp"
 #include "scabo/result/summary.hpp"
@@ -30,65 +30,17 @@ constexpr std::string_view columns_of_solids =
 
 Json json_of(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-/// Of the pairs of one contact; forces on side b.
-struct SolidTotals {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero(), tangential = Eigen::Vector3d::Zero(),
-                  moment = Eigen::Vector3d::Zero();
-  double largest_pressure = 0.0, largest_gap = 0.0;
-  int open = 0, stick = 0, slip = 0;
-};
-
-SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t contact, const Eigen::Vector3d& about) {
-  SolidTotals totals;
-  for (const analysis::SolidPair& pair : increment.pairs) {
-    if (pair.contact != static_cast<int>(contact)) continue;
-    const Eigen::Vector3d normal = pair.normal_force() * pair.normal;
-    totals.normal += normal;
-    totals.tangential += pair.force - normal;
-    totals.moment += (pair.point - about).cross(pair.force);
-    totals.largest_pressure = std::max(totals.largest_pressure, pair.normal_force() / pair.area);
-    totals.largest_gap = std::max(totals.largest_gap, pair.gap);
-    totals.open += pair.state == contact::ContactState::open;
-    totals.stick += pair.state == contact::ContactState::stick;
-    totals.slip += pair.state == contact::ContactState::slip;
-  }
-  return totals;
-}
-
-Json json_of(const SolidTotals& totals) {
-  return {{"normal_force", json_of(totals.normal)},
-          {"tangential_force", json_of(totals.tangential)},
-          {"moment", json_of(totals.moment)},
-          {"max_pressure", totals.largest_pressure},
-          {"max_gap", totals.largest_gap},
-          {"open", totals.open},
-          {"stick", totals.stick},
-          {"slip", totals.slip}};
-}
-
-/// What a support exerts on its body.
-struct SolidReaction {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< the latter about the origin
-};
-std::vector<SolidReaction> reactions_of(const analysis::PosedSolids& posed, std::size_t supports,
-                                        const analysis::SolidIncrement& increment) {
-  std::vector<SolidReaction> sums(supports);
-  for (std::size_t b = 0; b < increment.reactions.size(); ++b)
-    for (std::size_t c = 0; c < posed.model.bodies[b].supports.size(); ++c) {
-      const analysis::SolidBody& body = posed.model.bodies[b];
-      const system::Constraint& held = body.supports[c];
-      const Eigen::Vector3d value =
-          increment.reactions[b][static_cast<Eigen::Index>(c)] * Eigen::Vector3d::Unit(held.component);
-      SolidReaction& sum = sums[static_cast<std::size_t>(held.support)];
-      if (held.rotation) {
-        sum.moment += value;
-        continue;
-      }
-      const Eigen::Vector3d at = body.rigid_at ? *body.rigid_at : Eigen::Vector3d(body.mesh.nodes.col(held.dof / 3));
-      sum.force += value;
-      sum.moment += at.cross(value);
-    }
-  return sums;
+Json json_of(const SolidTotals& totals, const model::Contact& law) {
+  Json json = {{"normal_force", json_of(totals.normal)},
+               {"tangential_force", json_of(totals.tangential)},
+               {"moment", json_of(totals.moment)},
+               {"max_pressure", totals.largest_pressure},
+               {"max_gap", totals.largest_gap},
+               {"open", totals.open},
+               {"stick", totals.stick},
+               {"slip", totals.slip}};
+  if (law.cohesion > 0.0) json["broken"] = totals.broken;
+  return json;
 }
 
 Json figures_of(const contact::Certificate& certificate) {
@@ -120,12 +72,14 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   json["reactions"] = Json::object();
   json["moments"] = Json::object();
   if (!posed.model.preloads.empty()) json["preloads"] = Json::object();
+  if (!model.springs.empty()) json["springs"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
   if (increment.uniqueness) json["uniqueness"] = content_of(*increment.uniqueness);
   if (!solved) return json;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    json["contacts"][model.contacts[c].name] = json_of(totals_of(increment, c, model.contacts[c].about));
+    json["contacts"][model.contacts[c].name] =
+        json_of(totals_of(increment, c, model.contacts[c].about), model.contacts[c].law);
   const std::vector<SolidReaction> reactions = reactions_of(posed, model.supports.size(), increment);
   for (std::size_t i = 0; i < reactions.size(); ++i) {
     json["reactions"][model.supports[i].name] = json_of(reactions[i].force);
@@ -134,6 +88,8 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   for (std::size_t i = 0; i < posed.model.preloads.size(); ++i)
     json["preloads"][model.bodies[static_cast<std::size_t>(posed.model.preloads[i].body)].name] = {
         {"force", increment.tensions[i].force}, {"shortening", increment.tensions[i].shortening}};
+  for (std::size_t i = 0; i < increment.springs.size(); ++i)
+    json["springs"][model.springs[i].name] = json_of(increment.springs[i]);
   const analysis::Energy& energy = increment.energy;
   json["energy"] = {{"external", energy.external},
                     {"elastic", energy.elastic},
@@ -207,10 +163,9 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
                                        {"finite_elements", mesh.cells.size()}});
   }
   for (const model::SpaceContact& contact : model.contacts)
-    json["model"]["contacts"].push_back(
-        {{"name", contact.name},
-         {"between", {contact.a.text, contact.b.text}},
-         {"law", contact.friction ? fmt::format("friction {:g}", *contact.friction) : "tied"}});
+    json["model"]["contacts"].push_back({{"name", contact.name},
+                                         {"between", {contact.a.text, contact.b.text}},
+                                         {"law", contact.tied ? "tied" : describe_law(contact.law)}});
   json["increments"] = Json::array();
   return json;
 }
@@ -226,8 +181,8 @@ std::string log_header(const model::SpaceModel& model, const Json& summary) {
                       model.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", model.bodies.size()),
                       sizes["nodes"].get<long>(), sizes["dofs"].get<long>(), sizes["finite_elements"].get<long>());
   for (const model::SpaceContact& contact : model.contacts)
-    text += fmt::format("{} {}: {} on {}{}\n", contact.friction ? "contact" : "tie", contact.name, contact.b.text,
-                        contact.a.text, contact.friction ? fmt::format("; friction {:g}", *contact.friction) : "");
+    text += fmt::format("{} {}: {} on {}{}\n", contact.tied ? "tie" : "contact", contact.name, contact.b.text,
+                        contact.a.text, contact.tied ? "" : "; " + describe_law(contact.law));
   return text + '\n';
 }
 
@@ -263,6 +218,8 @@ std::string totals_of(const Json& increment) {
     add(name + ", tangential", contact["tangential_force"]);
   }
   for (const auto& [name, force] : increment["reactions"].items()) add(name, force);
+  if (increment.contains("springs"))
+    for (const auto& [name, force] : increment["springs"].items()) add("springs " + name, force);
   std::string text = table(rows);
   if (increment.contains("preloads"))
     for (const auto& [name, preload] : increment["preloads"].items())
