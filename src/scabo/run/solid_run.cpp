@@ -42,7 +42,10 @@ Plan plan_of(const analysis::PosedSolids& posed) {
     const mesh::SolidMesh& mesh = posed.model.bodies[b].mesh;
     const auto n = 3.0 * static_cast<double>(mesh.nodes.cols());
     plan.sizes.nodes += static_cast<int>(mesh.nodes.cols());
-    plan.sizes.finite_elements += static_cast<int>(mesh.cells.size());
+    const auto super = static_cast<int>(std::count_if(
+        mesh.cells.begin(), mesh.cells.end(), [](const auto& cell) { return mesh::is_super_element(cell.size()); }));
+    plan.sizes.super_elements += super;
+    plan.sizes.finite_elements += static_cast<int>(mesh.cells.size()) - super;
     if (posed.model.bodies[b].rigid_at) continue;
     plan.bytes += unit_bytes * std::pow(n / unit_dofs, 1.42) + bytes_of_dof * n;
     plan.cells += seconds_of_dof * n;

@@ -1,4 +1,5 @@
-// Bodies of tetrahedra in contact on faces that do not match, where statics or a constant stress gives the answer.
+// Bodies of tetrahedra, wedges and hexahedra in contact on faces that do not match, where statics or a constant stress
+// gives the answer.
 #include "scabo/analysis/space/solid_analysis.hpp"
 
 #include <gtest/gtest.h>
@@ -37,14 +38,21 @@ std::vector<SolidIncrement> increments_of(const SolidModel& model, const std::ve
   return made;
 }
 
+/// Nodes of the cells of the lower and the upper block.
+struct Kinds {
+  Kinds(int of_both) : lower(of_both), upper(of_both) {}
+  Kinds(int of_lower, int of_upper) : lower(of_lower), upper(of_upper) {}
+  int lower, upper;
+};
+
 /// A block on another one; the lower one is 2 x 2 x 1, the upper one of size `size` in the middle of it.
 struct Stack {
-  explicit Stack(int nodes_of_cell, double size = 2.0, double moved = 0.2) {
+  explicit Stack(const Kinds& kinds, double size = 2.0, double moved = 0.2) {
     const double low = 1.0 - 0.5 * size, high = 1.0 + 0.5 * size;
-    model.bodies.push_back(
-        {test::solid_block({0, 0, -1}, {2, 2, 0}, {3, 3, 2}, nodes_of_cell, moved, 1), steel, 0.3, {}});
-    model.bodies.push_back(
-        {test::solid_block({low, low, 0}, {high, high, 1}, {4, 4, 2}, nodes_of_cell, moved, 2), steel, 0.3, {}});
+    model.bodies.push_back(with_super_elements(
+        {test::solid_block({0, 0, -1}, {2, 2, 0}, {3, 3, 2}, kinds.lower, moved, 1), steel, 0.3, {}}));
+    model.bodies.push_back(with_super_elements(
+        {test::solid_block({low, low, 0}, {high, high, 1}, {4, 4, 2}, kinds.upper, moved, 2), steel, 0.3, {}}));
     SolidContact contact;
     contact.a = {0, test::facets_at(model.bodies[0].mesh, {0, 0, 0}, upwards)};
     contact.b = {1, test::facets_at(model.bodies[1].mesh, {0, 0, 0}, -upwards)};
@@ -70,21 +78,22 @@ Eigen::Vector3d total_force(const SolidIncrement& increment) {
   return sum;
 }
 
-class Stacks : public testing::TestWithParam<int> {};
+class Stacks : public testing::TestWithParam<Kinds> {};
+class MixedStacks : public testing::TestWithParam<Kinds> {};
 
 /// Uniform pressure on blocks of one material, the sides free: sigma_zz = -p everywhere, and every pair has the
 /// pressure p, whatever the friction.
-TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
+void expect_constant_stress(const Kinds& kinds) {
   constexpr double p = 1e6;
   for (const std::optional<double> friction : {std::optional(0.0), std::optional(0.4), std::optional<double>()}) {
-    Stack stack(GetParam());
+    Stack stack(kinds);
     stack.model.contacts[0].friction = friction;
     hold_plane(stack.model.bodies[0], 2, -1.0, {2});
     for (SolidBody& body : stack.model.bodies) hold_plane(body, 0, 0.0, {0}), hold_plane(body, 1, 0.0, {1});
     stack.load(system::pressure_forces(stack.model.bodies[1].mesh, stack.top(), p));
     const std::vector<SolidIncrement> increments = stack.solve({Vector::Ones(1)});
     ASSERT_EQ(increments.back().status, contact::Status::solved) << increments.back().reason;
-    EXPECT_EQ(increments.back().pairs.size(), 25);
+    EXPECT_GE(increments.back().pairs.size(), 16);
     double largest = 0.0;  // force of a pair, to whose rounding all are known
     for (const SolidPair& pair : increments.back().pairs) largest = std::max(largest, pair.force.norm());
     for (const SolidPair& pair : increments.back().pairs) {
@@ -100,6 +109,13 @@ TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
     }
   }
 }
+
+TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) { expect_constant_stress(GetParam()); }
+TEST_P(MixedStacks, PassAConstantStressThroughFacesThatDoNotMatch) { expect_constant_stress(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(OfTwoKinds, MixedStacks,
+                         testing::Values(Kinds(10, 20), Kinds(20, 10), Kinds(15, 20), Kinds(20, 15), Kinds(10, 15),
+                                         Kinds(15, 10), Kinds(4, 20), Kinds(20, 4)));
 
 /// The block is pressed on by its weight and pushed: no sliding below mu N, and no equilibrium above.
 TEST_P(Stacks, SlideWhereThePushExceedsFriction) {
@@ -207,6 +223,7 @@ TEST_P(Stacks, GiveTheSameTurnedMovedAndInOtherUnits) {
   for (SolidBody& body : stack.model.bodies) {
     body.mesh.nodes = millimetres * (turn * (body.mesh.nodes.colwise() + Eigen::Vector3d(20, -30, 10)));
     body.young *= meganewtons / (millimetres * millimetres);
+    body = with_super_elements(std::move(body));
   }
   Vector& forces = stack.model.loads[0][1];
   forces = (meganewtons * (turn * forces.reshaped(3, forces.size() / 3))).eval().reshaped().eval();
@@ -239,7 +256,7 @@ TEST_P(Stacks, HangOnATie) {
   EXPECT_LT((reaction - total_force(increments.back())).norm(), 1e-9 * density_weight);
 }
 
-INSTANTIATE_TEST_SUITE_P(LinearAndQuadratic, Stacks, testing::Values(4, 10));
+INSTANTIATE_TEST_SUITE_P(OfOneKind, Stacks, testing::Values(Kinds(4), Kinds(10), Kinds(15), Kinds(20)));
 
 /// Held at six degrees of freedom only: no stress, so no energy, and no reactions.
 TEST(BlockInSpace, ExpandsFreelyUnderALinearTemperature) {

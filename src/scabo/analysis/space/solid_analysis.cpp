@@ -95,8 +95,8 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
   std::vector<system::ElasticPart> parts;
   for (const SolidBody& body : model.bodies)
     if (!body.rigid_at)
-      parts.push_back(
-          {system::solid_stiffness(body.mesh, elasticity_of(body)), system::Positions(body.mesh.nodes), body.supports});
+      parts.push_back({system::solid_stiffness(body.mesh, elasticity_of(body), body.solved),
+                       system::Positions(body.mesh.nodes), body.supports});
   std::vector<std::unique_ptr<system::BodySystem>> elastic = system::elastic_bodies(std::move(parts), threads);
   auto next = elastic.begin();
   for (const SolidBody& body : model.bodies)
@@ -326,7 +326,7 @@ double initial_energy_of_solid(const PreparedSolids& prepared, const SolidFactor
       energy += preload.cut.energy(applied.shortening[static_cast<Eigen::Index>(i)], u);
   if (applied.heated[b].size() == 0) return energy;
   const SolidBody& body = prepared.model.bodies[b];
-  energy += system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b]);
+  energy += system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b], body.solved);
   for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
     if (prepared.model.temperatures[load][b].size() > 0)
       energy -= factors.loads[static_cast<Eigen::Index>(load)] * u.dot(prepared.model.loads[load][b]);
@@ -438,6 +438,21 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
 }
 
 }  // namespace
+
+SolidBody with_super_elements(SolidBody body, int threads) {
+  body.solved = element::solve_super_elements(body.mesh, elasticity_of(body), threads);
+  return body;
+}
+
+element::InsideCells inside_cells_of(const SolidModel& model, const SolidIncrement& increment, std::size_t body) {
+  const element::Mat6 D = elasticity_of(model.bodies[body]);
+  element::InsideCells inside;
+  inside.heated = increment.heated[body];
+  inside.stress = model.bodies[body].expansion * D.leftCols<3>().rowwise().sum();
+  for (std::size_t load = 0; load < model.per_volume.size(); ++load)
+    inside.per_volume += increment.factors.loads[static_cast<Eigen::Index>(load)] * model.per_volume[load][body];
+  return inside;
+}
 
 std::vector<int> count_pairs(const SolidModel& model) {
   std::vector<int> counts(model.contacts.size(), 0);

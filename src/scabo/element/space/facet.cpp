@@ -2,21 +2,21 @@
 
 #include <Eigen/Geometry>
 
-#include "scabo/geometry/simplex_basis.hpp"
+#include "scabo/geometry/facet_basis.hpp"
 
 namespace scabo::element {
 
 namespace {
 
-/// Calls add(N times the weight of a point, x,xi_1 cross x,xi_2 / 2) at all points of the rule.
+/// Calls add(N times the weight of a place, x,eta cross x,zeta) at all places of the rule.
 template <typename Add>
 void over_facet(const Matrix& nodes, const Add& add) {
-  const geometry::SimplexBasis& basis = geometry::SimplexBasis::of(2, static_cast<int>(nodes.cols()));
+  const geometry::FacetBasis& basis = geometry::FacetBasis::of(static_cast<int>(nodes.cols()));
   for (Eigen::Index i = 0; i < basis.rule().weights.size(); ++i) {
-    const Vector lambda = basis.rule().points.col(i);
-    const Eigen::Matrix<double, 3, 2> tangents = nodes * basis.derivatives(lambda);
+    const Vec2 place = basis.rule().places.col(i);
+    const Eigen::Matrix<double, 3, 2> tangents = nodes * basis.derivatives(place);
     const Eigen::Vector3d a = tangents.col(0), b = tangents.col(1);
-    add(Vector(basis.rule().weights[i] * basis.values(lambda)), Eigen::Vector3d(0.5 * a.cross(b)));
+    add(Vector(basis.rule().weights[i] * basis.values(place)), Eigen::Vector3d(a.cross(b)));
   }
 }
 
