@@ -1,10 +1,9 @@
 """Hexahedra and wedges in space (`kind: hexahedra`) from the command line, where statics or a closed form gives the answer."""
 import csv
-import math
 import unittest
 
 import support
-from solids import arrays_of, vector
+from solids import arrays_of
 from support import ROOT, rows_of, scabo, summary_of
 
 HEAD = "scabo: 1\nanalysis: {space: true}\n"
@@ -42,14 +41,15 @@ output:
   points: [{{at: [1.1, 0.7, -0.3], name: below}}, {{at: [0.3, 0.4, 0.6], name: above}}]
   history: {{cut: {{section: {{point: [1, 1, 0.4], normal: [0.3, 0, 1], body: upper}}}}}}
 """)
-            for row in rows_of(self.directory / "results" / "contact.csv"):
+            for row in rows_of(self.directory / "results"):
                 self.assertAlmostEqual(float(row["pressure"]), 1e6, delta=1e-4)
             self.assertAlmostEqual(increment["contacts"]["joint"]["normal_force"][2], 4e6, delta=1e-3)
             for name, height in (("below", 0.7), ("above", 1.6)):
                 self.assertAlmostEqual(values[name]["stress_zz"], -1e6, delta=1e-3)
                 self.assertAlmostEqual(values[name]["uz"], -height * 1e6 / 200e9, delta=1e-14)
                 self.assertAlmostEqual(values[name]["von_mises"], 1e6, delta=1e-3)
-            cut = rows_of(self.directory / "results" / "history.csv")[-1]
+            with open(self.directory / "results" / "history.csv", encoding="utf-8", newline="") as file:
+                cut = list(csv.DictReader(file))[-1]
             self.assertAlmostEqual(float(cut["cut.force_z"]), -4e6, delta=1e-2)
             fields = arrays_of(self.directory / "results" / "fields_0001.vtu")
             self.assertEqual({25 if kind == "hexahedra" else 24 for kind in kinds}, set(fields["types"]))
@@ -57,8 +57,7 @@ output:
                 self.assertAlmostEqual(stress, -1e6 if k % 6 == 2 else 0.0, delta=1.0)  # single precision
 
     def test_a_wall_of_incompressible_rubber_in_a_tube(self):
-        """Lame: a quarter of a ring under pressure inside, held along its axis, as wedges and, as a whole tube, as hexahedra of which a quarter lies between
-        planes of symmetry. They do not lock: the radial displacement is as exact with nu = 0.49999 as with 0.3."""
+        """Lame: a quarter of a ring of wedges under pressure inside, held along its axis. They do not lock: errors fall as the third power of the size."""
         inner, outer, pressure, young = 1.0, 2.0, 1e-3, 1.0
         for poisson in (0.3, 0.49999):
             exact = (1 + poisson) / young * pressure * inner**2 / (outer**2 - inner**2) * ((1 - 2 * poisson) * inner + outer**2 / inner)
@@ -89,8 +88,8 @@ loads: {{oil: {{on: ring.wall, pressure: {pressure}}}}}
 output: {{points: [{{at: [{inner}, 0, 0.1], name: wall}}]}}
 """)
                 errors.append(abs(values["wall"]["ux"] / exact - 1))
-            print("LAME", poisson, errors)
-            self.assertLess(errors[1], 2e-3)
+            self.assertLess(errors[1], 5e-4 if poisson < 0.4 else 1.5e-3)
+            self.assertLess(errors[1], errors[0] / 5)
 
     def test_bending_of_a_few_bricks_is_exact(self):
         """A bar under the tractions of a bending moment, also of a material that hardly changes its volume: displacements are quadratic."""
@@ -121,20 +120,18 @@ output: {points: [{at: [0.3, 0.6, 1.3], name: inside}, {at: [0.5, 0.5, 0.5], nam
             self.assertAlmostEqual(values[name]["uz"], 1e-2 * 0.5 * (z**2 - 9), delta=1e-10)
 
     def test_a_bolt_and_a_plate_that_is_heated(self):
-        """A square bolt of hexahedra between rigid plates: the tension that is set. A heated plate between walls: E alpha T."""
+        """A square bolt that is held at both ends and shortened: E A s / l. A heated plate between walls: E alpha T."""
         increment, values = self.solve("""materials: {m: {young: 200e9, poisson: 0.0, expansion: 1e-5}}
 bodies:
   bolt:
     material: m
     shape: {box: {corner: [-0.1, -0.1, 0], size: [0.2, 0.2, 1]}}
     mesh: {size: 0.25, kind: hexahedra}
-    preload: {cut: {point: [0, 0, 0.4], normal: [0, 0, 1]}, force: 4e4}
-  column: {material: m, shape: {box: {corner: [0.5, -0.1, 0], size: [0.2, 0.2, 1]}}, mesh: {size: 0.3, kind: hexahedra}}
+    preload: {cut: {point: [0, 0, 0.4], normal: [0, 0, 1]}, shortening: 1e-4}
   plate: {material: m, shape: {box: {corner: [2, 0, 0], size: [1, 1, 0.2]}}, mesh: {size: 0.5, kind: hexahedra}}
 supports:
   - {on: bolt.bottom, fix: [x, y, z]}
-  - {on: bolt.top, fix: [x, y]}
-  - {on: column.bottom, fix: [x, y, z]}
+  - {on: bolt.top, fix: [x, y, z], name: head}
   - {on: plate.left, fix: x}
   - {on: plate.right, fix: x}
   - {on: plate.front, fix: y}
@@ -142,7 +139,8 @@ supports:
 loads: {heat: {on: plate, temperature: 30}}
 output: {points: [{at: [2.3, 0.4, 0.1], name: heated}]}
 """)
-        self.assertAlmostEqual(increment["preloads"]["bolt"]["force"], 4e4, delta=1e-5)
+        self.assertAlmostEqual(increment["preloads"]["bolt"]["force"], 8e5, delta=1e-3)
+        self.assertAlmostEqual(increment["reactions"]["head"][2], 8e5, delta=1e-3)
         self.assertAlmostEqual(values["heated"]["stress_xx"], -200e9 * 1e-5 * 30, delta=1e-2)
         self.assertAlmostEqual(values["heated"]["stress_yy"], 0.0, delta=1e-2)
         self.assertAlmostEqual(values["heated"]["uy"], 0.4 * 1e-5 * 30, delta=1e-12)
@@ -161,4 +159,4 @@ output: {points: [{at: [2.3, 0.4, 0.1], name: heated}]}
 
 
 if __name__ == "__main__":
-    unittest.main()
+    support.main()
