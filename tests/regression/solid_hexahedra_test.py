@@ -1,5 +1,6 @@
 """Hexahedra and wedges in space (`kind: hexahedra`) from the command line, where statics or a closed form gives the answer."""
 import csv
+import math
 import unittest
 
 import support
@@ -90,6 +91,48 @@ output: {{points: [{{at: [{inner}, 0, 0.1], name: wall}}]}}
                 errors.append(abs(values["wall"]["ux"] / exact - 1))
             self.assertLess(errors[1], 5e-4 if poisson < 0.4 else 1.5e-3)
             self.assertLess(errors[1], errors[0] / 5)
+
+    def test_a_cylinder_on_a_block(self):
+        """Hertz in plane strain: wedges on hexahedra, five facets in the half width of the contact. Pressures do not oscillate."""
+        width, thickness, load = 0.1, 0.03, 2.157e-3
+        stiffness = 1 / (2 * (1 - 0.3**2))
+        largest = 4 * load / (math.pi * width)
+        self.assertAlmostEqual(math.sqrt(8 * load / (math.pi * stiffness)), width, delta=1e-4)
+        self.solve(f"""materials: {{m: {{young: 1, poisson: 0.3}}}}
+bodies:
+  disc:  # a quarter
+    material: m
+    shape:
+      extrude:
+        profile:
+          outline:
+            - {{arc: {{from: [0, 0], to: [1, 1], centre: [0, 1]}}, name: outside}}
+            - {{line: {{to: [0, 1]}}, name: top}}
+            - {{line: {{to: [0, 0]}}, name: middle}}
+        plane: xz
+        from: 0
+        to: {thickness}
+    mesh: {{size: 0.3, kind: hexahedra, refine: [{{near: [0, 0, 0], size: 0.02, growth: 0.25}}]}}
+  block:
+    material: m
+    shape: {{box: {{corner: [0, 0, -1], size: [1, {thickness}, 1]}}}}
+    mesh: {{size: 0.3, kind: hexahedra, refine: [{{near: [0, 0, 0], size: 0.03, growth: 0.25}}]}}
+supports:
+  - {{on: disc.middle, fix: x}}
+  - {{on: block.left, fix: x}}
+  - {{on: block.bottom, fix: z}}
+  - {{on: disc.start, fix: y}}
+  - {{on: disc.end, fix: y}}
+  - {{on: block.front, fix: y}}
+  - {{on: block.back, fix: y}}
+loads: {{press: {{on: disc.top, pressure: {load}}}}}
+contacts: {{joint: {{between: [block.top, disc.outside], friction: 0}}}}
+""")
+        pairs = [(float(row["x"]), float(row["pressure"]) / largest) for row in rows_of(self.directory / "results")]
+        self.assertAlmostEqual(max(pressure for _, pressure in pairs), 1.0, delta=1e-2)
+        near = [pressure - math.sqrt(1 - (x / width)**2) for x, pressure in pairs if x < 0.85 * width]
+        self.assertGreater(len(near), 8)
+        self.assertLess(math.sqrt(sum(error**2 for error in near) / len(near)), 2e-2)
 
     def test_bending_of_a_few_bricks_is_exact(self):
         """A bar under the tractions of a bending moment, also of a material that hardly changes its volume: displacements are quadratic."""

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "scabo/system/solid_part.hpp"
@@ -257,6 +259,77 @@ TEST_P(Stacks, HangOnATie) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfOneKind, Stacks, testing::Values(Kinds(4), Kinds(10), Kinds(15), Kinds(20)));
+
+/// Displacement and stress of a force in a body without end (Kelvin); E = 1, nu = 0.3.
+struct PointForce {
+  Eigen::Vector3d at{0.3, 0.4, 1.1}, force{1.0, 0.5, 8.0};
+
+  Eigen::Vector3d displacement(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d r = x - at;
+    const double R = r.norm(), G = 0.5 / 1.3;
+    return (1.8 * force / R + r * r.dot(force) / (R * R * R)) / (16.0 * std::numbers::pi * G * 0.7);
+  }
+  Eigen::Matrix3d stress(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d r = x - at;
+    const double R = r.norm(), rp = r.dot(force);
+    return -(0.4 * (r * force.transpose() + force * r.transpose() - rp * Eigen::Matrix3d::Identity()) / std::pow(R, 3) +
+             3.0 * rp * r * r.transpose() / std::pow(R, 5)) /
+           (8.0 * std::numbers::pi * 0.7);
+  }
+};
+
+/// Two blocks tied on faces of 4 f and 5 f quadrilaterals along a side, under the tractions of a force above them: the
+/// error of the pressures at inner corners, mean square, over the largest.
+double pressure_error(int f) {
+  const PointForce field;
+  SolidModel model;
+  for (const bool upper : {false, true}) {
+    const int n = (upper ? 5 : 4) * f;
+    const double low = upper ? 0.0 : -0.5;
+    SolidBody body{test::solid_block({0, 0, low}, {1, 1, low + 0.5}, {n, n, 2 * f}, 20), 1.0, 0.3, {}};
+    std::vector<mesh::SolidFacet> outer;
+    for (const mesh::SolidFacet& facet : mesh::boundary_facets(body.mesh)) {
+      const Matrix x = mesh::nodes_of(body.mesh, facet);
+      if (x.row(2).cwiseAbs().maxCoeff() > 1e-9 && x.row(2).maxCoeff() > -0.5 + 1e-9) outer.push_back(facet);
+    }
+    for (const int node : upper ? std::vector<int>{} : test::nodes_at(body.mesh, 2, -0.5))
+      for (int axis = 0; axis < 3; ++axis) {
+        body.supports.push_back(
+            system::held_along_axis(node, axis, field.displacement(body.mesh.nodes.col(node))[axis]));
+        body.supports.back().support = 0;
+      }
+    Vector forces = system::varying_traction_forces(
+        body.mesh, outer, [&](const Eigen::Vector3d& x, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
+          return field.stress(x) * normal;
+        });
+    model.loads.push_back({Vector(), Vector()});
+    model.loads.back()[upper ? 1 : 0] = std::move(forces);
+    model.bodies.push_back(with_super_elements(std::move(body)));
+  }
+  SolidContact tie;
+  tie.a = {0, test::facets_at(model.bodies[0].mesh, {0, 0, 0}, upwards)};
+  tie.b = {1, test::facets_at(model.bodies[1].mesh, {0, 0, 0}, -upwards)};
+  model.contacts.push_back(tie);
+  const SolidIncrement made = increments_of(model, {{Vector::Ones(2), Vector::Ones(1)}}).back();
+  EXPECT_EQ(made.status, contact::Status::solved) << made.reason;
+  double squares = 0.0, area = 0.0, largest = 0.0;
+  for (const SolidPair& pair : made.pairs) {
+    const Eigen::Vector3d x = model.bodies[pair.on_a ? 0 : 1].mesh.nodes.col(pair.corner);
+    const double exact = -field.stress(x)(2, 2), error = pair.normal_force() / pair.area - exact;
+    largest = std::max(largest, std::abs(exact));
+    if (x.head<2>().minCoeff() < 1e-9 || x.head<2>().maxCoeff() > 1.0 - 1e-9) continue;
+    squares += pair.area * error * error;
+    area += pair.area;
+  }
+  return std::sqrt(squares / area) / largest;
+}
+
+TEST(TiedHexahedra, CarryThePressureOfAForceAboveThem) {
+  const double coarse = pressure_error(1), fine = pressure_error(2);
+  EXPECT_LT(coarse, 1.6e-2);
+  EXPECT_LT(fine, 3.6e-3);
+  EXPECT_LT(fine, coarse / 4.0);
+}
 
 /// Held at six degrees of freedom only: no stress, so no energy, and no reactions.
 TEST(BlockInSpace, ExpandsFreelyUnderALinearTemperature) {

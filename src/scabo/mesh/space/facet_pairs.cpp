@@ -23,9 +23,6 @@ namespace {
 using Eigen::Vector3d;
 using CommonPart = std::vector<Vec2>;  // a convex polygon, counter-clockwise
 
-/// Of quadrilaterals phi_i at (eta, zeta) is psi_i at this times as far from the middle: 1 is psi_i itself.
-constexpr double beyond_square = 1.0;
-
 /// 3 x 3 or 4.
 Matrix corners_of(const Face& face, const SolidFacet& facet) {
   return nodes_of(face.mesh, {facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(mesh::corners_of(facet))});
@@ -206,7 +203,7 @@ Vector functions_of_corners(const Seen& facet, const Vec2& place, bool local) {
   const Vector psi = facet.basis_of_corners().values(place);
   if (!local) return psi;
   if (psi.size() == 3) return 0.5 * (5.0 * psi.array() - 1.0);
-  return facet.basis_of_corners().values(beyond_square * place);
+  return facet.basis_of_corners().values(2.0 * place);
 }
 
 /// What a facet of side B has in common with those of side A, as triangles. `local`: whether phi is orthogonal to the
