@@ -42,29 +42,41 @@ struct PointForce {
   }
 };
 
-/// Nodal forces of the tractions, and the energy, by 144 points of every facet.
+/// 144 places of a facet.
+geometry::FacetRule many_places(std::size_t corners) {
+  constexpr int along = 12;
+  if (corners == 3) return geometry::triangle_rule(along);
+  const geometry::GaussRule line = geometry::gauss_rule(along);
+  geometry::FacetRule rule{Matrix(2, along * along), Vector(along * along)};
+  for (int i = 0; i < along * along; ++i) {
+    const auto k = static_cast<std::size_t>(i % along), j = static_cast<std::size_t>(i / along);
+    rule.places.col(i) << line.points[k], line.points[j];
+    rule.weights[i] = line.weights[k] * line.weights[j];
+  }
+  return rule;
+}
+
+/// Nodal forces of the tractions, and the energy.
 struct Loaded {
   Vector forces;
   double energy = 0.0;
 };
 Loaded loaded(const mesh::SolidMesh& mesh, const PointForce& field) {
   Loaded of{Vector::Zero(3 * mesh.nodes.cols())};
-  const geometry::GaussRule rule = geometry::gauss_rule(12);
   for (const mesh::SolidFacet& facet : mesh::boundary_facets(mesh)) {
     const Matrix x = mesh::nodes_of(mesh, facet);
     const auto& basis = geometry::FacetBasis::of(static_cast<int>(facet.size()));
-    for (std::size_t i = 0; i < rule.points.size(); ++i)
-      for (std::size_t j = 0; j < rule.points.size(); ++j) {
-        const Vec2 place(rule.points[i], rule.points[j]);
-        const Vector N = basis.values(place);
-        const Eigen::Matrix<double, 3, 2> tangents = x * basis.derivatives(place);
-        const Vector3d area = Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))), point = x * N;
-        const Vector3d force =
-            rule.weights[i] * rule.weights[j] * area.norm() * field.traction(point, area.normalized());
-        of.energy += 0.5 * force.dot(field.displacement(point));
-        for (std::size_t k = 0; k < facet.size(); ++k)
-          of.forces.segment<3>(3 * facet[k]) += N[static_cast<Eigen::Index>(k)] * force;
-      }
+    const geometry::FacetRule rule = many_places(mesh::corners_of(facet));
+    for (Eigen::Index i = 0; i < rule.weights.size(); ++i) {
+      const Vec2 place = rule.places.col(i);
+      const Vector N = basis.values(place);
+      const Eigen::Matrix<double, 3, 2> tangents = x * basis.derivatives(place);
+      const Vector3d area = Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))), point = x * N;
+      const Vector3d force = rule.weights[i] * area.norm() * field.traction(point, area.normalized());
+      of.energy += 0.5 * force.dot(field.displacement(point));
+      for (std::size_t k = 0; k < facet.size(); ++k)
+        of.forces.segment<3>(3 * facet[k]) += N[static_cast<Eigen::Index>(k)] * force;
+    }
   }
   return of;
 }
@@ -146,6 +158,25 @@ TEST(SuperElementsInSpace, AreMoreExactThanFiniteElementsWithTheSameNodes) {
     EXPECT_LT(of_super[0], (poisson < 0.4 ? 0.85 : 0.7) * of_finite[0]);
     EXPECT_LT(of_super[1], (poisson < 0.4 ? 0.8 : 0.45) * of_finite[1]);
   }
+}
+
+/// Wedges beside tetrahedra of the same corners.
+TEST(SuperElementsInSpace, AreOfTheSecondOrderAlsoAsWedges) {
+  const PointForce field{0.3};
+  const Mat6 D = elasticity_in_space(1.0, 0.3);
+  std::array<double, 2> of_wedges{}, of_tetrahedra{};
+  for (const int n : {2, 4}) {
+    const mesh::SolidMesh wedges = test::solid_block({0, 0, 0}, {1, 1, 1}, {n, n, n}, 15, 0.1);
+    const SuperElements solved = solve_super_elements(wedges, D);
+    const std::size_t at = n == 2 ? 0 : 1;
+    of_wedges[at] = error_of(wedges, field, [&](std::size_t c) { return solved[c]->K(); });
+    const mesh::SolidMesh parts = test::solid_block({0, 0, 0}, {1, 1, 1}, {n, n, n}, 10, 0.1);
+    of_tetrahedra[at] = error_of(
+        parts, field, [&](std::size_t c) { return tetrahedron_stiffness(mesh::nodes_of(parts, parts.cells[c]), D); });
+  }
+  EXPECT_GT(std::log2(of_wedges[0] / of_wedges[1]), 1.85);
+  EXPECT_LT(of_wedges[0], 0.75 * of_tetrahedra[0]);
+  EXPECT_LT(of_wedges[1], 0.6 * of_tetrahedra[1]);
 }
 
 }  // namespace
