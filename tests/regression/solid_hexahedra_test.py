@@ -1,5 +1,6 @@
 """Hexahedra and wedges in space (`kind: hexahedra`) from the command line, where statics or a closed form gives the answer."""
 import csv
+import json
 import math
 import unittest
 
@@ -20,7 +21,7 @@ class Hexahedra(support.InTemporaryDirectory):
         values = {}
         if points.is_file():
             with open(points, encoding="utf-8", newline="") as file:
-                values = {row["name"]: {key: float(value) for key, value in row.items() if key not in ("name", "body")} for row in csv.DictReader(file)}
+                values = {row["name"]: {key: float(value) for key, value in row.items() if key not in ("name", "body") and value} for row in csv.DictReader(file)}
         return summary_of(self.directory / "results")["increments"][-1], values
 
     def test_a_block_pressed_on_another_one(self):
@@ -56,6 +57,35 @@ output:
             self.assertEqual({25 if kind == "hexahedra" else 24 for kind in kinds}, set(fields["types"]))
             for k, stress in enumerate(fields["stress"]):
                 self.assertAlmostEqual(stress, -1e6 if k % 6 == 2 else 0.0, delta=1.0)  # single precision
+
+    def test_the_block_of_example_30_under_a_rigid_lid(self):
+        """Base, block and lid of hexahedra: the lid is pressed, the block pushed until it slides. The forces are those of statics."""
+        check = json.loads((ROOT / "examples" / "30_blocks_in_space" / "check.json").read_text(encoding="utf-8"))
+        increment, values = self.solve(f"""materials: {{steel: {{young: 210e9, poisson: 0.3}}}}
+bodies:
+  base: {{material: steel, shape: {{box: {{corner: [0, 0, -0.3], size: [1, 1, 0.3]}}}}, mesh: {{size: 0.34, kind: hexahedra}}}}
+  block: {{material: steel, shape: {{box: {{corner: [0.2, 0.2, 0], size: [0.6, 0.6, 0.4]}}}}, mesh: {{size: 0.2, kind: hexahedra}}}}
+  lid: {{rigid: true, shape: {{box: {{corner: [0.1, 0.1, 0.4], size: [0.8, 0.8, 0.1]}}}}, mesh: {{size: 0.4, kind: hexahedra}}}}
+supports:
+  - {{on: base.bottom, fix: [x, y, z], name: ground}}
+  - {{on: block.left, displacement: [1e-3, null, null], name: ram}}
+loads:
+  press: {{on: lid, force: [0, 0, {-check["normal_force"]}]}}
+contacts:
+  joint: {{between: [base.top, block.bottom], friction: 0.3}}
+ties:
+  seat: {{between: [block.top, lid.bottom]}}
+steps:
+  - {{name: press, loads: {{press: 1, ram: 0}}}}
+  - {{name: push, increments: 3, loads: {{ram: 1}}}}
+output: {{points: [{{at: [0.5, 0.5, 0.45], name: lid}}]}}
+""")
+        close = lambda value, wanted: self.assertAlmostEqual(value / wanted, 1.0, delta=check["relative_tolerance"])
+        close(increment["contacts"]["joint"]["normal_force"][2], check["normal_force"])
+        close(-increment["contacts"]["joint"]["tangential_force"][0], check["tangential_force"])
+        close(increment["reactions"]["ram"][0], check["tangential_force"])
+        self.assertEqual(increment["contacts"]["joint"]["slip"] + increment["contacts"]["joint"]["open"], 16)
+        self.assertAlmostEqual(values["lid"]["ux"], 1e-3, delta=1e-5)
 
     def test_a_wall_of_incompressible_rubber_in_a_tube(self):
         """Lame: a quarter of a ring of wedges under pressure inside, held along its axis. They do not lock: errors fall as the third power of the size."""
