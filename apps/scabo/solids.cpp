@@ -21,7 +21,7 @@ namespace scabo::app {
 namespace {
 
 std::string bodies_of(const model::SpaceModel& model, const analysis::PosedSolids& posed) {
-  std::vector<std::vector<std::string>> rows = {{"body", "nodes", "dofs", "tetrahedra"}};
+  std::vector<std::vector<std::string>> rows = {{"body", "nodes", "dofs", "cells"}};
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const mesh::SolidMesh& mesh = posed.model.bodies[b].mesh;
     rows.push_back({model.bodies[b].name, fmt::format("{}", mesh.nodes.cols()),
@@ -40,12 +40,14 @@ std::string faces_of(const model::SpaceModel& model) {
       double area = 0.0;
       Eigen::Vector3d centre = Eigen::Vector3d::Zero();
       for (const files::SolidSide& side : set.sides) {
-        const auto corners = files::corners_of(body.mesh->cells[static_cast<std::size_t>(side.cell)], side.side);
-        const Eigen::Matrix3d x = body.mesh->nodes(Eigen::all, corners);
-        const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
-        const double of_side = 0.5 * a.cross(b).norm();
-        area += of_side;
-        centre += of_side * x.rowwise().mean();
+        for (const std::vector<int>& corners :
+             files::triangles_of_side(body.mesh->cells[static_cast<std::size_t>(side.cell)], side.side)) {
+          const Eigen::Matrix3d x = body.mesh->nodes(Eigen::all, corners);
+          const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
+          const double of_triangle = 0.5 * a.cross(b).norm();
+          area += of_triangle;
+          centre += of_triangle * x.rowwise().mean();
+        }
       }
       if (!(area > 0.0)) continue;
       centre = (centre / area).unaryExpr([&](double c) { return c * c < 1e-12 * area ? 0.0 : c; });

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 __all__ = ["Fields"]
 
 _OF_CELLS = ("points", "connectivity", "offsets", "types", "cell_body")
-_NAMES = {5: "triangle", 7: "polygon", 9: "quad", 10: "tetra", 22: "triangle6", 23: "quad8", 24: "tetra10"}  # of meshio, by VTK's numbers
+_NAMES = {5: "triangle", 7: "polygon", 9: "quad", 10: "tetra", 22: "triangle6", 23: "quad8", 24: "tetra10",
+          25: "hexahedron20", 26: "wedge15"}  # of meshio, by VTK's numbers
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Fields:
     """Cells + 1: where each begins in ``connectivity``, and the end."""
     types: np.ndarray
     """Of the cells, numbers of VTK: 5 triangle, 7 polygon, 9 quadrilateral, 22 and 23 the quadratic ones; in space 10 and 24, the
-    linear and the quadratic tetrahedron."""
+    linear and the quadratic tetrahedron, 25 and 26, the quadratic hexahedron and wedge."""
     cell_body: np.ndarray
     """Body of every cell, from 1 in the order of the model."""
     values: dict[str, np.ndarray]

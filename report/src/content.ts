@@ -32,14 +32,14 @@ export interface Model {
   nodes: number;
   dofs: number;
   super_elements?: number;
-  finite_elements?: number; // of models in space, which have no super-elements
+  finite_elements?: number; // of models in space, which have super-elements only where there are hexahedra or wedges
   contact_pairs: number;
   plane?: string;
   thickness?: number;
   steps?: string[];
   materials: Listed<{ name: string; law: string; young: number | null; poisson: number | null; density: number | null }>;
   bodies: Listed<{
-    name: string; rigid: boolean; unbounded: boolean; materials: string[]; nodes: number; super_elements: number; finite_elements: number;
+    name: string; rigid: boolean; unbounded: boolean; materials: string[]; nodes: number; super_elements?: number; finite_elements: number;
   }>;
   contacts: Listed<{ name: string; between: [string, string]; law: string }>;
 }

@@ -20,9 +20,10 @@ export function verdict({ content }: State): HTMLElement {
     element("dl", { class: "tiles" }, ...tiles.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value)))));
 }
 
-/** What the bodies are divided into: in space into tetrahedra. */
+/** What the bodies are divided into: in space into tetrahedra, or also into hexahedra and wedges. */
 function elementsOf(model: Model): [string, string] {
-  return model.super_elements === undefined ? ["tetrahedra", (model.finite_elements ?? 0).toLocaleString("en")] : ["super-elements", model.super_elements.toLocaleString("en")];
+  if (model.finite_elements === undefined) return ["super-elements", (model.super_elements ?? 0).toLocaleString("en")];
+  return [model.super_elements ? "cells" : "tetrahedra", (model.finite_elements + (model.super_elements ?? 0)).toLocaleString("en")];
 }
 
 export function warnings({ warnings: texts }: Content): HTMLElement | null {
@@ -85,8 +86,8 @@ export function model(state: State): HTMLElement {
     parts.push(element("h3", {}, heading), table(head, rows, { class: "numbers", "aria-label": heading }));
     if (all > rows.length) parts.push(element("p", { class: "note" }, `The first ${rows.length} of ${all}.`));
   };
-  list("Bodies", m.bodies.count, ["body", "material", ...(content.space ? ["tetrahedra"] : ["super-elements", "finite elements"]), "nodes"], m.bodies.listed.map((body) => [body.name + (body.unbounded ? " (unbounded)" : ""),
-    body.rigid ? "rigid" : body.materials.join(", "), ...(content.space ? [] : [String(body.super_elements)]), String(body.finite_elements), body.nodes.toLocaleString("en")]));
+  list("Bodies", m.bodies.count, ["body", "material", ...(content.space ? [m.bodies.listed.some((body) => body.super_elements) ? "cells" : "tetrahedra"] : ["super-elements", "finite elements"]), "nodes"], m.bodies.listed.map((body) => [body.name + (body.unbounded ? " (unbounded)" : ""),
+    body.rigid ? "rigid" : body.materials.join(", "), ...(content.space ? [String(body.finite_elements + (body.super_elements ?? 0))] : [String(body.super_elements), String(body.finite_elements)]), body.nodes.toLocaleString("en")]));
   list("Materials", m.materials.count, ["material", "law", "Young's modulus", "Poisson's ratio", "density"], m.materials.listed.map((material) => [material.name, material.law,
     units.text("stress", material.young), number(material.poisson), number(material.density)]));
   list("Contacts", m.contacts.count, ["contact", "first side", "second side", "law"], m.contacts.listed.map((contact) => [contact.name, ...contact.between, contact.law]));

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "scabo/base/cell_topology.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/files/imported_mesh.hpp"
 #include "scabo/files/imported_solid_mesh.hpp"
@@ -53,7 +54,7 @@ void check_mesh_reader(const std::uint8_t* data, std::size_t size, Read read) {
 
 /// What the header of ImportedSolidMesh promises, or an InputError with a message.
 template <class Read>
-void check_solid_reader(const std::uint8_t* data, std::size_t size, Read read) {
+void check_solid_reader(const std::uint8_t* data, std::size_t size, Read read, bool tetrahedra_only = true) {
   using namespace scabo::files;
   const auto require = [](bool holds) {
     if (!holds) __builtin_trap();
@@ -63,7 +64,8 @@ void check_solid_reader(const std::uint8_t* data, std::size_t size, Read read) {
         read(std::string_view(reinterpret_cast<const char*>(data), size), std::string("fuzz"));
     require(!mesh.cells.empty() && mesh.nodes.allFinite());
     for (const ImportedSolidCell& cell : mesh.cells) {
-      require(cell.nodes.size() == 4 || cell.nodes.size() == 10);
+      const auto& topology = scabo::CellTopology::of(cell.nodes.size());
+      require(tetrahedra_only ? topology.corners == 4 : topology.corners >= 4);
       for (const int node : cell.nodes) require(node >= 0 && node < mesh.nodes.cols());
     }
     for (const NodeSet& set : mesh.node_sets)
@@ -72,7 +74,8 @@ void check_solid_reader(const std::uint8_t* data, std::size_t size, Read read) {
       for (const int cell : set.cells) require(cell >= 0 && cell < static_cast<int>(mesh.cells.size()));
     for (const SolidSideSet& set : mesh.side_sets)
       for (const SolidSide& at : set.sides)
-        require(at.cell >= 0 && at.cell < static_cast<int>(mesh.cells.size()) && at.side >= 0 && at.side < 4);
+        require(at.cell >= 0 && at.cell < static_cast<int>(mesh.cells.size()) && at.side >= 0 &&
+                at.side < sides_of(mesh.cells[static_cast<std::size_t>(at.cell)]));
   } catch (const scabo::InputError& error) {
     require(!error.diagnostics().empty() && !error.diagnostics().front().message.empty());
   }

@@ -29,11 +29,30 @@ def grid():
                     {"displacement": displacement, "von_mises": points[:, 0], "stress": np.tile(np.arange(6.0), (len(points), 1))}, {})
 
 
+def brick_and_wedge():
+    """A unit cube of 20 points, and a wedge of 15 on its right side."""
+    places, numbers = [], {}
+
+    def number(place):
+        if tuple(place) not in numbers:
+            numbers[tuple(place)] = len(places)
+            places.append(place)
+        return numbers[tuple(place)]
+
+    def cell(kind, corners):
+        corners = np.array(corners, dtype=float)
+        return [number(x) for x in corners] + [number(0.5 * (corners[i] + corners[j])) for i, j in tetrahedra.EDGES[kind]]
+    brick = cell(25, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+    wedge = cell(26, [[1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 0, 1], [2, 0, 1], [1, 1, 1]])
+    return vtu.Grid(np.array(places), np.array(brick + wedge), np.array([20, 35]), np.array([25, 26], dtype="u1"), {}, {})
+
+
 class Seen(unittest.TestCase):
     def test_facets_outside_are_those_of_one_cell_and_turn_outwards(self):
         of = grid()
-        facets = tetrahedra.outer_facets(of)
-        self.assertEqual(len(facets), 6)
+        both = tetrahedra.outer_facets(of)
+        facets, none = both
+        self.assertEqual((len(facets), len(none)), (6, 0))
         middle = of.points[:5].mean(axis=0)
         volume = 0.0
         for a, b, c in of.points[facets[:, :3]]:
@@ -42,7 +61,22 @@ class Seen(unittest.TestCase):
         self.assertAlmostEqual(volume, 1 / 6 + 1 / 3)
         for k in range(3):
             np.testing.assert_allclose(of.points[facets[:, 3 + k]], 0.5 * (of.points[facets[:, k]] + of.points[facets[:, (k + 1) % 3]]))
-        self.assertEqual(len(tetrahedra.triangles_of(facets)), 24)
+        self.assertEqual(len(tetrahedra.triangles_of(both)), 24)
+
+    def test_hexahedra_and_wedges_have_facets_edges_and_tetrahedra(self):
+        of = brick_and_wedge()
+        triangles, squares = tetrahedra.outer_facets(of)
+        self.assertEqual((len(triangles), len(squares)), (2, 5 + 2))
+        drawn = of.points[tetrahedra.triangles_of([triangles, squares])]
+        self.assertEqual(len(drawn), 2 * 4 + 7 * 6)
+        volume = lambda corners: np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6
+        self.assertAlmostEqual(np.einsum("ij,ij->", drawn[:, 0], np.cross(drawn[:, 1], drawn[:, 2])) / 6, 1.5)  # all turn outwards
+        parts = of.points[tetrahedra.tetrahedra_of(of)]
+        self.assertTrue((np.linalg.det(parts[:, 1:] - parts[:, :1]) > 0.1).all())
+        self.assertAlmostEqual(volume(parts), 1.5)
+        chains = tetrahedra.sharp_edges(of.points, [triangles, squares])
+        np.testing.assert_allclose(of.points[chains[:, 1]], 0.5 * (of.points[chains[:, 0]] + of.points[chains[:, 2]]))
+        self.assertEqual(len(chains), 12 + 9 - 4 - 3)  # those around the side in common are one, three of them flat
 
     def test_directions_are_a_turn(self):
         for view in ((-60, 25), (0, 90), (135, -40)):
@@ -80,6 +114,8 @@ class Maps(unittest.TestCase):
             of = tetrahedra.map_of("joint", vtu.Grid(points, np.array([0, 1, 2, 0, 2, 3]), np.array([3, 6]), np.array([5, 5]), data,
                                                  {"contact": np.array([2, 2])}), 2)
             self.assertAlmostEqual(geometry.areas(of.places, of.corners).sum(), 3.0)
+            one = tetrahedra.map_of("joint", vtu.Grid(points, np.array([0, 1, 2, 3]), np.array([4]), np.array([9]), data, {"contact": np.array([2])}), 2)
+            self.assertAlmostEqual(geometry.areas(one.places, one.corners).sum(), 3.0)
             np.testing.assert_array_equal(of.values["shear"], 5.0)
             self.assertEqual(list(of.states), ["open", "stick", "slip", "stick"])
             if not turned:

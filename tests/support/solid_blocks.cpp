@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "scabo/geometry/simplex_basis.hpp"
+#include "scabo/base/cell_topology.hpp"
 #include "support/random.hpp"
 
 namespace scabo::test {
@@ -17,8 +17,8 @@ void make_quadratic(mesh::SolidMesh& mesh) {
   std::vector<Eigen::Vector3d> middles;
   const Eigen::Index corners = mesh.nodes.cols();
   for (std::vector<int>& cell : mesh.cells)
-    for (const std::array<int, 2>& edge : geometry::SimplexBasis::of(3, 10).edges()) {
-      const int i = cell[static_cast<std::size_t>(edge[0])], j = cell[static_cast<std::size_t>(edge[1])];
+    for (const auto& edge : CellTopology::of(cell.size()).edges) {
+      const int i = cell[edge[0]], j = cell[edge[1]];
       const auto [at, added] = middle_of.emplace(std::array{std::min(i, j), std::max(i, j)},
                                                  static_cast<int>(corners) + static_cast<int>(middles.size()));
       if (added) middles.push_back(0.5 * (mesh.nodes.col(i) + mesh.nodes.col(j)));
@@ -46,10 +46,25 @@ mesh::SolidMesh solid_block(const Eigen::Vector3d& low, const Eigen::Vector3d& h
           const double place = at[axis] + (inside ? uniform(random, -moved, moved) : 0.0);
           mesh.nodes(k, number(at)) = low[k] + place * (high[k] - low[k]) / n[axis];
         }
+  const auto add_cell = [&](const std::array<int, 3>& brick, const std::vector<std::array<int, 3>>& corners) {
+    std::vector<int> cell;
+    for (const std::array<int, 3>& c : corners)
+      cell.push_back(number({brick[0] + c[0], brick[1] + c[1], brick[2] + c[2]}));
+    mesh.cells.push_back(cell);
+  };
+  for (at[2] = 0; nodes_of_cell > 10 && at[2] < n[2]; ++at[2])
+    for (at[1] = 0; at[1] < n[1]; ++at[1])
+      for (at[0] = 0; at[0] < n[0]; ++at[0]) {
+        if (nodes_of_cell == 20)
+          add_cell(at, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}});
+        else
+          add_cell(at, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}}),
+              add_cell(at, {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 1, 1}});
+      }
   // Along each order of the axes from one corner of a brick to the opposite one (Kuhn).
   constexpr std::array<std::array<int, 3>, 6> orders{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-  for (at[2] = 0; at[2] < n[2]; ++at[2])
+  for (at[2] = 0; nodes_of_cell <= 10 && at[2] < n[2]; ++at[2])
     for (at[1] = 0; at[1] < n[1]; ++at[1])
       for (at[0] = 0; at[0] < n[0]; ++at[0])
         for (std::size_t order = 0; order < orders.size(); ++order) {
@@ -59,7 +74,7 @@ mesh::SolidMesh solid_block(const Eigen::Vector3d& low, const Eigen::Vector3d& h
           if (order >= 3) std::swap(cell[1], cell[2]);
           mesh.cells.push_back(cell);
         }
-  if (nodes_of_cell == 10) make_quadratic(mesh);
+  if (nodes_of_cell >= 10) make_quadratic(mesh);
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-"""Tetrahedra of results in space and their contact faces, by NumPy alone: surfaces, edges, values, maps."""
+"""Tetrahedra, wedges and hexahedra of results in space and their contact faces, by NumPy alone: surfaces, edges, values, maps."""
 import dataclasses
 import math
 
@@ -13,8 +13,21 @@ COMPONENTS = {"von_mises": ("von Mises stress", "stress"), "principal_1": ("firs
               **{name: (f"stress {name}", "stress") for name in STRESSES},
               "ux": ("displacement along x", "length"), "uy": ("displacement along y", "length"), "uz": ("displacement along z", "length"),
               "displacement": ("displacement", "length")}
-SIDES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])  # of a tetrahedron, counter-clockwise seen from outside
-MIDDLES = {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}
+# Of cells by VTK's numbers: corners of their sides, counter-clockwise seen from outside; and the edges of their middle nodes.
+SIDES_OF_TETRAHEDRON = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+SIDES = {vtu.TETRAHEDRON: SIDES_OF_TETRAHEDRON, vtu.QUADRATIC_TETRAHEDRON: SIDES_OF_TETRAHEDRON,
+         vtu.QUADRATIC_WEDGE: [[0, 2, 1], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
+         vtu.QUADRATIC_HEXAHEDRON: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]}
+EDGES = {vtu.TETRAHEDRON: [], vtu.QUADRATIC_TETRAHEDRON: [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)],
+         vtu.QUADRATIC_WEDGE: [(0, 1), (1, 2), (0, 2), (3, 4), (4, 5), (3, 5), (0, 3), (1, 4), (2, 5)],
+         vtu.QUADRATIC_HEXAHEDRON: [(0, 1), (1, 2), (2, 3), (0, 3), (4, 5), (5, 6), (6, 7), (4, 7), (0, 4), (1, 5), (2, 6), (3, 7)]}
+CORNERS = {vtu.TETRAHEDRON: 4, vtu.QUADRATIC_TETRAHEDRON: 4, vtu.QUADRATIC_WEDGE: 6, vtu.QUADRATIC_HEXAHEDRON: 8}
+# Tetrahedra between the corners of a cell.
+PARTS = {vtu.TETRAHEDRON: [[0, 1, 2, 3]], vtu.QUADRATIC_TETRAHEDRON: [[0, 1, 2, 3]],
+         vtu.QUADRATIC_WEDGE: [[0, 1, 2, 5], [0, 1, 5, 4], [0, 4, 5, 3]],
+         vtu.QUADRATIC_HEXAHEDRON: [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]]}
+# Triangles between the points of a facet, by its corners.
+TRIANGLES = {3: ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]), 4: ([0, 4, 7], [1, 5, 4], [2, 6, 5], [3, 7, 6], [4, 5, 6], [4, 6, 7])}
 SHARP = math.cos(math.radians(30))
 
 
@@ -30,44 +43,60 @@ def values_of(grid, component):
 
 
 def outer_facets(grid):
-    """Facets of one tetrahedron only, six points each, F x 6: corners, and the points between them (again corners of linear ones)."""
-    facets = []
-    for kind in (vtu.TETRAHEDRON, vtu.QUADRATIC_TETRAHEDRON):
+    """Facets of one cell only: an array of triangles, F x 6, and one of quadrilaterals, F x 8; corners, and the points between them (again
+    corners of linear ones)."""
+    facets = {3: [np.zeros((0, 6), dtype=int)], 4: [np.zeros((0, 8), dtype=int)]}
+    for kind, sides in SIDES.items():
         cells = grid.cells(kind)
-        if len(cells) == 0:
-            continue
-        for side in SIDES:
-            corners = cells[:, side]
-            middles = corners if kind == vtu.TETRAHEDRON else \
-                cells[:, [MIDDLES[tuple(sorted((side[k], side[(k + 1) % 3])))] for k in range(3)]]
-            facets.append(np.column_stack([corners, middles]))
-    if not facets:
-        raise NothingToDraw("the fields have no tetrahedra")
-    facets = np.concatenate(facets)
-    _, first, times = np.unique(np.sort(facets[:, :3], axis=1), axis=0, return_index=True, return_counts=True)
+        for side in sides if len(cells) else []:
+            count = len(side)
+            middles = [CORNERS[kind] + EDGES[kind].index(tuple(sorted((side[k], side[(k + 1) % count])))) if EDGES[kind] else side[k] for k in range(count)]
+            facets[count].append(cells[:, side + middles])
+    if all(len(of) == 1 for of in facets.values()):
+        raise NothingToDraw("the fields have no cells")
+    return [outer_of(np.concatenate(of), count) for count, of in facets.items()]
+
+
+def outer_of(facets, corners):
+    _, first, times = np.unique(np.sort(facets[:, :corners], axis=1), axis=0, return_index=True, return_counts=True)
     return facets[np.sort(first[times == 1])]
 
 
 def triangles_of(facets):
-    """Four triangles of each quadratic facet, one of a linear one."""
-    linear = facets[:, 3] == facets[:, 0]
-    parts = [facets[linear][:, :3]]
-    parts += [facets[~linear][:, corners] for corners in ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5])]
+    """Those between all points of quadratic facets, and one of a linear triangle."""
+    parts = []
+    for of in facets:
+        corners = of.shape[1] // 2
+        linear = of[:, corners] == of[:, 0]
+        parts.append(of[linear][:, :3])
+        parts += [of[~linear][:, chosen] for chosen in TRIANGLES[corners]]
     return np.concatenate(parts)
 
 
 def sharp_edges(points, facets):
     """Edges of the facets at which the boundary turns by more than 30 degrees, as chains of points E x 3."""
-    normals = np.cross(points[facets[:, 1]] - points[facets[:, 0]], points[facets[:, 2]] - points[facets[:, 0]])
+    normals, ends, of_facet, before = [], [], [], 0
+    for of in facets:
+        corners = of.shape[1] // 2
+        ahead, last = points[of[:, 2 if corners == 4 else 1]] - points[of[:, 0]], points[of[:, corners - 1]] - points[of[:, 1 if corners == 4 else 0]]
+        normals.append(np.cross(ahead, last))
+        ends += [of[:, [k, corners + k, (k + 1) % corners]] for k in range(corners)]
+        of_facet.append(np.tile(before + np.arange(len(of)), corners))
+        before += len(of)
+    normals, ends, of_facet = np.concatenate(normals), np.concatenate(ends), np.concatenate(of_facet)
     normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    ends = np.concatenate([facets[:, [k, 3 + k, (k + 1) % 3]] for k in range(3)])
-    of_facet = np.tile(np.arange(len(facets)), 3)
     keys = np.sort(ends[:, [0, 2]], axis=1)
     order = np.lexsort(keys.T)
     pairs = np.flatnonzero((keys[order][1:] == keys[order][:-1]).all(axis=1))
     one, other = order[pairs], order[pairs + 1]
     sharp = np.einsum("ij,ij->i", normals[of_facet[one]], normals[of_facet[other]]) < SHARP
     return ends[one[sharp]]
+
+
+def tetrahedra_of(grid):
+    """Corners of the tetrahedra that all cells are divided into."""
+    parts = [grid.cells(kind)[:, corners] for kind, of in PARTS.items() if len(grid.cells(kind)) for corners in of]
+    return np.concatenate(parts)
 
 
 def magnification_of(grid, part=0.05):
@@ -110,7 +139,9 @@ def map_of(name, grid, contact):
     data = {key: values[chosen] for key, values in grid.point_data.items()}
     points = grid.points[chosen]
     new_number = np.cumsum(chosen) - 1
-    corners = new_number[grid.cells(vtu.TRIANGLE)[grid.cell_data["contact"] == contact]].astype(int)
+    here = grid.cell_data["contact"] == contact
+    squares = grid.cells(vtu.QUAD)[here[grid.types == vtu.QUAD]]
+    corners = new_number[np.concatenate([grid.cells(vtu.TRIANGLE)[here[grid.types == vtu.TRIANGLE]], *(squares[:, part] for part in ([0, 1, 2], [0, 2, 3]) if len(squares))])].astype(int)
     normal = data["normal"].mean(axis=0)
     along = int(np.argmax(np.abs(normal)))
     if abs(normal[along]) > 1 - 1e-9:  # the axes themselves

@@ -3,7 +3,7 @@ import numpy as np
 
 from .choice import in_order_of_importance, listed
 from .fields import GROUPS
-from .reading import ResultsError, geometry, tetrahedra, vtu
+from .reading import ResultsError, geometry, tetrahedra
 
 NAMES = {"displacement": ("ux", "uy", "uz"), "stress": tuple(tetrahedra.STRESSES), "principal": GROUPS["principal"], "von_mises": GROUPS["von_mises"]}
 ON_FACES = ("pressure", "shear", "gap", "slip")
@@ -44,14 +44,9 @@ def keys_of(asked):
 
 
 def corners_of(grid):
-    """Corners of all tetrahedra, and their bodies."""
-    corners, bodies = [], []
-    for kind in (vtu.TETRAHEDRON, vtu.QUADRATIC_TETRAHEDRON):
-        cells = grid.cells(kind)
-        if len(cells):
-            corners.append(cells[:, :4])
-            bodies.append(grid.point_data["body"][cells[:, 0]])
-    return np.concatenate(corners), np.concatenate(bodies)
+    """Corners of all tetrahedra, those of other cells too, and their bodies."""
+    corners = tetrahedra.tetrahedra_of(grid)
+    return corners, grid.point_data["body"][corners[:, 0]]
 
 
 def add_values(results, numbers, keys, arrays, budget):

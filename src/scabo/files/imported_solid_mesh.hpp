@@ -1,4 +1,4 @@
-// A mesh of tetrahedra as a file gives it: nodes, cells and named sets, in one form for all formats.
+// A mesh of solids as a file gives it: nodes, cells and named sets, in one form for all formats.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace scabo::files {
 
-/// A tetrahedron with 4 or 10 nodes: the corners, then the middles of the edges 12, 23, 31, 14, 24, 34.
+/// A tetrahedron with 4 or 10 nodes; where these are wanted, also a wedge with 6 or 15, or a hexahedron with 8 or 20
+/// (CellTopology).
 struct ImportedSolidCell {
   std::vector<int> nodes;
   long number = 0;  ///< as in the file; in .vtu files its position from 0
 };
 
-/// Side i of a cell, from 0: that of the corners 123, 142, 243, 341.
+/// Side i of a cell, from 0: CellTopology::sides.
 struct SolidSide {
   int cell = -1, side = 0;
 };
@@ -24,7 +25,7 @@ struct SolidSideSet {
 };
 
 /// Lengths are in the unit of the file. Guaranteed: there are cells, every node belongs to one, coordinates are finite,
-/// and (x2 - x1) x (x3 - x1) . (x4 - x1) of the corners of a cell is positive.
+/// and (x2 - x1) x (x3 - x1) . (x4 - x1) of the corners of a tetrahedron is positive. Other cells are not turned over.
 struct ImportedSolidMesh {
   Matrix nodes = Matrix(3, 0);  ///< 3 x N
   std::vector<ImportedSolidCell> cells;
@@ -34,9 +35,12 @@ struct ImportedSolidMesh {
   std::vector<std::string> remarks;     ///< what of the file was left out though it may matter
 };
 
+int sides_of(const ImportedSolidCell& cell);
 /// Corners of side i of a cell, counter-clockwise seen from outside.
 std::vector<int> corners_of(const ImportedSolidCell& cell, int side);
 /// The corners, and the nodes in the middle of its edges if the cell has them.
 std::vector<int> nodes_of_side(const ImportedSolidCell& cell, int side);
+/// The triangle that the corners of a side are, or the two of a quadrilateral.
+std::vector<std::vector<int>> triangles_of_side(const ImportedSolidCell& cell, int side);
 
 }  // namespace scabo::files

@@ -100,13 +100,13 @@ ImportedMesh parse_mesh(std::string_view bytes, const std::string& path, std::ve
   throw BrokenInvariant("a format of meshes without a reader");
 }
 
-ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& path) {
+ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& path, Bricks bricks) {
   const std::string_view text = readable(bytes, path);
   switch (format_of(text, path)) {
     case MeshFormat::gmsh:
       return parse_solid_gmsh(text, path);
     case MeshFormat::abaqus:
-      return parse_solid_abaqus(text, path, read_beside);
+      return parse_solid_abaqus(text, path, read_beside, bricks);
     case MeshFormat::vtu:
       return parse_solid_vtu(text, path);
   }
@@ -120,7 +120,9 @@ AbaqusDeck read_deck_file(const std::string& path) {
                                                 : parse_abaqus_deck(text, path, read_beside);
 }
 
-ImportedSolidMesh read_solid_mesh_file(const std::string& path) { return parse_solid_mesh(bytes_at(path), path); }
+ImportedSolidMesh read_solid_mesh_file(const std::string& path, Bricks bricks) {
+  return parse_solid_mesh(bytes_at(path), path, bricks);
+}
 
 ImportedMesh read_mesh_file(const std::string& path, std::vector<std::string>* types) {
   return parse_mesh(bytes_at(path), path, types);

@@ -18,8 +18,8 @@ ImportedMesh read_mesh_file(const std::string& path, std::vector<std::string>* t
 /// The same for the bytes of a file of that name; *INCLUDE is read beside it.
 ImportedMesh parse_mesh(std::string_view bytes, const std::string& path, std::vector<std::string>* types = nullptr);
 
-/// The same of tetrahedra.
-ImportedSolidMesh read_solid_mesh_file(const std::string& path);
-ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& path);
+/// The same of solids.
+ImportedSolidMesh read_solid_mesh_file(const std::string& path, Bricks bricks = Bricks::divided);
+ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& path, Bricks bricks = Bricks::divided);
 
 }  // namespace scabo::files

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "scabo/base/cell_topology.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/abaqus_sets.hpp"
 #include "scabo/files/solid_builder.hpp"
@@ -31,11 +32,12 @@ bool is_not_solid(const std::string& type) {
 
 class SolidReader {
  public:
-  SolidReader(std::string_view text, const std::string& file, const ReadInclude& read_include)
+  SolidReader(std::string_view text, const std::string& file, const ReadInclude& read_include, Bricks bricks)
       : builder_(file),
         solid_(builder_, SolidBuilder::TurnedCells::refused),
         lines_(text, file, read_include, builder_),
-        most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())) {}
+        most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())),
+        bricks_(bricks) {}
 
   ImportedSolidMesh read();
   AbaqusDeck read_deck();
@@ -53,6 +55,7 @@ class SolidReader {
   void keyword(const AbaqusKeyword& key);
   void nodes(const AbaqusKeyword& key);
   void elements(const AbaqusKeyword& key);
+  void keep(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at);
   void split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at);
   void set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter);
   void surface(const AbaqusKeyword& key);
@@ -69,6 +72,7 @@ class SolidReader {
   SolidBuilder solid_;
   AbaqusLines lines_;
   std::int64_t most_entries_, entries_ = 0;  // of all sets together: sets of sets grow faster than the file
+  Bricks bricks_;
   AbaqusSets node_sets_, element_sets_;
   struct Whole {
     std::vector<std::int64_t> nodes;
@@ -76,6 +80,7 @@ class SolidReader {
   };
   std::map<std::int64_t, Whole> split_;                        // by number
   std::map<std::vector<std::int64_t>, std::int64_t> between_;  // nodes that are added, by their corners
+  std::map<std::int64_t, std::size_t> nodes_of_kept_;          // of cells that are not divided, by number
   std::vector<Surface> surfaces_;
   std::vector<std::string> remarks_;
   std::set<std::string> left_out_;  // types
@@ -151,13 +156,25 @@ void SolidReader::elements(const AbaqusKeyword& key) {
       builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line", number,
                                     nodes.size(), type, wanted));
     numbers.push_back(number);
-    nodes_of_split(type) ? split(number, nodes, at) : static_cast<void>(solid_.add_cell(number, nodes, at));
+    if (nodes_of_split(type) && bricks_ == Bricks::divided)
+      split(number, nodes, at);
+    else
+      keep(number, nodes, at);
   }
   if (whole_ && wanted > 0) {
     deck_.elements.push_back({type, {builder_.file(key.at), key.at.line}});
     for (const std::int64_t number : numbers) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
   }
   if (key.has("ELSET") && wanted > 0) add_all(element_sets_.named(key.value("ELSET")), std::move(numbers));
+}
+
+void SolidReader::keep(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at) {
+  if (nodes_of_kept_[number] = nodes.size(); bricks_ == Bricks::kept)
+    if (std::set<std::int64_t>(nodes.begin(), nodes.end()).size() < nodes.size())
+      builder_.fail(at, fmt::format("cell {} has a node twice: a hexahedron or wedge whose edges are collapsed is read "
+                                    "as tetrahedra only; leave out 'kind'",
+                                    number));
+  solid_.add_cell(number, nodes, at);
 }
 
 void SolidReader::split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at) {
@@ -307,11 +324,13 @@ void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cel
           solid_.add_facet(set, corners);
         continue;
       }
-      if (entry.side[1] > '4') no_side();
       const SolidSide side{cells.find(number), entry.side[1] - '1'};
+      const auto kept = nodes_of_kept_.find(number);
+      if (entry.side[1] > '4' && kept == nodes_of_kept_.end()) no_side();
       if (side.cell < 0)
         builder_.fail(entry.at, fmt::format("surface '{}': there is no cell {}; correct its number",
                                             printable(surface.name), number));
+      if (static_cast<std::size_t>(side.side) >= CellTopology::of(kept->second).sides.size()) no_side();
       solid_.add_side(set, side);
     }
   }
@@ -389,11 +408,12 @@ bool is_solid_deck(std::string_view text, const std::string& file, const ReadInc
 }
 
 AbaqusDeck parse_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include) {
-  return SolidReader(text, file, read_include).read_deck();
+  return SolidReader(text, file, read_include, Bricks::divided).read_deck();
 }
 
-ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include) {
-  return SolidReader(text, file, read_include).read();
+ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file, const ReadInclude& read_include,
+                                     Bricks bricks) {
+  return SolidReader(text, file, read_include, bricks).read();
 }
 
 }  // namespace scabo::files

@@ -1,5 +1,5 @@
 // Meshes of solids in input files of Abaqus and CalculiX (.inp): nodes, elements C3D4 and C3D10, C3D6, C3D8, C3D15 and
-// C3D20, which are divided into tetrahedra, sets and surfaces.
+// C3D20, which are divided into tetrahedra or kept, sets and surfaces.
 #pragma once
 
 #include <string>
@@ -10,9 +10,12 @@
 
 namespace scabo::files {
 
+/// What becomes of hexahedra and wedges.
+enum class Bricks { divided, kept };
+
 /// The mesh in the text of a file of that name. Keywords that describe no mesh are passed over. Throws InputError.
 ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file,
-                                     const ReadInclude& read_include = {});
+                                     const ReadInclude& read_include = {}, Bricks bricks = Bricks::divided);
 
 /// Whether a deck has elements C3D4 and so on, also in files that it includes.
 bool is_solid_deck(std::string_view text, const std::string& file, const ReadInclude& read_include = {});

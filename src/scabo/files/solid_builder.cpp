@@ -7,27 +7,40 @@
 #include <cmath>
 #include <limits>
 
+#include "scabo/base/cell_topology.hpp"
+
 namespace scabo::files {
 
 namespace {
 
 constexpr std::size_t most_solid_entries = std::numeric_limits<int>::max() / 4;
 
-constexpr std::array<std::array<std::size_t, 3>, 4> corners_of_sides{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+const CellTopology& topology_of(const ImportedSolidCell& cell) { return CellTopology::of(cell.nodes.size()); }
+
+std::vector<int> chosen(const ImportedSolidCell& cell, const std::vector<std::size_t>& places) {
+  std::vector<int> nodes;
+  for (const std::size_t place : places) nodes.push_back(cell.nodes[place]);
+  return nodes;
+}
 
 }  // namespace
 
+int sides_of(const ImportedSolidCell& cell) { return static_cast<int>(topology_of(cell).sides.size()); }
+
 std::vector<int> corners_of(const ImportedSolidCell& cell, int side) {
-  const auto& [a, b, c] = corners_of_sides[static_cast<std::size_t>(side)];
-  return {cell.nodes[a], cell.nodes[b], cell.nodes[c]};
+  return chosen(cell, topology_of(cell).sides[static_cast<std::size_t>(side)]);
 }
 
 std::vector<int> nodes_of_side(const ImportedSolidCell& cell, int side) {
-  constexpr std::array<std::array<std::size_t, 3>, 4> middles{{{6, 5, 4}, {4, 8, 7}, {5, 9, 8}, {6, 7, 9}}};
-  std::vector<int> nodes = corners_of(cell, side);
-  if (cell.nodes.size() == 10)
-    for (const std::size_t middle : middles[static_cast<std::size_t>(side)]) nodes.push_back(cell.nodes[middle]);
-  return nodes;
+  const CellTopology& topology = topology_of(cell);
+  return chosen(cell, topology.nodes_of_side(static_cast<std::size_t>(side), cell.nodes.size() > topology.corners));
+}
+
+std::vector<std::vector<int>> triangles_of_side(const ImportedSolidCell& cell, int side) {
+  const std::vector<int> corners = corners_of(cell, side);
+  std::vector<std::vector<int>> triangles;
+  for (std::size_t k = 2; k < corners.size(); ++k) triangles.push_back({corners[0], corners[k - 1], corners[k]});
+  return triangles;
 }
 
 void SolidBuilder::add_node(std::int64_t number, double x, double y, double z, const FilePlace& at) {
@@ -104,10 +117,15 @@ void SolidBuilder::check_cell(ImportedSolidCell& cell, const FilePlace& at) cons
   const auto node = [&](std::size_t i) {
     return Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * static_cast<std::size_t>(cell.nodes[i]));
   };
-  const Eigen::Vector3d a = node(1) - node(0), b = node(2) - node(0), along = node(3) - node(0);
+  const std::size_t corners = topology_of(cell).corners, at_end = corners == 4 ? 3 : corners / 2;  // next to corner 0
+  const Eigen::Vector3d a = node(1) - node(0), b = node(at_end - 1) - node(0), along = node(at_end) - node(0);
   const double size = std::max({a.norm(), b.norm(), along.norm()}), volume = a.cross(b).dot(along);
   const double flat = 1e-12 * size * size * size;
   if (volume > flat) return;
+  if (corners > 4)
+    files_.fail(at, fmt::format("cell {} is flat or turned over: seen from its other end, the corners of its first one "
+                                "must be counter-clockwise; write the mesh again",
+                                cell.number));
   if (turned_ == TurnedCells::refused)
     files_.fail(at, fmt::format("cell {} is flat or turned over: seen from node 4, the nodes 1, 2, 3 must "
                                 "be counter-clockwise; write the mesh again",
@@ -170,7 +188,7 @@ void SolidBuilder::make_side_sets(const NumberIndex& nodes, const std::vector<in
   const bool by_corners =
       std::any_of(side_sets_.begin(), side_sets_.end(), [](const RawSides& set) { return !set.facets.empty(); });
   for (std::size_t c = 0; by_corners && c < mesh.cells.size(); ++c)
-    for (int side = 0; side < 4; ++side) {
+    for (int side = 0; side < sides_of(mesh.cells[c]); ++side) {
       const std::vector<int> of_side = corners_of(mesh.cells[c], side);
       Corners corners{of_side[0], of_side[1], of_side[2]};
       std::sort(corners.begin(), corners.end());

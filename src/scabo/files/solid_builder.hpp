@@ -1,4 +1,4 @@
-// What the readers of tetrahedra share: they hand over nodes, cells and sets as the file numbers them, in any order;
+// What the readers of solids share: they hand over nodes, cells and sets as the file numbers them, in any order;
 // `finish` checks them and makes the ImportedSolidMesh.
 #pragma once
 
@@ -28,8 +28,8 @@ class SolidBuilder {
   /// Throws InputError if a coordinate is not finite.
   void add_node(std::int64_t number, double x, double y, double z, const FilePlace& at);
 
-  /// 4 or 10 nodes in the order of ImportedSolidCell. Returns its index. `entity`: cells with equal nodes and the same
-  /// entity >= 0 are one cell that the file repeats for each of its sets.
+  /// As many nodes as an ImportedSolidCell may have, in its order; 4 or 10 of a cell with an entity. Returns its index.
+  /// `entity`: cells with equal nodes and the same entity >= 0 are one cell that the file repeats for each of its sets.
   int add_cell(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at, std::int64_t entity = -1);
 
   /// A tetrahedron that is a part of cell `number`, which the caller knows to be there once. Returns its index.

@@ -4,6 +4,8 @@
 #include <array>
 #include <map>
 
+#include "scabo/base/cell_topology.hpp"
+
 namespace scabo::files {
 
 namespace {
@@ -11,23 +13,7 @@ namespace {
 using Number = std::int64_t;
 using Corners = std::vector<std::size_t>;
 
-/// Sides S1, S2 and so on, counter-clockwise seen from outside; edges in the order of their middle nodes.
-struct Shape {
-  std::size_t corners;
-  std::vector<Corners> faces;
-  std::vector<std::array<std::size_t, 2>> edges;
-};
-
-const Shape& shape_of(std::size_t nodes) {
-  static const Shape wedge{6,
-                           {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
-                           {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
-  static const Shape brick{
-      8,
-      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
-      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
-  return nodes == 6 || nodes == 15 ? wedge : brick;
-}
+using Shape = CellTopology;
 
 /// Triangles of a face from its corner with the least number.
 std::vector<std::array<Number, 3>> triangles_of(std::span<const Number> nodes, const Corners& face) {
@@ -65,7 +51,7 @@ class Middles {
   /// four middle nodes less a quarter of that of the corners; in a cell, a quarter of both.
   Number added(Number a, Number b) {
     Corners face;
-    for (const Corners& of : shape_.faces) {
+    for (const Corners& of : shape_.sides) {
       const auto has = [&](Number n) {
         return std::any_of(of.begin(), of.end(), [&](std::size_t corner) { return nodes_[corner] == n; });
       };
@@ -103,11 +89,11 @@ std::optional<std::size_t> nodes_of_split(const std::string& type) {
 }
 
 SplitSolid split_solid(std::span<const Number> nodes) {
-  const Shape& shape = shape_of(nodes.size());
+  const Shape& shape = Shape::of(nodes.size());
   SplitSolid split;
   Middles middles(nodes, shape, split);
   const Number top = *std::min_element(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(shape.corners));
-  for (const Corners& face : shape.faces) {
+  for (const Corners& face : shape.sides) {
     if (std::any_of(face.begin(), face.end(), [&](std::size_t corner) { return nodes[corner] == top; })) continue;
     for (const auto& [a, b, c] : triangles_of(nodes, face)) {
       std::vector<Number> cell{a, c, b, top};
@@ -121,10 +107,10 @@ SplitSolid split_solid(std::span<const Number> nodes) {
 }
 
 std::vector<std::vector<Number>> triangles_of_side(std::span<const Number> nodes, int side) {
-  const Shape& shape = shape_of(nodes.size());
-  if (side < 1 || side > static_cast<int>(shape.faces.size())) return {};
+  const Shape& shape = Shape::of(nodes.size());
+  if (side < 1 || side > static_cast<int>(shape.sides.size())) return {};
   std::vector<std::vector<Number>> triangles;
-  for (const auto& t : triangles_of(nodes, shape.faces[static_cast<std::size_t>(side - 1)]))
+  for (const auto& t : triangles_of(nodes, shape.sides[static_cast<std::size_t>(side - 1)]))
     triangles.push_back({t[0], t[1], t[2]});
   return triangles;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scabo/geometry/simplex_basis.hpp"
+#include "scabo/base/cell_topology.hpp"
 #include "scabo/mesh/plane/many_cells.hpp"
 
 namespace scabo::mesh {
@@ -33,13 +33,13 @@ struct Place {
 
 class Extruding {
  public:
-  Extruding(const model::SolidExtrusion& extrusion, std::vector<double> layers, const BodyMesh& plane);
+  Extruding(const model::SolidExtrusion& extrusion, std::vector<double> layers, const BodyMesh& plane, bool wedges);
   ShapedSolid made();
 
  private:
   void add_prism(std::array<int, 3> triangle, int layer);
-  void add_cell(std::array<Place, 4> corners);
-  void add_to_faces(const std::array<Place, 3>& corners, const SolidFacet& facet);
+  void add_cell(std::vector<Place> corners);
+  void add_to_faces(const std::vector<Place>& corners, const SolidFacet& facet);
   Place middle(const Place& a, const Place& b) const;
   Vector3d position(const Place& at) const;
   int node(const Place& at);
@@ -47,6 +47,7 @@ class Extruding {
   const model::SolidExtrusion& extrusion_;
   std::vector<double> layers_;
   const BodyMesh& plane_;
+  bool wedges_;
   int top_;
   std::map<Edge, int> middles_;        // nodes in the middle of edges
   std::map<Edge, std::size_t> edges_;  // those of the outline, and the edges of it that they are part of
@@ -55,10 +56,12 @@ class Extruding {
   ShapedSolid made_;
 };
 
-Extruding::Extruding(const model::SolidExtrusion& extrusion, std::vector<double> layers, const BodyMesh& plane)
+Extruding::Extruding(const model::SolidExtrusion& extrusion, std::vector<double> layers, const BodyMesh& plane,
+                     bool wedges)
     : extrusion_(extrusion),
       layers_(std::move(layers)),
       plane_(plane),
+      wedges_(wedges),
       top_(2 * (static_cast<int>(layers_.size()) - 1)) {
   for (const Cell& cell : plane.cells)
     for (const LineElement& side : cell.boundary)
@@ -87,7 +90,7 @@ int Extruding::node(const Place& at) {
   return found->second;
 }
 
-void Extruding::add_to_faces(const std::array<Place, 3>& corners, const SolidFacet& facet) {
+void Extruding::add_to_faces(const std::vector<Place>& corners, const SolidFacet& facet) {
   for (const int level : {0, top_})
     if (std::all_of(corners.begin(), corners.end(), [&](const Place& c) { return c.level == level; }))
       made_.faces[level == 0 ? "start" : "end"].push_back(facet);
@@ -101,27 +104,35 @@ void Extruding::add_to_faces(const std::array<Place, 3>& corners, const SolidFac
     for (const std::string& name : extrusion_.outline.edges[edge->second].names) made_.faces[name].push_back(facet);
 }
 
-void Extruding::add_cell(std::array<Place, 4> corners) {
+/// Corners as in CellTopology, or turned over.
+void Extruding::add_cell(std::vector<Place> corners) {
+  const bool is_wedge = corners.size() == 6;
+  const auto& topology = CellTopology::of(corners.size());
   const Vector3d x0 = position(corners[0]);
   Eigen::Matrix3d sides;
   for (int k = 0; k < 3; ++k) sides.col(k) = position(corners[static_cast<std::size_t>(k + 1)]) - x0;
-  if (sides.determinant() < 0.0) std::swap(corners[2], corners[3]);
+  if (sides.determinant() < 0.0) {
+    if (is_wedge)
+      std::swap_ranges(corners.begin(), corners.begin() + 3, corners.begin() + 3);
+    else
+      std::swap(corners[2], corners[3]);
+  }
   std::vector<int> cell;
   for (const Place& corner : corners) cell.push_back(node(corner));
-  for (const auto& [a, b] : geometry::SimplexBasis::of(3, 10).edges())
-    cell.push_back(node(middle(corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)])));
-  for (int side = 0; side < 4; ++side) {
-    const SolidFacet places = facet_of({0, 1, 2, 3}, side);
-    const auto corner = [&](std::size_t i) { return corners[static_cast<std::size_t>(places[i])]; };
-    add_to_faces({corner(0), corner(1), corner(2)}, facet_of(cell, side));
+  for (const auto& [a, b] : topology.edges) cell.push_back(node(middle(corners[a], corners[b])));
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    std::vector<Place> of_side;
+    for (const std::size_t corner : topology.sides[side]) of_side.push_back(corners[corner]);
+    add_to_faces(of_side, facet_of(cell, static_cast<int>(side)));
   }
   made_.mesh.cells.push_back(std::move(cell));
 }
 
 void Extruding::add_prism(std::array<int, 3> triangle, int layer) {
-  std::sort(triangle.begin(), triangle.end());
-  const auto [i, j, k] = triangle;
   const int below = 2 * layer, above = below + 2;
+  if (!wedges_) std::sort(triangle.begin(), triangle.end());
+  const auto [i, j, k] = triangle;
+  if (wedges_) return add_cell({Place{i, below}, {j, below}, {k, below}, {i, above}, {j, above}, {k, above}});
   add_cell({Place{i, below}, {j, below}, {k, below}, {k, above}});
   add_cell({Place{i, below}, {j, below}, {j, above}, {k, above}});
   add_cell({Place{i, below}, {i, above}, {j, above}, {k, above}});
@@ -143,7 +154,9 @@ ShapedSolid Extruding::made() {
 
 double count_nodes(const model::SolidExtrusion& extrusion, const model::SolidSizes& sizes) {
   const double triangles = 4.0 / std::numbers::sqrt3 * extrusion.outline.area() / (sizes.size * sizes.size);
-  return (2.0 * triangles + 4.0) * (2.0 * static_cast<double>(layers_of(extrusion, sizes).size()) - 1.0);
+  const double nodes = 2.0 * triangles + 4.0, corners = 0.25 * nodes,
+               layers = static_cast<double>(layers_of(extrusion, sizes).size()) - 1.0;
+  return (layers + 1.0) * nodes + layers * (sizes.hexahedra ? corners : nodes);
 }
 
 std::variant<ShapedSolid, Diagnostic> extruded_solid(const model::SolidExtrusion& extrusion,
@@ -164,7 +177,7 @@ std::variant<ShapedSolid, Diagnostic> extruded_solid(const model::SolidExtrusion
   }
   auto plane = divide_into_cells(body, {}, most_nodes / (2.0 * static_cast<double>(layers.size()) - 1.0));
   if (auto* wrong = std::get_if<Diagnostic>(&plane)) return std::move(*wrong);
-  return Extruding(extrusion, std::move(layers), std::get<BodyMesh>(plane)).made();
+  return Extruding(extrusion, std::move(layers), std::get<BodyMesh>(plane), sizes.hexahedra).made();
 }
 
 }  // namespace scabo::mesh

@@ -1,8 +1,8 @@
-// Quadratic tetrahedra of a plane outline that is drawn along an axis.
+// Quadratic tetrahedra, or wedges with 15 nodes, of a plane outline that is drawn along an axis.
 //
-// Triangles of the outline (divide_into_cells) become a prism in every layer, each of which is divided into three
-// tetrahedra. The diagonal of a side of a prism leads up from that of its two plane nodes with the smaller number, so
-// that neighbours divide it alike. Nodes of curved edges lie on them.
+// Triangles of the outline (divide_into_cells) become a prism in every layer, each of which is a wedge, or divided into
+// three tetrahedra. The diagonal of a side of a prism leads up from that of its two plane nodes with the smaller
+// number, so that neighbours divide it alike. Nodes of curved edges lie on them.
 #pragma once
 
 #include <variant>

@@ -42,8 +42,10 @@ std::vector<std::string> nearest_faces(const files::ImportedSolidMesh& mesh, con
   std::vector<std::pair<std::string, std::set<std::pair<int, int>>>> faces;  // with their nearest sides
   for (const files::SolidSideSet& set : mesh.side_sets)
     for (const files::SolidSide& side : set.sides) {
-      const std::vector<int> corners = files::corners_of(mesh.cells[static_cast<std::size_t>(side.cell)], side.side);
-      const double distance = to_triangle(mesh.nodes(Eigen::all, corners), point);
+      double distance = std::numeric_limits<double>::max();
+      for (const std::vector<int>& corners :
+           files::triangles_of_side(mesh.cells[static_cast<std::size_t>(side.cell)], side.side))
+        distance = std::min(distance, to_triangle(mesh.nodes(Eigen::all, corners), point));
       if (distance > least + same) continue;
       if (distance < least - same) faces.clear();
       least = std::min(least, distance);

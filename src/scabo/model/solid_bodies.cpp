@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <set>
@@ -20,11 +19,14 @@ using files::SolidSide;
 constexpr double cosine_of_turn = 0.86602540378443865;  // of 30 degrees
 
 /// The cells that have a side, by its corners in ascending order.
-using SidesByCorners = std::map<std::array<int, 3>, std::vector<SolidSide>>;
+using SidesByCorners = std::map<std::vector<int>, std::vector<SolidSide>>;
 
-std::array<int, 3> key_of_side(const ImportedSolidMesh& mesh, const SolidSide& at) {
-  const std::vector<int> corners = files::corners_of(mesh.cells[static_cast<std::size_t>(at.cell)], at.side);
-  std::array<int, 3> key{corners[0], corners[1], corners[2]};
+int sides_of(const ImportedSolidMesh& mesh, int cell) {
+  return files::sides_of(mesh.cells[static_cast<std::size_t>(cell)]);
+}
+
+std::vector<int> key_of_side(const ImportedSolidMesh& mesh, const SolidSide& at) {
+  std::vector<int> key = files::corners_of(mesh.cells[static_cast<std::size_t>(at.cell)], at.side);
   std::sort(key.begin(), key.end());
   return key;
 }
@@ -32,7 +34,7 @@ std::array<int, 3> key_of_side(const ImportedSolidMesh& mesh, const SolidSide& a
 SidesByCorners sides_by_corners(const ImportedSolidMesh& mesh) {
   SidesByCorners sides;
   for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c)
-    for (int side = 0; side < 4; ++side) sides[key_of_side(mesh, {c, side})].push_back({c, side});
+    for (int side = 0; side < sides_of(mesh, c); ++side) sides[key_of_side(mesh, {c, side})].push_back({c, side});
   return sides;
 }
 
@@ -153,7 +155,7 @@ void PartOfFile::add_faces_to_others() {
     files::SolidSideSet to{"to_" + set.name, {}};
     for (const int cell : set.cells) {
       if (has(cell)) continue;
-      for (int side = 0; side < 4; ++side)
+      for (int side = 0; side < sides_of(file_, cell); ++side)
         for (const SolidSide& other : sides_.at(key_of_side(file_, {cell, side})))
           if (has(other.cell)) to.sides.push_back({cell_[static_cast<std::size_t>(other.cell)], other.side});
     }
@@ -167,7 +169,7 @@ std::vector<SolidSide> PartOfFile::sides_without_set() const {
     for (const SolidSide& at : set.sides) named.emplace(at.cell, at.side);
   std::vector<SolidSide> sides;
   for (int c = 0; c < static_cast<int>(file_.cells.size()); ++c)
-    for (int side = 0; has(c) && side < 4; ++side)
+    for (int side = 0; has(c) && side < sides_of(file_, c); ++side)
       if (is_outer({c, side}) && named.count({cell_[static_cast<std::size_t>(c)], side}) == 0)
         sides.push_back({cell_[static_cast<std::size_t>(c)], side});
   return sides;
@@ -175,9 +177,9 @@ std::vector<SolidSide> PartOfFile::sides_without_set() const {
 
 Eigen::Vector3d PartOfFile::normal_of(const SolidSide& at) const {
   const std::vector<int> corners = files::corners_of(mesh_.cells[static_cast<std::size_t>(at.cell)], at.side);
-  const Eigen::Vector3d start = mesh_.nodes.col(corners[0]);
-  const Eigen::Vector3d a = mesh_.nodes.col(corners[1]) - start, b = mesh_.nodes.col(corners[2]) - start;
-  return a.cross(b).normalized();
+  const auto node = [&](std::size_t k) -> Eigen::Vector3d { return mesh_.nodes.col(corners[k]); };
+  if (corners.size() == 3) return (node(1) - node(0)).cross(node(2) - node(0)).normalized();
+  return (node(2) - node(0)).cross(node(3) - node(1)).normalized();
 }
 
 void PartOfFile::add_other_faces() {
@@ -188,8 +190,8 @@ void PartOfFile::add_other_faces() {
     normals.push_back(normal_of(sides[i]));
     const std::vector<int> corners =
         files::corners_of(mesh_.cells[static_cast<std::size_t>(sides[i].cell)], sides[i].side);
-    for (std::size_t k = 0; k < 3; ++k)
-      at_edge[std::minmax(corners[k], corners[(k + 1) % 3])].push_back(static_cast<int>(i));
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      at_edge[std::minmax(corners[k], corners[(k + 1) % corners.size()])].push_back(static_cast<int>(i));
   }
   Groups groups(sides.size());
   for (const auto& [edge, around] : at_edge)

@@ -1,4 +1,4 @@
-// The bodies that tetrahedra of a mesh file are, and the faces by which they can be named.
+// The bodies that the cells of a mesh file are, and the faces by which they can be named.
 //
 // Cells that sides do not join are bodies of their own, whatever nodes they share. Faces of a body are
 //     the side sets of the file        those sides that belong to one cell of the body only

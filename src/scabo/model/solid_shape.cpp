@@ -26,6 +26,11 @@ struct Names {
 
 }  // namespace
 
+bool has_hexahedra(const SolidShape& shape) {
+  return std::holds_alternative<SolidBox>(shape) || std::holds_alternative<SolidTube>(shape) ||
+         std::holds_alternative<SolidExtrusion>(shape);
+}
+
 std::vector<std::string> face_names(const SolidShape& shape) { return std::visit(Names{}, shape); }
 
 }  // namespace scabo::model

@@ -47,10 +47,13 @@ struct SolidExtrusion {
 
 using SolidShape = std::variant<SolidBox, SolidCylinder, SolidTube, SolidSphere, SolidExtrusion>;
 
+/// Whether it can be divided into hexahedra or wedges.
+bool has_hexahedra(const SolidShape& shape);
+
 /// In the order of their creation by mesh::solid_of_shape.
 std::vector<std::string> face_names(const SolidShape& shape);
 
-/// Distances of nodes of the bricks that are divided into tetrahedra.
+/// Distances of nodes of the bricks that are divided into tetrahedra, or are cells themselves.
 struct SolidSizes {
   struct Near {
     Eigen::Vector3d point;
@@ -59,6 +62,7 @@ struct SolidSizes {
   };
   double size = 0.0;  ///< at most, > 0
   std::vector<Near> near;
+  bool hexahedra = false;  ///< and wedges, instead of tetrahedra: of boxes, tubes and extrusions
 };
 
 }  // namespace scabo::model

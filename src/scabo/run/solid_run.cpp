@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "scabo/base/interruption.hpp"
 #include "scabo/run/checkpoint_pace.hpp"
@@ -16,12 +17,19 @@ namespace {
 /// sparse factors in space.
 constexpr double unit_dofs = 95232.0, unit_bytes = 0.9e9, unit_seconds = 3.0;
 constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 1.6e-5;  // of elements and fields; of elements
+constexpr double bytes_of_super_element = 1.5e5;                  // of each distinct one
 constexpr double field_seconds = 3e-6;                            // for each degree of freedom and increment
 constexpr double sweep_seconds = 3e-8;                            // for each degree of freedom and row of W
 /// For the square of the rows of W on one body: the block of its flexibility, of which a corner has the four nodes of a
 /// quadratic face, and W twice.
 constexpr double contact_bytes = 8.0 * (4.0 * 4.0 + 2.0);
 constexpr double row_seconds = 2e-8, solve_seconds = 1e-10;  // of an increment, for their square and their cube
+
+double count_distinct(const element::SuperElements& solved) {
+  std::set<std::shared_ptr<const element::SolidSuperElement>> cells(solved.begin(), solved.end());
+  cells.erase(nullptr);
+  return static_cast<double>(cells.size());
+}
 
 }  // namespace
 
@@ -43,8 +51,12 @@ Plan plan_of(const analysis::PosedSolids& posed) {
     const mesh::SolidMesh& mesh = posed.model.bodies[b].mesh;
     const auto n = 3.0 * static_cast<double>(mesh.nodes.cols());
     plan.sizes.nodes += static_cast<int>(mesh.nodes.cols());
-    plan.sizes.finite_elements += static_cast<int>(mesh.cells.size());
+    const auto super = static_cast<int>(std::count_if(
+        mesh.cells.begin(), mesh.cells.end(), [](const auto& cell) { return mesh::is_super_element(cell.size()); }));
+    plan.sizes.super_elements += super;
+    plan.sizes.finite_elements += static_cast<int>(mesh.cells.size()) - super;
     if (posed.model.bodies[b].rigid_at) continue;
+    factors += bytes_of_super_element * count_distinct(posed.model.bodies[b].solved);
     factors += unit_bytes * std::pow(n / unit_dofs, 1.42);
     fields += bytes_of_dof * n;
     plan.cells += seconds_of_dof * n;

@@ -1,15 +1,18 @@
 #include "scabo/system/solid_cut.hpp"
 
+#include "scabo/base/cell_topology.hpp"
+
 namespace scabo::system {
 
 SolidCut cut_of(const mesh::SolidMesh& mesh, const element::Mat6& D, const Eigen::Vector3d& point,
-                const Eigen::Vector3d& normal) {
+                const Eigen::Vector3d& normal, const element::SuperElements& solved) {
   SolidCut cut;
   cut.normal = normal;
   const auto nodes = static_cast<std::size_t>(mesh.nodes.cols());
   std::vector<char> of_below(nodes, 0), of_above(nodes, 0);
   for (const std::vector<int>& cell : mesh.cells) {
-    const Eigen::Vector3d centre = mesh::nodes_of(mesh, cell).leftCols<4>().rowwise().mean();
+    const auto corners = static_cast<Eigen::Index>(CellTopology::of(cell.size()).corners);
+    const Eigen::Vector3d centre = mesh::nodes_of(mesh, cell).leftCols(corners).rowwise().mean();
     cut.above.push_back((centre - point).dot(normal) > 0.0);
     for (const int node : cell) (cut.above.back() ? of_above : of_below)[static_cast<std::size_t>(node)] = 1;
   }
@@ -22,7 +25,8 @@ SolidCut cut_of(const mesh::SolidMesh& mesh, const element::Mat6& D, const Eigen
     for (std::size_t i = 0; i < cell.size(); ++i)
       if (cut.on[static_cast<std::size_t>(cell[i])]) moved.segment<3>(3 * static_cast<Eigen::Index>(i)) = normal;
     if (moved.isZero(0.0)) continue;
-    const Vector forces = element::tetrahedron_stiffness(mesh::nodes_of(mesh, cell), D) * moved;
+    const Vector forces =
+        element::cell_stiffness(mesh::nodes_of(mesh, cell), D, element::super_element_of(solved, c)) * moved;
     cut.stiffness += moved.dot(forces);
     for (std::size_t i = 0; i < cell.size(); ++i)
       cut.forces.segment<3>(3 * cell[i]) += forces.segment<3>(3 * static_cast<Eigen::Index>(i));

@@ -10,7 +10,7 @@
 // along sides of elements, which need not lie in the plane: both parts are moved as a whole.
 #pragma once
 
-#include "scabo/element/space/tetrahedron.hpp"
+#include "scabo/element/space/solid_cell.hpp"
 #include "scabo/mesh/space/solid_mesh.hpp"
 
 namespace scabo::system {
@@ -29,8 +29,8 @@ struct SolidCut {
   }
 };
 
-/// `normal`: of length 1.
+/// `normal`: of length 1. `solved`: super-elements of the body.
 SolidCut cut_of(const mesh::SolidMesh& mesh, const element::Mat6& D, const Eigen::Vector3d& point,
-                const Eigen::Vector3d& normal);
+                const Eigen::Vector3d& normal, const element::SuperElements& solved = {});
 
 }  // namespace scabo::system

@@ -24,10 +24,11 @@ PairSide side_of(const std::vector<mesh::WeightedNode>& nodes, std::size_t part)
 
 }  // namespace
 
-Stiffness solid_stiffness(const mesh::SolidMesh& mesh, const element::Mat6& D) {
+Stiffness solid_stiffness(const mesh::SolidMesh& mesh, const element::Mat6& D, const element::SuperElements& solved) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (const std::vector<int>& cell : mesh.cells) {
-    const Matrix K = element::tetrahedron_stiffness(mesh::nodes_of(mesh, cell), D);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const std::vector<int>& cell = mesh.cells[c];
+    const Matrix K = element::cell_stiffness(mesh::nodes_of(mesh, cell), D, element::super_element_of(solved, c));
     for (Eigen::Index j = 0; j < K.cols(); ++j)
       for (Eigen::Index i = 0; i < K.rows(); ++i)
         entries.emplace_back(
@@ -50,10 +51,17 @@ Constraint held_along_axis(int node, int axis, double value) {
   return constraint;
 }
 
-Vector volume_forces(const mesh::SolidMesh& mesh, const Eigen::Vector3d& per_volume) {
+Vector volume_forces(const mesh::SolidMesh& mesh, const Eigen::Vector3d& per_volume,
+                     const element::SuperElements& solved) {
   Vector forces = Vector::Zero(space.count(mesh.nodes.cols()));
-  for (const std::vector<int>& cell : mesh.cells)
-    add_forces(cell, per_volume * element::volume_weights(mesh::nodes_of(mesh, cell)).transpose(), forces);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const std::vector<int>& cell = mesh.cells[c];
+    const Matrix nodes = mesh::nodes_of(mesh, cell);
+    if (const element::SolidSuperElement* of = element::super_element_of(solved, c))
+      add_forces(cell, element::loads_of_volume_force(nodes, *of, per_volume).h.reshaped(3, nodes.cols()), forces);
+    else
+      add_forces(cell, per_volume * element::cell_volume_weights(nodes).transpose(), forces);
+  }
   return forces;
 }
 
@@ -126,7 +134,7 @@ Vector moment_forces(const mesh::SolidMesh& mesh, const std::vector<mesh::SolidF
 SolidVolume volume_of(const mesh::SolidMesh& mesh) {
   SolidVolume of{Vector::Zero(mesh.nodes.cols())};
   for (const std::vector<int>& cell : mesh.cells)
-    of.weights(cell) += element::volume_weights(mesh::nodes_of(mesh, cell));
+    of.weights(cell) += element::cell_volume_weights(mesh::nodes_of(mesh, cell));
   of.volume = of.weights.sum();
   of.centroid = mesh.nodes * of.weights / of.volume;
   return of;
@@ -145,22 +153,36 @@ Vector forces_on_rigid(const mesh::SolidMesh& mesh, const Eigen::Vector3d& force
   return forces + with_moment(mesh.nodes, of.centroid, of_rotations, moment);
 }
 
-Vector thermal_forces(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion, const Vector& change) {
+Vector thermal_forces(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion, const Vector& change,
+                      const element::SuperElements& solved) {
   Vector forces = Vector::Zero(space.count(mesh.nodes.cols()));
   const element::Vec6 stress = D.leftCols<3>().rowwise().sum() * expansion;
-  for (const std::vector<int>& cell : mesh.cells)
-    add_forces(cell,
-               element::forces_of_stress(mesh::nodes_of(mesh, cell), stress, change(cell)).reshaped(3, cell.size()),
-               forces);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const std::vector<int>& cell = mesh.cells[c];
+    const Matrix nodes = mesh::nodes_of(mesh, cell);
+    const element::SolidSuperElement* of = element::super_element_of(solved, c);
+    const Vector of_cell = of ? element::loads_of_stress(nodes, *of, stress, change(cell)).h
+                              : element::forces_of_stress(nodes, stress, change(cell));
+    add_forces(cell, of_cell.reshaped(3, nodes.cols()), forces);
+  }
   return forces;
 }
 
-double held_thermal_energy(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion,
-                           const Vector& change) {
-  double squares = 0.0;
-  for (const std::vector<int>& cell : mesh.cells)
-    squares += element::integral_of_square(mesh::nodes_of(mesh, cell), change(cell));
-  return 0.5 * expansion * expansion * D.topLeftCorner<3, 3>().sum() * squares;
+double held_thermal_energy(const mesh::SolidMesh& mesh, const element::Mat6& D, double expansion, const Vector& change,
+                           const element::SuperElements& solved) {
+  const element::Vec6 stress = D.leftCols<3>().rowwise().sum() * expansion;
+  const double of_square = 0.5 * expansion * expansion * D.topLeftCorner<3, 3>().sum();
+  double energy = 0.0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const std::vector<int>& cell = mesh.cells[c];
+    const Matrix nodes = mesh::nodes_of(mesh, cell);
+    if (const element::SolidSuperElement* of = element::super_element_of(solved, c))
+      energy += of_square * element::super_element_integral_of_square(nodes, change(cell)) -
+                0.5 * element::work_inside(*of, element::loads_of_stress(nodes, *of, stress, change(cell)));
+    else
+      energy += of_square * element::integral_of_square(nodes, change(cell));
+  }
+  return energy;
 }
 
 std::vector<PairPoints> points_of(const std::vector<mesh::FacetPair>& pairs, std::size_t part_a, std::size_t part_b) {

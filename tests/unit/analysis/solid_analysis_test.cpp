@@ -1,10 +1,13 @@
-// Bodies of tetrahedra in contact on faces that do not match, where statics or a constant stress gives the answer.
+// Bodies of tetrahedra, wedges and hexahedra in contact on faces that do not match, where statics or a constant stress
+// gives the answer.
 #include "scabo/analysis/space/solid_analysis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "scabo/system/solid_part.hpp"
@@ -37,14 +40,21 @@ std::vector<SolidIncrement> increments_of(const SolidModel& model, const std::ve
   return made;
 }
 
+/// Nodes of the cells of the lower and the upper block.
+struct Kinds {
+  Kinds(int of_both) : lower(of_both), upper(of_both) {}
+  Kinds(int of_lower, int of_upper) : lower(of_lower), upper(of_upper) {}
+  int lower, upper;
+};
+
 /// A block on another one; the lower one is 2 x 2 x 1, the upper one of size `size` in the middle of it.
 struct Stack {
-  explicit Stack(int nodes_of_cell, double size = 2.0, double moved = 0.2) {
+  explicit Stack(const Kinds& kinds, double size = 2.0, double moved = 0.2) {
     const double low = 1.0 - 0.5 * size, high = 1.0 + 0.5 * size;
-    model.bodies.push_back(
-        {test::solid_block({0, 0, -1}, {2, 2, 0}, {3, 3, 2}, nodes_of_cell, moved, 1), steel, 0.3, {}});
-    model.bodies.push_back(
-        {test::solid_block({low, low, 0}, {high, high, 1}, {4, 4, 2}, nodes_of_cell, moved, 2), steel, 0.3, {}});
+    model.bodies.push_back(with_super_elements(
+        {test::solid_block({0, 0, -1}, {2, 2, 0}, {3, 3, 2}, kinds.lower, moved, 1), steel, 0.3, {}}));
+    model.bodies.push_back(with_super_elements(
+        {test::solid_block({low, low, 0}, {high, high, 1}, {4, 4, 2}, kinds.upper, moved, 2), steel, 0.3, {}}));
     SolidContact contact;
     contact.a = {0, test::facets_at(model.bodies[0].mesh, {0, 0, 0}, upwards)};
     contact.b = {1, test::facets_at(model.bodies[1].mesh, {0, 0, 0}, -upwards)};
@@ -70,14 +80,15 @@ Eigen::Vector3d total_force(const SolidIncrement& increment) {
   return sum;
 }
 
-class Stacks : public testing::TestWithParam<int> {};
+class Stacks : public testing::TestWithParam<Kinds> {};
+class MixedStacks : public testing::TestWithParam<Kinds> {};
 
 /// Uniform pressure on blocks of one material, the sides free: sigma_zz = -p everywhere, and every pair has the
 /// pressure p, whatever the friction.
-TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
+void expect_constant_stress(const Kinds& kinds) {
   constexpr double p = 1e6;
   for (const std::optional<double> friction : {std::optional(0.0), std::optional(0.4), std::optional<double>()}) {
-    Stack stack(GetParam());
+    Stack stack(kinds);
     stack.model.contacts[0].law.bond = !friction;
     stack.model.contacts[0].law.friction = friction.value_or(0.0);
     hold_plane(stack.model.bodies[0], 2, -1.0, {2});
@@ -85,7 +96,7 @@ TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
     stack.load(system::pressure_forces(stack.model.bodies[1].mesh, stack.top(), p));
     const std::vector<SolidIncrement> increments = stack.solve({Vector::Ones(1)});
     ASSERT_EQ(increments.back().status, contact::Status::solved) << increments.back().reason;
-    EXPECT_EQ(increments.back().pairs.size(), 25);
+    EXPECT_GE(increments.back().pairs.size(), 16);
     double largest = 0.0;  // force of a pair, to whose rounding all are known
     for (const SolidPair& pair : increments.back().pairs) largest = std::max(largest, pair.force.norm());
     for (const SolidPair& pair : increments.back().pairs) {
@@ -101,6 +112,13 @@ TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) {
     }
   }
 }
+
+TEST_P(Stacks, PassAConstantStressThroughFacesThatDoNotMatch) { expect_constant_stress(GetParam()); }
+TEST_P(MixedStacks, PassAConstantStressThroughFacesThatDoNotMatch) { expect_constant_stress(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(OfTwoKinds, MixedStacks,
+                         testing::Values(Kinds(10, 20), Kinds(20, 10), Kinds(15, 20), Kinds(20, 15), Kinds(10, 15),
+                                         Kinds(15, 10), Kinds(4, 20), Kinds(20, 4)));
 
 /// The block is pressed on by its weight and pushed: no sliding below mu N, and no equilibrium above.
 TEST_P(Stacks, SlideWhereThePushExceedsFriction) {
@@ -208,6 +226,7 @@ TEST_P(Stacks, GiveTheSameTurnedMovedAndInOtherUnits) {
   for (SolidBody& body : stack.model.bodies) {
     body.mesh.nodes = millimetres * (turn * (body.mesh.nodes.colwise() + Eigen::Vector3d(20, -30, 10)));
     body.young *= meganewtons / (millimetres * millimetres);
+    body = with_super_elements(std::move(body));
   }
   Vector& forces = stack.model.loads[0][1];
   forces = (meganewtons * (turn * forces.reshaped(3, forces.size() / 3))).eval().reshaped().eval();
@@ -240,7 +259,78 @@ TEST_P(Stacks, HangOnATie) {
   EXPECT_LT((reaction - total_force(increments.back())).norm(), 1e-9 * density_weight);
 }
 
-INSTANTIATE_TEST_SUITE_P(LinearAndQuadratic, Stacks, testing::Values(4, 10));
+INSTANTIATE_TEST_SUITE_P(OfOneKind, Stacks, testing::Values(Kinds(4), Kinds(10), Kinds(15), Kinds(20)));
+
+/// Displacement and stress of a force in a body without end (Kelvin); E = 1, nu = 0.3.
+struct PointForce {
+  Eigen::Vector3d at{0.3, 0.4, 1.1}, force{1.0, 0.5, 8.0};
+
+  Eigen::Vector3d displacement(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d r = x - at;
+    const double R = r.norm(), G = 0.5 / 1.3;
+    return (1.8 * force / R + r * r.dot(force) / (R * R * R)) / (16.0 * std::numbers::pi * G * 0.7);
+  }
+  Eigen::Matrix3d stress(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d r = x - at;
+    const double R = r.norm(), rp = r.dot(force);
+    return -(0.4 * (r * force.transpose() + force * r.transpose() - rp * Eigen::Matrix3d::Identity()) / std::pow(R, 3) +
+             3.0 * rp * r * r.transpose() / std::pow(R, 5)) /
+           (8.0 * std::numbers::pi * 0.7);
+  }
+};
+
+/// Two blocks tied on faces of 4 f and 5 f quadrilaterals along a side, under the tractions of a force above them: the
+/// error of the pressures at inner corners, mean square, over the largest.
+double pressure_error(int f) {
+  const PointForce field;
+  SolidModel model;
+  for (const bool upper : {false, true}) {
+    const int n = (upper ? 5 : 4) * f;
+    const double low = upper ? 0.0 : -0.5;
+    SolidBody body{test::solid_block({0, 0, low}, {1, 1, low + 0.5}, {n, n, 2 * f}, 20), 1.0, 0.3, {}};
+    std::vector<mesh::SolidFacet> outer;
+    for (const mesh::SolidFacet& facet : mesh::boundary_facets(body.mesh)) {
+      const Matrix x = mesh::nodes_of(body.mesh, facet);
+      if (x.row(2).cwiseAbs().maxCoeff() > 1e-9 && x.row(2).maxCoeff() > -0.5 + 1e-9) outer.push_back(facet);
+    }
+    for (const int node : upper ? std::vector<int>{} : test::nodes_at(body.mesh, 2, -0.5))
+      for (int axis = 0; axis < 3; ++axis) {
+        body.supports.push_back(
+            system::held_along_axis(node, axis, field.displacement(body.mesh.nodes.col(node))[axis]));
+        body.supports.back().support = 0;
+      }
+    Vector forces = system::varying_traction_forces(
+        body.mesh, outer, [&](const Eigen::Vector3d& x, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
+          return field.stress(x) * normal;
+        });
+    model.loads.push_back({Vector(), Vector()});
+    model.loads.back()[upper ? 1 : 0] = std::move(forces);
+    model.bodies.push_back(with_super_elements(std::move(body)));
+  }
+  SolidContact tie;
+  tie.a = {0, test::facets_at(model.bodies[0].mesh, {0, 0, 0}, upwards)};
+  tie.b = {1, test::facets_at(model.bodies[1].mesh, {0, 0, 0}, -upwards)};
+  model.contacts.push_back(tie);
+  const SolidIncrement made = increments_of(model, {{Vector::Ones(2), Vector::Ones(1)}}).back();
+  EXPECT_EQ(made.status, contact::Status::solved) << made.reason;
+  double squares = 0.0, area = 0.0, largest = 0.0;
+  for (const SolidPair& pair : made.pairs) {
+    const Eigen::Vector3d x = model.bodies[pair.on_a ? 0 : 1].mesh.nodes.col(pair.corner);
+    const double exact = -field.stress(x)(2, 2), error = pair.normal_force() / pair.area - exact;
+    largest = std::max(largest, std::abs(exact));
+    if (x.head<2>().minCoeff() < 1e-9 || x.head<2>().maxCoeff() > 1.0 - 1e-9) continue;
+    squares += pair.area * error * error;
+    area += pair.area;
+  }
+  return std::sqrt(squares / area) / largest;
+}
+
+TEST(TiedHexahedra, CarryThePressureOfAForceAboveThem) {
+  const double coarse = pressure_error(1), fine = pressure_error(2);
+  EXPECT_LT(coarse, 1.6e-2);
+  EXPECT_LT(fine, 3.6e-3);
+  EXPECT_LT(fine, coarse / 4.0);
+}
 
 /// Held at six degrees of freedom only: no stress, so no energy, and no reactions.
 TEST(BlockInSpace, ExpandsFreelyUnderALinearTemperature) {

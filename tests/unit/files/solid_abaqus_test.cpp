@@ -202,6 +202,32 @@ TEST_P(SplitElements, FillTheirBlock) {
   EXPECT_NEAR(below, 4.0, 1e-14);
 }
 
+/// Where that is wanted: cells in the order of the file, their sides named by surfaces.
+TEST_P(SplitElements, RemainWholeIfTheyAreKept) {
+  const auto [quadratic, wedges] = GetParam();
+  std::string text = bricks(quadratic, wedges, [](const Eigen::Vector3d& x) { return x; });
+  text += "*SURFACE, NAME=below\n";
+  for (int k = 1; k <= (wedges ? 8 : 4); ++k) text += fmt::format("{}, S1\n", k);
+  const ImportedSolidMesh mesh = parse_solid_abaqus(text, "bricks.inp", {}, Bricks::kept);
+  EXPECT_EQ(mesh.cells.size(), wedges ? 16 : 8);
+  EXPECT_TRUE(mesh.remarks.empty());
+  for (const ImportedSolidCell& cell : mesh.cells) {
+    EXPECT_EQ(sides_of(cell), wedges ? 5 : 6);
+    EXPECT_EQ(cell.nodes.size(), (wedges ? 6u : 8u) + (quadratic ? (wedges ? 9u : 12u) : 0u));
+  }
+  double below = 0.0;
+  for (const SolidSide& side : mesh.side_sets.at(0).sides)
+    for (const std::vector<int>& corners :
+         triangles_of_side(mesh.cells[static_cast<std::size_t>(side.cell)], side.side)) {
+      const Eigen::Matrix3d x = mesh.nodes(Eigen::all, corners);
+      EXPECT_EQ(x.row(2).cwiseAbs().maxCoeff(), 0.0);
+      const Eigen::Vector3d area = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0));
+      EXPECT_LT(area.z(), 0.0);  // outwards
+      below += 0.5 * area.norm();
+    }
+  EXPECT_NEAR(below, 4.0, 1e-14);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, SplitElements,
                          testing::Values(std::pair(false, false), std::pair(true, false), std::pair(false, true),
                                          std::pair(true, true)));

@@ -76,10 +76,13 @@ TEST_P(Faces, OfTheSameMeshHaveTheAreasOfTheirCorners) {
                   upper = test::solid_block({0, 0, 0}, {2, 2, 1}, {2, 2, 1}, GetParam());
   const Face a{lower, test::facets_at(lower, {0, 0, 0}, up)}, b{upper, test::facets_at(upper, {0, 0, 0}, -up)};
   for (const FacetPair& pair : facet_pairs(a, b)) {
-    int facets = 0;
-    for (const SolidFacet& facet : b.facets)
-      facets += static_cast<int>(std::count(facet.begin(), facet.begin() + 3, pair.corner));
-    EXPECT_NEAR(pair.area, facets * 0.5 / 3.0, 1e-14);
+    double area = 0.0;
+    for (const SolidFacet& facet : b.facets) {
+      const auto corners = static_cast<std::ptrdiff_t>(corners_of(facet));
+      if (std::count(facet.begin(), facet.begin() + corners, pair.corner) > 0)
+        area += corners == 4 ? 1.0 / 4.0 : 0.5 / 3.0;
+    }
+    EXPECT_NEAR(pair.area, area, 1e-14);
   }
 }
 
@@ -113,7 +116,7 @@ TEST(QuadraticFaces, HavePairsWithoutWeightAtTheMiddlesOfEdgesOpposite) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(LinearAndQuadratic, Faces, testing::Values(4, 10));
+INSTANTIATE_TEST_SUITE_P(OfOneKind, Faces, testing::Values(4, 10, 15, 20));
 
 /// Half of the upper face hangs over: pairs exist where the faces have something in common, and a corner with next to
 /// nothing of it is united with another one.

@@ -8,14 +8,14 @@
 #include <set>
 
 #include "scabo/element/space/facet.hpp"
-#include "scabo/element/space/tetrahedron.hpp"
+#include "scabo/element/space/solid_cell.hpp"
 
 namespace scabo::mesh {
 namespace {
 
 double volume_of(const SolidMesh& mesh) {
   double sum = 0.0;
-  for (const std::vector<int>& cell : mesh.cells) sum += element::volume_weights(nodes_of(mesh, cell)).sum();
+  for (const std::vector<int>& cell : mesh.cells) sum += element::cell_volume_weights(nodes_of(mesh, cell)).sum();
   return sum;
 }
 
@@ -69,6 +69,20 @@ const std::vector<Expected>& shapes() {
         {"inside", 6 * std::numbers::pi},
         {"outside", 9 * std::numbers::pi}},
        2e-4},
+      {"graded_box_of_hexahedra",
+       model::SolidBox{{-1, -1, -1}, {2, 2, 1}},
+       {0.7, {{{0, 0, 0}, 0.05, 0.5}}, true},
+       4.0,
+       {{"left", 2}, {"right", 2}, {"front", 2}, {"back", 2}, {"bottom", 4}, {"top", 4}}},
+      {"tube_of_hexahedra",
+       model::SolidTube{{0, 0, 0}, {0, 3, 0}, 1, 1.5},
+       {0.3, {}, true},
+       std::numbers::pi * 1.25 * 3,
+       {{"bottom", std::numbers::pi * 1.25},
+        {"top", std::numbers::pi * 1.25},
+        {"inside", 6 * std::numbers::pi},
+        {"outside", 9 * std::numbers::pi}},
+       2e-4},
       {"sphere",
        sphere(2, {0, 0, 0}),
        {0.5, {}},
@@ -106,7 +120,7 @@ TEST_P(Shapes, AreClosedAndNotFolded) {
   const Expected& expected = shapes()[GetParam()];
   const ShapedSolid solid = solid_of_shape(expected.shape, expected.sizes);
   for (const std::vector<int>& cell : solid.mesh.cells)
-    ASSERT_GT(element::least_jacobian(nodes_of(solid.mesh, cell)), 1e-4);
+    ASSERT_GT(element::least_of_cell(nodes_of(solid.mesh, cell)), 1e-4);
   std::set<SolidFacet> of_faces;
   std::size_t count = 0;
   for (const auto& [name, facets] : solid.faces) {

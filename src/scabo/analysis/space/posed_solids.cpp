@@ -52,6 +52,29 @@ class Posing {
   std::vector<Diagnostic> mistakes_;
 };
 
+namespace {
+
+/// Why a cell has no stiffness, if there is one.
+std::optional<std::string> folded_cell(const model::SpaceBody& of, const mesh::SolidMesh& mesh) {
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const double least = element::least_of_cell(mesh::nodes_of(mesh, mesh.cells[c]));
+    if (least > 0.0) continue;
+    if (!of.mesh || of.made_of_shape) return "its curved face folds elements of this size: give it a smaller 'size'";
+    if (mesh::is_super_element(mesh.cells[c].size()))
+      return fmt::format(
+          "element {} of its mesh file is so distorted that a part of its sides cannot be seen from its "
+          "middle: correct its nodes, or leave out 'kind'",
+          of.mesh->cells[c].number);
+    return fmt::format(
+        "element {} of its mesh file has a Jacobian of {:.3g}, which must be positive everywhere: "
+        "correct its nodes",
+        of.mesh->cells[c].number, least);
+  }
+  return {};
+}
+
+}  // namespace
+
 void Posing::add_body(const model::SpaceBody& of) {
   mesh::ShapedSolid shaped;
   if (of.shape) {
@@ -82,22 +105,14 @@ void Posing::add_body(const model::SpaceBody& of) {
     const auto& material = model_.materials[static_cast<std::size_t>(of.material)];
     body.young = material.young, body.poisson = material.poisson, body.expansion = material.expansion;
   }
-  for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
-    if (const double least = element::least_jacobian(mesh::nodes_of(body.mesh, body.mesh.cells[c])); !(least > 0.0)) {
-      mistakes_.push_back(
-          {of.source, of.mesh && !of.made_of_shape
-                          ? fmt::format("element {} of its mesh file has a Jacobian of {:.3g}, which must be "
-                                        "positive everywhere: correct its nodes",
-                                        of.mesh->cells[c].number, least)
-                          : "its curved face folds elements of this size: give it a smaller 'size'"});
-      break;
-    }
+  if (auto wrong = folded_cell(of, body.mesh)) return mistakes_.push_back({of.source, *std::move(wrong)});
   if (const auto cells = of.mesh && !of.made_of_shape ? mesh::overlapping_cells(body.mesh) : std::nullopt)
     mistakes_.push_back(
         {of.source, fmt::format("elements {} and {} of its mesh file lie on the same side of a face that "
                                 "both have: leave one of them out",
                                 of.mesh->cells[static_cast<std::size_t>((*cells)[0])].number,
                                 of.mesh->cells[static_cast<std::size_t>((*cells)[1])].number)});
+  if (!of.rigid) body = with_super_elements(std::move(body));
   boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});
   of_shapes_.push_back(std::move(shaped.faces));
   posed_.model.bodies.push_back(std::move(body));
@@ -212,11 +227,12 @@ void Posing::add_load_on_bodies(const model::SpaceLoad& load, std::vector<Vector
     if (heats && !of.rigid) {
       Vector change = (posed.mesh.nodes.transpose() * load.vector).array() + load.constant;
       forces[b] = system::thermal_forces(posed.mesh, element::elasticity_in_space(posed.young, posed.poisson),
-                                         posed.expansion, change);
+                                         posed.expansion, change, posed.solved);
       posed_.model.temperatures.back()[b] = std::move(change);
     } else if (!heats) {
       const double density = of.rigid ? of.density : model_.materials[static_cast<std::size_t>(of.material)].density;
-      forces[b] = system::volume_forces(posed.mesh, density * load.vector);
+      forces[b] = system::volume_forces(posed.mesh, density * load.vector, posed.solved);
+      posed_.model.per_volume.back()[b] = density * load.vector;
     }
   }
 }
@@ -290,6 +306,7 @@ void Posing::add_load(const model::SpaceLoad& load) {
   using Kind = model::SpaceLoad::Kind;
   std::vector<Vector>& forces = posed_.model.loads.emplace_back(model_.bodies.size());
   posed_.model.temperatures.emplace_back(model_.bodies.size());
+  posed_.model.per_volume.emplace_back(model_.bodies.size(), Eigen::Vector3d::Zero());
   if (load.kind == Kind::gravity || load.kind == Kind::temperature)
     add_load_on_bodies(load, forces);
   else if (load.kind == Kind::at_rest)
@@ -325,7 +342,7 @@ void Posing::add_preload(std::size_t number) {
   };
   SolidPreload preload{
       static_cast<int>(number),
-      system::cut_of(at.mesh, element::elasticity_in_space(at.young, at.poisson), given.point, given.normal),
+      system::cut_of(at.mesh, element::elasticity_in_space(at.young, at.poisson), given.point, given.normal, at.solved),
       given.force, given.shortening};
   if (preload.cut.stiffness == 0.0) return mistake("has all of it on one side: move 'point', or make 'size' smaller");
   for (const model::SpaceSpring& spring : model_.springs)

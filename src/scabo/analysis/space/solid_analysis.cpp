@@ -102,7 +102,7 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const SolidBody& body = model.bodies[b];
     if (body.rigid_at) continue;
-    system::Stiffness stiffness = system::solid_stiffness(body.mesh, elasticity_of(body));
+    system::Stiffness stiffness = system::solid_stiffness(body.mesh, elasticity_of(body), body.solved);
     for (const system::SolidSpring& spring : springs[b])
       stiffness.springs.matrix =
           stiffness.springs.none() ? spring.on_nodes : linalg::SparseMatrix(stiffness.springs.matrix + spring.on_nodes);
@@ -352,7 +352,7 @@ double initial_energy_of_solid(const PreparedSolids& prepared, const SolidFactor
       energy += preload.cut.energy(applied.shortening[static_cast<Eigen::Index>(i)], u);
   if (applied.heated[b].size() == 0) return energy;
   const SolidBody& body = prepared.model.bodies[b];
-  energy += system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b]);
+  energy += system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b], body.solved);
   for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
     if (prepared.model.temperatures[load][b].size() > 0)
       energy -= factors.loads[static_cast<Eigen::Index>(load)] * u.dot(prepared.model.loads[load][b]);
@@ -496,6 +496,21 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
 }
 
 }  // namespace
+
+SolidBody with_super_elements(SolidBody body, int threads) {
+  body.solved = element::solve_super_elements(body.mesh, elasticity_of(body), threads);
+  return body;
+}
+
+element::InsideCells inside_cells_of(const SolidModel& model, const SolidIncrement& increment, std::size_t body) {
+  const element::Mat6 D = elasticity_of(model.bodies[body]);
+  element::InsideCells inside;
+  inside.heated = increment.heated[body];
+  inside.stress = model.bodies[body].expansion * D.leftCols<3>().rowwise().sum();
+  for (std::size_t load = 0; load < model.per_volume.size(); ++load)
+    inside.per_volume += increment.factors.loads[static_cast<Eigen::Index>(load)] * model.per_volume[load][body];
+  return inside;
+}
 
 std::vector<int> count_pairs(const SolidModel& model) {
   std::vector<int> counts(model.contacts.size(), 0);

@@ -1,10 +1,10 @@
 // Static analysis of elastic and rigid bodies in space with frictional contact and ties between faces that do not
 // match.
 //
-// Bodies are tetrahedra as finite elements, or rigid (system/rigid_solid.hpp). Every contact gives pairs
-// (mesh/space/facet_pairs.hpp); the bodies are condensed to them, and an increment is one contact problem
-// (contact/problem.hpp) in which q holds the gaps, the motion under loads and supports, and less the slip so far. Small
-// displacements and rotations.
+// Bodies are tetrahedra as finite elements, hexahedra and wedges as super-elements, or rigid (system/rigid_solid.hpp).
+// Every contact gives pairs (mesh/space/facet_pairs.hpp); the bodies are condensed to them, and an increment is one
+// contact problem (contact/problem.hpp) in which q holds the gaps, the motion under loads and supports, and less the
+// slip so far. Small displacements and rotations.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,6 +19,7 @@
 #include "scabo/contact/certificate.hpp"
 #include "scabo/contact/laws/evolution.hpp"
 #include "scabo/contact/solution.hpp"
+#include "scabo/element/space/solid_cell.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
 #include "scabo/model/contact.hpp"
 #include "scabo/system/contact_system.hpp"
@@ -34,8 +35,12 @@ struct SolidBody {
   double expansion = 0.0;                         ///< strain per change of temperature
   /// It does not deform; `supports` are system::held_motion of this point.
   std::optional<Eigen::Vector3d> rigid_at = {};
-  std::string name = {};  ///< in messages
+  std::string name = {};               ///< in messages
+  element::SuperElements solved = {};  ///< of an elastic body
 };
+
+/// The body with its super-elements solved.
+SolidBody with_super_elements(SolidBody body, int threads = 1);
 
 /// Two faces of different bodies.
 struct SolidContact {
@@ -70,6 +75,9 @@ struct SolidModel {
   /// [load][body]: of a change of temperature, that of the nodes at factor 1; empty where there is none. `loads` has
   /// its forces. As long as `loads`, or empty.
   std::vector<std::vector<Vector>> temperatures = {};
+  /// [load][body]: force per volume at factor 1, which `loads` has too: fields inside super-elements depend on it. As
+  /// long as `loads`, or empty.
+  std::vector<std::vector<Eigen::Vector3d>> per_volume = {};
   std::vector<SolidPreload> preloads = {};
   std::vector<SolidSpringOfBody> springs = {};
 };
@@ -167,6 +175,9 @@ struct SolidOptions {
   /// Told of every increment as soon as it is known, with the state after it, which an unsolved one does not change.
   std::function<void(const SolidIncrement&, const SolidState&)> on_increment;
 };
+
+/// What acts inside the cells of an elastic body after an increment.
+element::InsideCells inside_cells_of(const SolidModel& model, const SolidIncrement& increment, std::size_t body);
 
 /// Number of pairs of every contact.
 std::vector<int> count_pairs(const SolidModel& model);

@@ -1,5 +1,5 @@
-// Integrals over facets of bodies in space: triangles with 3 or 6 nodes (geometry::SimplexBasis), 3 x n, whose corners
-// are counter-clockwise seen from outside.
+// Integrals over facets of bodies in space: triangles with 3 or 6 nodes and quadrilaterals with 8
+// (geometry::FacetBasis), 3 x n, whose corners are counter-clockwise seen from outside.
 //
 // Of plane facets with straight edges exact; of curved ones the sums over the nodes are.
 #pragma once

@@ -16,17 +16,18 @@ namespace scabo::input {
 
 using namespace model;
 
-std::shared_ptr<const files::ImportedSolidMesh> SpaceReader::mesh_of_file(const Value& value) {
+std::shared_ptr<const files::ImportedSolidMesh> SpaceReader::mesh_of_file(const Value& value, bool hexahedra) {
   const auto name = read_text(report_, value);
   if (!name) return nullptr;
   const std::string path = (std::filesystem::path(model_.file).parent_path() / *name).string();
-  const auto [found, is_new] = meshes_.try_emplace(path);
+  const auto [found, is_new] = meshes_.try_emplace({path, hexahedra});
   if (!is_new) {
     if (!found->second) report_.told_elsewhere(value);
     return found->second;
   }
   try {
-    files::ImportedSolidMesh mesh = files::read_solid_mesh_file(path);
+    files::ImportedSolidMesh mesh =
+        files::read_solid_mesh_file(path, hexahedra ? files::Bricks::kept : files::Bricks::divided);
     for (const std::string& remark : mesh.remarks)
       model_.warnings.push_back({WarningKind::input, path, as_given(remark, path, *name)});
     found->second = std::make_shared<const files::ImportedSolidMesh>(std::move(mesh));
@@ -96,8 +97,9 @@ void SpaceReader::body(const Entry& entry) {
   const std::string folder = std::filesystem::path(model_.file).parent_path().string();
   const auto of = shape ? read_solid_shape(report_, *shape, folder) : std::nullopt;
   const std::size_t before = report_.count();
-  if (mesh) body.sizes = read_solid_sizes(report_, *mesh);
-  if (const auto* simple = of ? std::get_if<SolidShape>(&*of) : nullptr) body.shape = *simple;
+  const auto* simple = of ? std::get_if<SolidShape>(&*of) : nullptr;
+  if (simple) body.shape = *simple;
+  if (mesh) body.sizes = read_solid_sizes(report_, *mesh, !of || (simple && has_hexahedra(*simple)));
   const auto* cad = of ? std::get_if<CadShape>(&*of) : nullptr;
   if (cad == nullptr || !mesh || report_.count() > before) return model_.bodies.push_back(body);
   add_bodies_of_cad(*shape, *cad, std::move(body));
@@ -118,12 +120,17 @@ std::optional<int> SpaceReader::region_of(const Value& value, const files::Impor
 }
 
 void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
-  Later later = only_in_the_plane({"kind", "order", "centre", "tolerance", "min_size", "elements"});
+  Later later = only_in_the_plane({"order", "centre", "tolerance", "min_size", "elements"});
   for (const char* key : {"size", "refine"})
     later.emplace_back(key, "it divides a 'shape', and the body has none: give it one, or leave the key out");
-  const MapReader keys(report_, mesh, {"file", "region"}, "{file: part.msh}", later);
-  const auto name = keys.need("file"), region = keys.get("region");
-  const auto file = name ? mesh_of_file(*name) : nullptr;
+  const MapReader keys(report_, mesh, {"file", "region", "kind"}, "{file: part.msh}", later);
+  const auto name = keys.need("file"), region = keys.get("region"), kind = keys.get("kind");
+  const bool hexahedra = read_solid_kind(report_, kind);
+  const auto file = name ? mesh_of_file(*name, hexahedra) : nullptr;
+  if (file && hexahedra &&
+      std::none_of(file->cells.begin(), file->cells.end(),
+                   [](const files::ImportedSolidCell& cell) { return files::sides_of(cell) > 4; }))
+    report_.error(*kind, "the file has no hexahedra or wedges, which are read of .inp files: leave 'kind' out");
   const auto choice = file && region ? region_of(*region, *file) : std::optional(-1);
   if (!file || !choice) return model_.bodies.push_back(body);
   add_parts(mesh, solid_bodies(*file, *choice), std::move(body));

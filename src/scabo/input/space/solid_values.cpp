@@ -75,11 +75,24 @@ Vector3d needed_vector(Report& report, const MapReader& map, std::string_view ke
   return value ? read_vector_in_space(report, *value) : Vector3d::Zero();
 }
 
-SolidSizes read_solid_sizes(Report& report, const Value& value) {
-  Later later = only_in_the_plane({"kind", "order", "centre", "tolerance", "min_size", "elements", "region"});
+bool read_solid_kind(Report& report, const std::optional<Value>& value) {
+  const auto text = value ? read_text(report, *value) : std::nullopt;
+  if (text && *text != "tetrahedra" && *text != "hexahedra")
+    report.error(*value, fmt::format("must be tetrahedra or hexahedra in space, not {}", quoted_name(*text)));
+  return text == "hexahedra";
+}
+
+SolidSizes read_solid_sizes(Report& report, const Value& value, bool has_hexahedra) {
+  Later later = only_in_the_plane({"order", "centre", "tolerance", "min_size", "elements", "region"});
   later.emplace_back("file", "a body is either a 'shape' or the mesh of a file: leave one of the two out");
-  const MapReader map(report, value, {"size", "refine"}, "{size: 0.1}", later);
+  const MapReader map(report, value, {"size", "refine", "kind"}, "{size: 0.1}", later);
   SolidSizes sizes;
+  const auto kind = map.get("kind");
+  sizes.hexahedra = read_solid_kind(report, kind);
+  if (sizes.hexahedra && !has_hexahedra)
+    report.error(*kind,
+                 "of the shapes, box, tube and extrude are divided into hexahedra or wedges, all others into "
+                 "tetrahedra only: leave 'kind' out");
   sizes.size = read_positive(report, map.need("size"));
   const auto refine = map.get("refine");
   if (!refine) return sizes;

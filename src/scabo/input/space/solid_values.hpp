@@ -39,6 +39,9 @@ model::SolidRevolution read_revolution(Report& report, const Value& value);
 std::optional<model::AnyShape> read_solid_shape(Report& report, const Value& value, const std::string& folder);
 
 /// `{size: 0.1, refine: [{near: [0, 0, 0], size: 0.01}]}`.
-model::SolidSizes read_solid_sizes(Report& report, const Value& value);
+/// `has_hexahedra`: whether the shape can be divided into them.
+model::SolidSizes read_solid_sizes(Report& report, const Value& value, bool has_hexahedra);
+/// `kind` of a mesh: whether it is hexahedra.
+bool read_solid_kind(Report& report, const std::optional<Value>& value);
 
 }  // namespace scabo::input

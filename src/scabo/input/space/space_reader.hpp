@@ -32,7 +32,7 @@ class SpaceReader {
   int material_of(const Value& value);
   void body(const Entry& entry);
   std::optional<model::SpacePreload> preload(const Value& value);
-  std::shared_ptr<const files::ImportedSolidMesh> mesh_of_file(const Value& value);
+  std::shared_ptr<const files::ImportedSolidMesh> mesh_of_file(const Value& value, bool hexahedra);
   void add_bodies_of_file(const Value& mesh, model::SpaceBody body);
   void add_bodies_of_cad(const Value& shape, const model::CadShape& cad, model::SpaceBody body);
   void add_parts(const Value& value, std::vector<files::ImportedSolidMesh> parts, model::SpaceBody body);
@@ -91,7 +91,7 @@ class SpaceReader {
   Value root_;
   model::SpaceModel model_;
   ContactProperties properties_;
-  std::map<std::string, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
+  std::map<std::pair<std::string, bool>, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
   std::vector<std::pair<std::size_t, Value>> fits_;       ///< contacts, and the names of the steps of `fit_in`
   std::vector<std::pair<std::size_t, Value>> tightened_;  ///< bodies, and the names of the steps of their preloads
 };

@@ -13,20 +13,23 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/geometry/box_tree.hpp"
+#include "scabo/geometry/facet_basis.hpp"
 #include "scabo/geometry/frame.hpp"
-#include "scabo/geometry/simplex_basis.hpp"
 
 namespace scabo::mesh {
 
 namespace {
 
 using Eigen::Vector3d;
-using CommonPart = std::vector<Vec2>;
+using CommonPart = std::vector<Vec2>;  // a convex polygon, counter-clockwise
+
+/// 3 x 3 or 4.
+Matrix corners_of(const Face& face, const SolidFacet& facet) {
+  return nodes_of(face.mesh, {facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(mesh::corners_of(facet))});
+}
 
 Vector3d area_of(const Face& face, const SolidFacet& facet) {
-  const Eigen::Matrix3d x = nodes_of(face.mesh, {facet[0], facet[1], facet[2]});
-  const Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
-  return 0.5 * a.cross(b);
+  return area_between_corners(corners_of(face, facet), mesh::corners_of(facet));
 }
 
 Vector3d normal_of(const Face& face) {
@@ -43,37 +46,57 @@ Eigen::Matrix3d directions_of(const Vector3d& normal) {
   return directions;
 }
 
+double area_of(const CommonPart& polygon) {
+  double twice = 0.0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) twice += cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+  return 0.5 * twice;
+}
+
 /// A facet seen along a normal: corners counter-clockwise, and how far each node lies along the normal.
 struct Seen {
   std::vector<int> nodes;
-  std::array<Vec2, 3> corners;
+  CommonPart corners;
   Vector heights;
   Matrix places;  // 2 x n, of the nodes of a curved facet; empty: the edges are seen as straight
 
-  double area() const { return 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]); }
-  Vector lambda_at(const Vec2& x) const {
-    Vector lambda(3);
-    for (std::size_t k = 0; k < 3; ++k)
-      lambda[static_cast<Eigen::Index>(k)] = 0.5 * cross(corners[(k + 1) % 3] - x, corners[(k + 2) % 3] - x) / area();
-    return lambda;
+  double area() const { return area_of(corners); }
+  const geometry::FacetBasis& basis() const { return geometry::FacetBasis::of(static_cast<int>(nodes.size())); }
+  const geometry::FacetBasis& basis_of_corners() const {
+    return geometry::FacetBasis::of(static_cast<int>(corners.size()));
   }
-  /// Where the curved facet itself is seen at x, by Newton's method from where its corners have it.
-  Vector curved_lambda_at(const Vec2& x, const geometry::SimplexBasis& basis) const {
-    Vector lambda = lambda_at(x);
-    if (places.size() == 0) return lambda;
-    constexpr int steps = 4;  // quadratic convergence from a distance of the square of the size
-    for (int step = 0; step < steps; ++step) {
-      const Vec2 off = places * basis.values(lambda) - x;
-      const Eigen::Matrix2d J = places * basis.derivatives(lambda);
-      lambda.tail<2>() -= J.inverse() * off;
-      lambda[0] = 1.0 - lambda[1] - lambda[2];
-    }
-    return lambda;
+  /// Where the facet is seen at x, if its edges are straight.
+  Vec2 place_at(const Vec2& x) const {
+    if (corners.size() == 3)
+      return 0.5 / area() * Vec2(cross(corners[2] - x, corners[0] - x), cross(corners[0] - x, corners[1] - x));
+    constexpr int steps = 6;  // quadratic convergence of what a parallelogram has after one
+    const Matrix at = Eigen::Map<const Eigen::Matrix<double, 2, 4>>(corners.front().data());
+    return found(at, basis_of_corners(), x, Vec2::Zero(), steps);
+  }
+  /// Where the curved facet itself is seen at x, from where its corners have it.
+  Vec2 curved_place_at(const Vec2& x) const {
+    constexpr int steps = 4;  // from a distance of the square of the size
+    return places.size() == 0 ? place_at(x) : found(places, basis(), x, place_at(x), steps);
+  }
+  /// Whether shape functions are polynomials of what is seen.
+  bool is_affine() const {
+    constexpr double rounding = 1e-12;
+    return corners.size() == 3 ||
+           (corners[0] + corners[2] - corners[1] - corners[3]).norm() <= rounding * (corners[2] - corners[0]).norm();
   }
   geometry::Box box() const {
     geometry::Box box;
     for (const Vec2& corner : corners) box.add(corner);
     return box;
+  }
+
+ private:
+  /// By Newton's method.
+  static Vec2 found(const Matrix& at, const geometry::FacetBasis& basis, const Vec2& x, Vec2 place, int steps) {
+    for (int step = 0; step < steps; ++step) {
+      const Eigen::Matrix2d J = at * basis.derivatives(place);
+      place -= J.inverse() * Vec2(at * basis.values(place) - x);
+    }
+    return place;
   }
 };
 
@@ -88,27 +111,30 @@ struct View {
 /// `curved`: the middle nodes are where they are, else halfway between corners, whose coordinates have more digits.
 Seen seen_along(const Face& face, const SolidFacet& facet, const View& view, bool curved) {
   Seen seen{facet, {}, Vector(static_cast<Eigen::Index>(facet.size())), {}};
-  if (area_of(face, facet).dot(view.directions.col(0)) < 0.0)  // side B is seen from inside
-    seen.nodes = facet.size() == 3 ? SolidFacet{facet[0], facet[2], facet[1]}
-                                   : SolidFacet{facet[0], facet[2], facet[1], facet[5], facet[4], facet[3]};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d x = view(face.mesh.nodes.col(seen.nodes[k]));
-    seen.heights[static_cast<Eigen::Index>(k)] = x[0];
-    seen.corners[k] = x.tail<2>();
+  const auto corners = static_cast<Eigen::Index>(mesh::corners_of(facet));
+  if (area_of(face, facet).dot(view.directions.col(0)) < 0.0) {  // side B is seen from inside
+    std::reverse(seen.nodes.begin() + 1, seen.nodes.begin() + corners);
+    std::reverse(seen.nodes.begin() + corners, seen.nodes.end());
+  }
+  for (Eigen::Index k = 0; k < corners; ++k) {
+    const Vector3d x = view(face.mesh.nodes.col(seen.nodes[static_cast<std::size_t>(k)]));
+    seen.heights[k] = x[0];
+    seen.corners.emplace_back(x.tail<2>());
   }
   if (curved) seen.places.resize(2, seen.heights.size());
   for (Eigen::Index k = 0; k < seen.heights.size(); ++k) {
     const Vector3d x = view(face.mesh.nodes.col(seen.nodes[static_cast<std::size_t>(k)]));
     if (curved) seen.places.col(k) = x.tail<2>();
-    if (k >= 3) seen.heights[k] = curved ? x[0] : 0.5 * (seen.heights[k - 3] + seen.heights[(k - 2) % 3]);
+    if (k >= corners)
+      seen.heights[k] = curved ? x[0] : 0.5 * (seen.heights[k - corners] + seen.heights[(k - corners + 1) % corners]);
   }
   return seen;
 }
 
-/// What a polygon has in common with a triangle; both counter-clockwise (Sutherland and Hodgman).
-CommonPart clipped(CommonPart polygon, const std::array<Vec2, 3>& triangle) {
-  for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) {
-    const Vec2 start = triangle[k], along = triangle[(k + 1) % 3] - start;
+/// What two convex polygons have in common; both counter-clockwise (Sutherland and Hodgman).
+CommonPart clipped(CommonPart polygon, const CommonPart& other) {
+  for (std::size_t k = 0; k < other.size() && !polygon.empty(); ++k) {
+    const Vec2 start = other[k], along = other[(k + 1) % other.size()] - start;
     CommonPart inside;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
@@ -133,10 +159,6 @@ struct Sums {
     area += other.area, gap += other.gap, point += other.point, normal += other.normal;
   }
 };
-
-const geometry::SimplexBasis& basis_of(const Seen& facet) {
-  return geometry::SimplexBasis::of(2, static_cast<int>(facet.nodes.size()));
-}
 
 using Triangle = std::array<Vec2, 3>;
 
@@ -170,20 +192,27 @@ std::vector<Triangle> triangles_around_centroid(CommonPart polygon, double least
   return triangles;
 }
 
-/// Adds the integrals over a triangle that lies on both facets, whose pairs have the functions `phi` of the
-/// barycentric coordinates on b.
+/// Barycentric coordinates of the points of a triangle, exact for what is integrated there or, of quadrilaterals that
+/// are no parallelograms, so fine that its errors are within rounding.
+geometry::FacetRule rule_for(const Seen& a, const Seen& b) {
+  if (a.corners.size() == 3 && b.corners.size() == 3) return geometry::FacetBasis::of(3).rule();
+  static const geometry::FacetRule fine = geometry::triangle_rule(4), finest = geometry::triangle_rule(8);
+  return a.is_affine() && b.is_affine() ? fine : finest;
+}
+
+/// Adds the integrals over a triangle that lies on both facets, whose pairs have the functions `phi` of the place on b.
 template <class Functions>
 void integrate(const Triangle& triangle, const Seen& a, const Seen& b, const View& view, const Functions& phi,
                std::map<int, Sums>& sums) {
-  const geometry::SimplexRule& rule = basis_of(b).rule();
+  const geometry::FacetRule& rule = rule_for(a, b);
   for (Eigen::Index i = 0; i < rule.weights.size(); ++i) {
-    const Vec2 x = rule.points(0, i) * triangle[0] + rule.points(1, i) * triangle[1] + rule.points(2, i) * triangle[2];
-    const Vector phi_at_x = phi(b.lambda_at(x)), N_a = basis_of(a).values(a.curved_lambda_at(x, basis_of(a))),
-                 N_b = basis_of(b).values(b.curved_lambda_at(x, basis_of(b)));
+    const Vec2 at = rule.places.col(i), x = (1.0 - at.sum()) * triangle[0] + at[0] * triangle[1] + at[1] * triangle[2];
+    const Vector phi_at_x = phi(b.place_at(x)), N_a = a.basis().values(a.curved_place_at(x)),
+                 N_b = b.basis().values(b.curved_place_at(x));
     const double height = N_b.dot(b.heights), gap = height - N_a.dot(a.heights);
     const Vector3d point = view.origin + view.directions * Vector3d(height, x.x(), x.y());
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = rule.weights[i] * area_of(triangle) * phi_at_x[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < b.corners.size(); ++k) {
+      const double weight = 2.0 * rule.weights[i] * area_of(triangle) * phi_at_x[static_cast<Eigen::Index>(k)];
       Sums& of_pair = sums[b.nodes[k]];
       for (std::size_t j = 0; j < a.nodes.size(); ++j)
         of_pair.a[a.nodes[j]] += weight * N_a[static_cast<Eigen::Index>(j)];
@@ -197,6 +226,14 @@ void integrate(const Triangle& triangle, const Seen& a, const Seen& b, const Vie
   }
 }
 
+/// Of the corners at a place. `local`: those that act beside their corner.
+Vector functions_of_corners(const Seen& facet, const Vec2& place, bool local) {
+  const Vector psi = facet.basis_of_corners().values(place);
+  if (!local) return psi;
+  if (psi.size() == 3) return 0.5 * (5.0 * psi.array() - 1.0);
+  return facet.basis_of_corners().values(2.0 * place);
+}
+
 /// What a facet of side B has in common with those of side A, as triangles. `local`: whether phi is orthogonal to the
 /// middle nodes opposite, on a facet that is covered wholly.
 class CommonTriangles {
@@ -206,7 +243,7 @@ class CommonTriangles {
   void add(const Seen& a) {
     constexpr double least = 1e-12;  // of the smaller facet: rounding, where facets only touch
     const double rounding = least * std::min(a.area(), b_.area());
-    const CommonPart common = clipped({a.corners.begin(), a.corners.end()}, b_.corners);
+    const CommonPart common = clipped(a.corners, b_.corners);
     if (b_.places.size() > 0) {  // on curved facets what is integrated is no polynomial
       for (const Triangle& triangle : triangles_around_centroid(common, rounding)) triangles_.emplace_back(triangle, a);
       return;
@@ -222,7 +259,7 @@ class CommonTriangles {
     double covered = 0.0;
     for (const auto& [triangle, a] : triangles_) covered += area_of(triangle);
     const bool local = local_ && covered >= least * b_.area();
-    const auto phi = [&](const Vector& psi) { return local ? Vector(0.5 * (5.0 * psi.array() - 1.0)) : psi; };
+    const auto phi = [&](const Vec2& place) { return functions_of_corners(b_, place, local); };
     for (const auto& [triangle, a] : triangles_) integrate(triangle, a, b_, view_, phi, sums);
   }
 
@@ -263,7 +300,7 @@ struct Ball {
 std::vector<Ball> balls_of(const Face& face) {
   std::vector<Ball> balls;
   for (const SolidFacet& facet : face.facets) {
-    const Eigen::Matrix3d x = nodes_of(face.mesh, {facet[0], facet[1], facet[2]});
+    const Matrix x = corners_of(face, facet);
     const Vector3d centre = x.rowwise().mean();
     balls.push_back({centre, area_of(face, facet).normalized(), (x.colwise() - centre).colwise().norm().maxCoeff()});
   }
@@ -339,9 +376,9 @@ void unite_small(std::map<int, Sums>& sums, const Face& b) {
   std::map<int, double> whole;
   std::map<int, std::set<int>> beside;
   for (const SolidFacet& facet : b.facets)
-    for (std::size_t k = 0; k < 3; ++k) {
-      whole[facet[k]] += area_of(b, facet).norm() / 3.0;
-      beside[facet[k]].insert({facet[(k + 1) % 3], facet[(k + 2) % 3]});
+    for (std::size_t k = 0, count = mesh::corners_of(facet); k < count; ++k) {
+      whole[facet[k]] += area_of(b, facet).norm() / static_cast<double>(count);
+      beside[facet[k]].insert({facet[(k + 1) % count], facet[(k + count - 1) % count]});
     }
   std::vector<int> small;
   for (const auto& [corner, of_pair] : sums)
@@ -389,8 +426,9 @@ bool has_straight_edges(const Face& face) {
   return std::all_of(face.facets.begin(), face.facets.end(), [&](const SolidFacet& facet) {
     const Matrix x = nodes_of(face.mesh, facet);
     const double allowed = plane_tolerance * (x.col(1) - x.col(0)).norm();
-    for (Eigen::Index k = 3; k < x.cols(); ++k)
-      if ((x.col(k) - 0.5 * (x.col(k - 3) + x.col((k - 2) % 3))).norm() > allowed) return false;
+    const auto count = static_cast<Eigen::Index>(mesh::corners_of(facet));
+    for (Eigen::Index k = count; k < x.cols(); ++k)
+      if ((x.col(k) - 0.5 * (x.col(k - count) + x.col((k - count + 1) % count))).norm() > allowed) return false;
     return true;
   });
 }
@@ -417,7 +455,7 @@ bool has_pairs_on_second(const Face& a, const Face& b) {
     for (const SolidFacet& facet : face.facets) {
       const double area = area_of(face, facet).norm();
       sum += area, squares += area * area;
-      corners.insert(facet.begin(), facet.begin() + 3);
+      corners.insert(facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(mesh::corners_of(facet)));
     }
     return Figures{sum / static_cast<double>(face.facets.size()), static_cast<double>(corners.size()), squares};
   };

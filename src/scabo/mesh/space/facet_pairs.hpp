@@ -5,22 +5,26 @@
 //
 //     A_i = int phi_i dA,   motion of the pair = (1 / A_i) int phi_i (u_B - u_A) dA,   gap = (1 / A_i) int phi_i g dA
 //
-// so that its force over A_i is a pressure (mortar method with multipliers on side B). With psi_i, linear on the
-// facets, 1 at corner i and 0 at the others,
+// so that its force over A_i is a pressure (mortar method with multipliers on side B). With psi_i, linear on triangles
+// and bilinear on quadrilaterals, 1 at corner i and 0 at the others,
 //
-//     phi_i = psi_i                 of ties, of plane faces, and on facets that side A covers in part
-//     phi_i = (5 psi_i - 1) / 2     on all others
+//     phi_i = psi_i                                   of ties, of plane faces, and on facets that side A covers in part
+//     phi_i = (5 psi_i - 1) / 2                       on all other triangles
+//     phi_i = (1 + 2 eta_i eta)(1 + 2 zeta_i zeta)/4  on all other quadrilaterals
 //
-// Both have the same integral and the sum 1. The former give the forces of a linear pressure exactly. The latter are
-// orthogonal to the shape function of the middle node opposite corner i: a force acts beside its corner, and pressures
-// do not oscillate next to the edge of a contact. Both sides are divided into the triangles that they have in common.
-// The motion of either side is a mean over nodes whose weights add up to 1.
+// All have the sum 1 and, where quadrilaterals are parallelograms, the same integral. The first ones give the forces of
+// a linear pressure exactly. The others are halfway from psi_i to the function that is orthogonal to psi_j of the other
+// corners, along either coordinate; on triangles they are orthogonal to the shape function of the middle node opposite
+// corner i. A force acts beside its corner, and pressures do not oscillate next to the edge of a contact. Both sides
+// are divided into the triangles that they have in common. The motion of either side is a mean over nodes whose weights
+// add up to 1.
 //
 // Plane faces with straight edges are seen along their common normal. There displacements are polynomials, the
-// integrals are exact, and forces of the pairs have the same resultant and moment on both sides if the faces lie on
-// each other: a constant stress passes exactly. Of other faces every facet of B sees those of A along the normal of its
-// corners; the gap is that of the quadratic surfaces, and the normal of a pair is the mean of those of its facets. Then
-// errors are those of the curved edges, which are seen as straight.
+// integrals are exact (on quadrilaterals that are no parallelograms to rounding), and forces of the pairs have the same
+// resultant and moment on both sides if the faces lie on each other: a constant stress passes exactly. Of other faces
+// every facet of B sees those of A along the normal of its corners; the gap is that of the quadratic surfaces, and the
+// normal of a pair is the mean of those of its facets. Then errors are those of the curved edges, which are seen as
+// straight.
 #pragma once
 
 #include <optional>

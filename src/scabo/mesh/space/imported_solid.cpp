@@ -1,11 +1,10 @@
 #include "scabo/mesh/space/imported_solid.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 
-#include "scabo/geometry/simplex_basis.hpp"
+#include "scabo/base/cell_topology.hpp"
 
 namespace scabo::mesh {
 
@@ -16,23 +15,24 @@ using EdgeOfCell = std::pair<int, int>;  // corners, ascending
 /// Calls `visit` with every edge of a cell and its place in the cell.
 template <typename Visit>
 void for_edges(const std::vector<int>& cell, const Visit& visit) {
-  std::size_t place = 4;
-  for (const std::array<int, 2>& edge : geometry::SimplexBasis::of(3, 10).edges())
-    visit(EdgeOfCell(std::minmax(cell[static_cast<std::size_t>(edge[0])], cell[static_cast<std::size_t>(edge[1])])),
-          place++);
+  const auto& topology = CellTopology::of(cell.size());
+  std::size_t place = topology.corners;
+  for (const auto& edge : topology.edges) visit(EdgeOfCell(std::minmax(cell[edge[0]], cell[edge[1]])), place++);
 }
 
-/// Gives cells with 4 nodes those in the middle of their edges: that of a quadratic neighbour, or one on a straight
-/// edge.
+bool is_quadratic(const std::vector<int>& cell) { return cell.size() > CellTopology::of(cell.size()).corners; }
+
+/// Gives cells with corners only the nodes in the middle of their edges: that of a quadratic neighbour, or one on a
+/// straight edge.
 void raise_to_quadratic(SolidMesh& mesh) {
   std::map<EdgeOfCell, int> middle_of;
   for (const std::vector<int>& cell : mesh.cells)
-    if (cell.size() == 10)
+    if (is_quadratic(cell))
       for_edges(cell, [&](const EdgeOfCell& edge, std::size_t place) { middle_of[edge] = cell[place]; });
   std::vector<Eigen::Vector3d> added;
   const auto before = static_cast<int>(mesh.nodes.cols());
   for (std::vector<int>& cell : mesh.cells) {
-    if (cell.size() == 10) continue;
+    if (is_quadratic(cell)) continue;
     for_edges(cell, [&](const EdgeOfCell& edge, std::size_t) {
       const auto [middle, is_new] = middle_of.try_emplace(edge, before + static_cast<int>(added.size()));
       if (is_new) added.push_back(0.5 * (mesh.nodes.col(edge.first) + mesh.nodes.col(edge.second)));
@@ -64,7 +64,8 @@ std::vector<SolidFacet> facets_among(const std::vector<SolidFacet>& facets, cons
   const std::set<int> among(nodes.begin(), nodes.end());
   std::vector<SolidFacet> chosen;
   for (const SolidFacet& facet : facets)
-    if (std::all_of(facet.begin(), facet.begin() + 3, [&](int node) { return among.count(node) > 0; }))
+    if (std::all_of(facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(corners_of(facet)),
+                    [&](int node) { return among.count(node) > 0; }))
       chosen.push_back(facet);
   return chosen;
 }

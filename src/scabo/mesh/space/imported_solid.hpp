@@ -1,4 +1,4 @@
-// A body of tetrahedra from a mesh file: its mesh, and the facets that named sets of the file are.
+// A body from a mesh file: its mesh, and the facets that named sets of the file are.
 #pragma once
 
 #include "scabo/files/imported_solid_mesh.hpp"

@@ -8,9 +8,9 @@
 #include <limits>
 #include <numbers>
 
+#include "scabo/base/cell_topology.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/geometry/frame.hpp"
-#include "scabo/geometry/simplex_basis.hpp"
 
 namespace scabo::mesh {
 
@@ -199,24 +199,27 @@ Bricks bricks_of(const model::SolidShape& shape, const model::SolidSizes& sizes)
 
 using Triple = std::array<int, 3>;
 
-/// Tetrahedra and faces of bricks. A node is a triple of twice the numbers of lines; odd ones lie in the middle.
+/// Tetrahedra or hexahedra, and faces, of bricks. A node is a triple of twice the numbers of lines; odd ones lie in the
+/// middle.
 class BrickDivision {
  public:
-  explicit BrickDivision(Bricks bricks) : bricks_(std::move(bricks)) {
+  BrickDivision(Bricks bricks, bool hexahedra) : bricks_(std::move(bricks)), hexahedra_(hexahedra) {
     for (std::size_t k = 0; k < 3; ++k) last_[k] = 2 * (static_cast<int>(bricks_.lines[k].size()) - 1);
   }
   ShapedSolid made();
 
  private:
   void divide(const Triple& brick);
-  void add_cell(std::array<Triple, 4> corners);
+  void add_hexahedron(const Triple& brick);
+  void add_cell(std::vector<Triple> corners);
   int node(const Triple& at);
   Vector3d parameters(const Triple& at) const;
   Vector3d position(const Triple& at) const;
   bool is_turned(std::size_t axis, int interval) const;
-  const std::string* face_of(const std::array<Triple, 3>& corners) const;
+  const std::string* face_of(const std::vector<Triple>& corners) const;
 
   Bricks bricks_;
+  bool hexahedra_;
   Triple last_{};
   std::map<Triple, int> numbers_;
   std::vector<Vector3d> positions_;
@@ -257,7 +260,7 @@ int BrickDivision::node(const Triple& at) {
   return found->second;
 }
 
-const std::string* BrickDivision::face_of(const std::array<Triple, 3>& corners) const {
+const std::string* BrickDivision::face_of(const std::vector<Triple>& corners) const {
   for (std::size_t k = 0; k < 3; ++k)
     for (const std::size_t end : {0, 1}) {
       const int at = end == 0 ? 0 : last_[k];
@@ -268,28 +271,47 @@ const std::string* BrickDivision::face_of(const std::array<Triple, 3>& corners) 
   return nullptr;
 }
 
-void BrickDivision::add_cell(std::array<Triple, 4> corners) {
+/// Corners as in CellTopology, or turned over.
+void BrickDivision::add_cell(std::vector<Triple> corners) {
+  const bool is_brick = corners.size() == 8;
+  const auto& topology = CellTopology::of(corners.size());
   const Vector3d x0 = bricks_.point(parameters(corners[0]));
   Eigen::Matrix3d sides;
-  for (int k = 0; k < 3; ++k) sides.col(k) = bricks_.point(parameters(corners[static_cast<std::size_t>(k + 1)])) - x0;
-  if (sides.determinant() < 0.0) std::swap(corners[2], corners[3]);
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t corner = k < 2 || !is_brick ? static_cast<std::size_t>(is_brick ? 2 * k + 1 : k + 1) : 4;
+    sides.col(k) = bricks_.point(parameters(corners[corner])) - x0;
+  }
+  if (sides.determinant() < 0.0) {
+    if (is_brick)
+      std::swap_ranges(corners.begin(), corners.begin() + 4, corners.begin() + 4);
+    else
+      std::swap(corners[2], corners[3]);
+  }
   const auto closed = [&](Triple at) {
     if (bricks_.closed && at[0] == last_[0]) at[0] = 0;
     return at;
   };
   std::vector<int> cell;
   for (const Triple& corner : corners) cell.push_back(node(closed(corner)));
-  for (const auto& [a, b] : geometry::SimplexBasis::of(3, 10).edges()) {
-    const Triple &from = corners[static_cast<std::size_t>(a)], &to = corners[static_cast<std::size_t>(b)];
+  for (const auto& [a, b] : topology.edges) {
+    const Triple &from = corners[a], &to = corners[b];
     cell.push_back(node(closed({(from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2})));
   }
-  for (int side = 0; side < 4; ++side) {
-    const SolidFacet places = facet_of({0, 1, 2, 3}, side);
-    const auto corner = [&](std::size_t i) { return corners[static_cast<std::size_t>(places[i])]; };
-    if (const std::string* name = face_of({corner(0), corner(1), corner(2)}))
-      made_.faces[*name].push_back(facet_of(cell, side));
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    std::vector<Triple> of_side;
+    for (const std::size_t corner : topology.sides[side]) of_side.push_back(corners[corner]);
+    if (const std::string* name = face_of(of_side))
+      made_.faces[*name].push_back(facet_of(cell, static_cast<int>(side)));
   }
   made_.mesh.cells.push_back(std::move(cell));
+}
+
+void BrickDivision::add_hexahedron(const Triple& brick) {
+  const auto corner = [&](int i, int j, int k) {
+    return Triple{2 * (brick[0] + i), 2 * (brick[1] + j), 2 * (brick[2] + k)};
+  };
+  add_cell({corner(0, 0, 0), corner(1, 0, 0), corner(1, 1, 0), corner(0, 1, 0), corner(0, 0, 1), corner(1, 0, 1),
+            corner(1, 1, 1), corner(0, 1, 1)});
 }
 
 /// Whether the diagonals of bricks lead back along a parameter: away from the middle, where it has one.
@@ -304,18 +326,19 @@ bool BrickDivision::is_turned(std::size_t axis, int interval) const {
 }
 
 void BrickDivision::divide(const Triple& brick) {
+  if (hexahedra_) return add_hexahedron(brick);
   std::array<bool, 3> turned{};
   for (std::size_t k = 0; k < 3; ++k) turned[k] = is_turned(k, brick[k]);
   std::array<std::size_t, 3> order{0, 1, 2};
   do {
     Triple at{};
     for (std::size_t k = 0; k < 3; ++k) at[k] = 2 * (brick[k] + (turned[k] ? 1 : 0));
-    std::array<Triple, 4> corners{at};
-    for (std::size_t i = 0; i < 3; ++i) {
-      at[order[i]] += turned[order[i]] ? -2 : 2;
-      corners[i + 1] = at;
+    std::vector<Triple> corners{at};
+    for (const std::size_t axis : order) {
+      at[axis] += turned[axis] ? -2 : 2;
+      corners.push_back(at);
     }
-    add_cell(corners);
+    add_cell(std::move(corners));
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
@@ -333,14 +356,23 @@ ShapedSolid BrickDivision::made() {
 
 double count_nodes(const model::SolidShape& shape, const model::SolidSizes& sizes) {
   const Bricks bricks = bricks_of(shape, sizes);
+  std::array<double, 3> cells{}, lines{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    cells[k] = static_cast<double>(bricks.lines[k].size() - 1);
+    lines[k] = cells[k] + (bricks.closed && k == 0 ? 0.0 : 1.0);
+  }
   double count = 1.0;
-  for (std::size_t k = 0; k < 3; ++k)
-    count *= 2.0 * static_cast<double>(bricks.lines[k].size() - 1) + (bricks.closed && k == 0 ? 0.0 : 1.0);
+  if (!sizes.hexahedra) {
+    for (std::size_t k = 0; k < 3; ++k) count *= cells[k] + lines[k];
+    return count;
+  }
+  count = lines[0] * lines[1] * lines[2];  // corners; then the middles of the edges along each axis
+  for (std::size_t k = 0; k < 3; ++k) count += cells[k] * lines[(k + 1) % 3] * lines[(k + 2) % 3];
   return count;
 }
 
 ShapedSolid solid_of_shape(const model::SolidShape& shape, const model::SolidSizes& sizes) {
-  return BrickDivision(bricks_of(shape, sizes)).made();
+  return BrickDivision(bricks_of(shape, sizes), sizes.hexahedra).made();
 }
 
 }  // namespace scabo::mesh

@@ -1,8 +1,9 @@
-// Quadratic tetrahedra of the simple shapes of bodies in space.
+// Quadratic tetrahedra, or hexahedra with 20 nodes, of the simple shapes of bodies in space.
 //
-// A shape is a map of a grid of bricks in three parameters, each of which is divided into six tetrahedra along its
-// diagonal away from the middle of the grid (Kuhn). Lines of the grid lie along the parameters at the wanted distances.
-// Nodes of curved faces lie on them, those in the middle of edges too. Extrusions: mesh/extruded_solid.hpp.
+// A shape is a map of a grid of bricks in three parameters, each of which is a hexahedron, or divided into six
+// tetrahedra along its diagonal away from the middle of the grid (Kuhn). Lines of the grid lie along the parameters at
+// the wanted distances. Nodes of curved faces lie on them, those in the middle of edges too. Extrusions:
+// mesh/extruded_solid.hpp.
 #pragma once
 
 #include <map>

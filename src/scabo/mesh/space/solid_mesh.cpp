@@ -2,61 +2,55 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
-#include "scabo/geometry/simplex_basis.hpp"
+#include "scabo/base/cell_topology.hpp"
 
 namespace scabo::mesh {
 
-namespace {
-
-/// Corners of the facets of a tetrahedron, counter-clockwise seen from outside.
-constexpr std::array<std::array<int, 3>, 4> facets_of_cell{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-
-}  // namespace
-
 Matrix nodes_of(const SolidMesh& mesh, const std::vector<int>& nodes) { return mesh.nodes(Eigen::all, nodes); }
 
+Eigen::Vector3d area_between_corners(const Matrix& x, std::size_t corners) {
+  const Eigen::Vector3d a = x.col(corners == 4 ? 2 : 1) - x.col(0),
+                        b = x.col(corners == 4 ? 3 : 2) - x.col(corners == 4);
+  return 0.5 * a.cross(b);
+}
+
 SolidFacet facet_of(const std::vector<int>& cell, int side) {
-  const std::array<int, 3>& corners = facets_of_cell[static_cast<std::size_t>(side)];
+  const auto& topology = CellTopology::of(cell.size());
   SolidFacet facet;
-  for (const int corner : corners) facet.push_back(cell[static_cast<std::size_t>(corner)]);
-  const auto& edges = geometry::SimplexBasis::of(3, static_cast<int>(cell.size())).edges();
-  if (edges.empty()) return facet;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::array<int, 2> edge{corners[k], corners[(k + 1) % 3]}, turned{edge[1], edge[0]};
-    const auto at = std::find_if(edges.begin(), edges.end(), [&](const auto& e) { return e == edge || e == turned; });
-    facet.push_back(cell[4 + static_cast<std::size_t>(at - edges.begin())]);
-  }
+  for (const std::size_t node : topology.nodes_of_side(static_cast<std::size_t>(side), cell.size() > topology.corners))
+    facet.push_back(cell[node]);
   return facet;
 }
 
 std::vector<SolidFacet> boundary_facets(const SolidMesh& mesh) {
-  std::map<std::array<int, 3>, int> cells_at;
+  std::map<std::vector<int>, int> cells_at;
   const auto key_of = [](const SolidFacet& facet) {
-    std::array<int, 3> key{facet[0], facet[1], facet[2]};
+    std::vector<int> key(facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(corners_of(facet)));
     std::sort(key.begin(), key.end());
     return key;
   };
+  std::vector<SolidFacet> all, facets;
   for (const std::vector<int>& cell : mesh.cells)
-    for (int side = 0; side < 4; ++side) ++cells_at[key_of(facet_of(cell, side))];
-  std::vector<SolidFacet> facets;
-  for (const std::vector<int>& cell : mesh.cells)
-    for (int side = 0; side < 4; ++side)
-      if (SolidFacet facet = facet_of(cell, side); cells_at[key_of(facet)] == 1) facets.push_back(std::move(facet));
+    for (std::size_t side = 0; side < CellTopology::of(cell.size()).sides.size(); ++side) {
+      all.push_back(facet_of(cell, static_cast<int>(side)));
+      ++cells_at[key_of(all.back())];
+    }
+  for (SolidFacet& facet : all)
+    if (cells_at[key_of(facet)] == 1) facets.push_back(std::move(facet));
   return facets;
 }
 
 std::optional<std::array<int, 2>> overlapping_cells(const SolidMesh& mesh) {
-  std::vector<std::pair<std::array<int, 3>, int>> sides;  // corners in their order, the least one first
+  std::vector<std::pair<SolidFacet, int>> sides;  // corners in their order, the least one first
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (const std::array<int, 3>& side : facets_of_cell) {
-      std::array<int, 3> corners{};
-      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.cells[c][static_cast<std::size_t>(side[k])];
+    for (std::size_t side = 0; side < CellTopology::of(mesh.cells[c].size()).sides.size(); ++side) {
+      SolidFacet corners = facet_of(mesh.cells[c], static_cast<int>(side));
+      corners.resize(corners_of(corners));
       std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-      sides.emplace_back(corners, static_cast<int>(c));
+      sides.emplace_back(std::move(corners), static_cast<int>(c));
     }
   std::sort(sides.begin(), sides.end());
   for (std::size_t i = 1; i < sides.size(); ++i)
@@ -68,10 +62,10 @@ std::vector<SolidFacet> facets_in_plane(const SolidMesh& mesh, const std::vector
                                         const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double distance) {
   std::vector<SolidFacet> chosen;
   for (const SolidFacet& facet : facets) {
-    const Eigen::Matrix3d x = nodes_of(mesh, {facet[0], facet[1], facet[2]});
-    const Eigen::RowVector3d heights = normal.transpose() * (x.colwise() - point);
-    const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0);
-    if (heights.cwiseAbs().maxCoeff() <= distance && a.cross(b).dot(normal) > 0.0) chosen.push_back(facet);
+    const Matrix x = nodes_of(mesh, facet).leftCols(static_cast<Eigen::Index>(corners_of(facet)));
+    const Vector heights = (x.colwise() - point).transpose() * normal;
+    if (heights.cwiseAbs().maxCoeff() <= distance && area_between_corners(x, corners_of(facet)).dot(normal) > 0.0)
+      chosen.push_back(facet);
   }
   return chosen;
 }

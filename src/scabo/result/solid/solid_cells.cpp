@@ -6,6 +6,14 @@ namespace scabo::result {
 
 namespace {
 
+/// Of VTK, whose nodes have the order of CellTopology.
+std::uint8_t vtk_type(std::size_t nodes) {
+  constexpr std::uint8_t tetra = 10, quadratic_tetra = 24, quadratic_hexahedron = 25, quadratic_wedge = 26;
+  if (nodes == 4) return tetra;
+  if (nodes == 10) return quadratic_tetra;
+  return nodes == 15 ? quadratic_wedge : quadratic_hexahedron;
+}
+
 void add_stress(const element::Vec6& stress, SolidCells& cells) {
   const StressInSpace measures(stress);
   for (int k = 0; k < 6; ++k) cells.stress.push_back(static_cast<float>(stress[k]));
@@ -31,7 +39,7 @@ SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidI
     for (const std::vector<int>& cell : mesh.cells) {
       for (const int node : cell) cells.connectivity.push_back(first + node);
       cells.offsets.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
-      cells.types.push_back(cell.size() == 4 ? vtk_tetra : vtk_quadratic_tetra);
+      cells.types.push_back(vtk_type(cell.size()));
       cells.cell_body.push_back(number);
     }
   }

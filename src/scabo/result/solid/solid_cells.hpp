@@ -1,4 +1,4 @@
-// Tetrahedra and their fields, in the arrays of a .vtu file.
+// The cells of bodies in space and their fields, in the arrays of a .vtu file.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@ namespace scabo::result {
 
 namespace {
 
-constexpr std::uint8_t vtk_triangle = 5;
+constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9;
 
 void add(const Eigen::Vector3d& vector, std::vector<double>& values) {
   values.insert(values.end(), vector.data(), vector.data() + 3);
@@ -42,17 +42,19 @@ SolidFaces solid_faces(const analysis::SolidModel& model, const analysis::SolidI
   for (std::size_t c = 0; c < sides.size(); ++c) {
     if (sides[c] == nullptr) continue;
     for (const mesh::SolidFacet& facet : sides[c]->facets) {
-      std::array<std::int32_t, 3> points{};
+      const std::size_t corners = mesh::corners_of(facet);
+      std::array<std::int32_t, 4> points{};
       bool whole = true;
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < corners; ++k) {
         const auto found = point_of[c].find(facet[k]);
         whole = whole && found != point_of[c].end();
         if (whole) points[k] = found->second;
       }
       if (!whole) continue;
-      faces.connectivity.insert(faces.connectivity.end(), points.begin(), points.end());
+      faces.connectivity.insert(faces.connectivity.end(), points.begin(),
+                                points.begin() + static_cast<std::ptrdiff_t>(corners));
       faces.offsets.push_back(static_cast<std::int32_t>(faces.connectivity.size()));
-      faces.types.push_back(vtk_triangle);
+      faces.types.push_back(corners == 3 ? vtk_triangle : vtk_quad);
       faces.cell_contact.push_back(static_cast<std::int32_t>(c + 1));
     }
   }

@@ -1,5 +1,5 @@
-// The contact faces of bodies in space after an increment, in the arrays of a .vtu file: the triangles between the
-// corners of the side whose corners are the pairs, where all three have one.
+// The contact faces of bodies in space after an increment, in the arrays of a .vtu file: the triangles and
+// quadrilaterals between the corners of the side whose corners are the pairs, where all of them have one.
 #pragma once
 
 #include <cstdint>

@@ -31,6 +31,20 @@ std::optional<Vector> barycentric(const Matrix& nodes, const Eigen::Vector3d& po
   return lambda;
 }
 
+/// A place, and how far it lies inside of the sides as a part of the size.
+struct Found {
+  PlaceInCell at;
+  double inside;
+};
+std::optional<Found> place_in(const Matrix& nodes, const Eigen::Vector3d& point) {
+  if (!mesh::is_super_element(static_cast<std::size_t>(nodes.cols()))) {
+    const auto lambda = barycentric(nodes, point);
+    return lambda ? std::optional(Found{{*lambda, -1}, lambda->minCoeff()}) : std::nullopt;
+  }
+  const auto place = element::place_in_super_element(nodes, point, on_side);
+  return place ? std::optional(Found{{place->at, place->facet}, 1.0 - place->xi()}) : std::nullopt;
+}
+
 }  // namespace
 
 SolidFinder::SolidFinder(const mesh::SolidMesh& mesh) : mesh_(mesh) {
@@ -53,12 +67,13 @@ SolidFinder::SolidFinder(const mesh::SolidMesh& mesh) : mesh_(mesh) {
 std::optional<SolidFinder::Place> SolidFinder::at(const Eigen::Vector3d& point) const {
   std::optional<Place> best;
   double least = -on_side;
-  tree_->within(point.head<2>(), 0.0, [&](std::size_t cell) {
-    if (point.z() < heights_[cell][0] || point.z() > heights_[cell][1]) return;
-    const auto lambda = barycentric(mesh::nodes_of(mesh_, mesh_.cells[cell]), point);
-    if (!lambda || lambda->minCoeff() < least || (best && lambda->minCoeff() == least)) return;
-    least = lambda->minCoeff();
-    best = Place{cell, *lambda};
+  tree_->within(point.head<2>(), 0.0, [&](std::size_t number) {
+    if (point.z() < heights_[number][0] || point.z() > heights_[number][1]) return;
+    const std::vector<int>& cell = mesh_.cells[number];
+    const auto found = place_in(mesh::nodes_of(mesh_, cell), point);
+    if (!found || found->inside < least || (best && found->inside == least)) return;
+    least = found->inside;
+    best = Place{number, found->at};
   });
   return best;
 }
@@ -87,11 +102,17 @@ std::vector<SolidPointValues> values_at(const analysis::SolidModel& model, const
     const auto b = static_cast<std::size_t>(place.body);
     const analysis::SolidBody& body = model.bodies[b];
     const std::vector<int>& cell = body.mesh.cells[place.in.cell];
-    const Vector N = geometry::SimplexBasis::of(3, static_cast<int>(cell.size())).values(place.in.lambda);
     SolidPointValues& value = values.emplace_back();
+    if (body.rigid_at || mesh::is_super_element(cell.size())) {
+      const SolidStress stress(model, increment, b);
+      const CellField field = stress.field_of(place.in.cell);
+      value.displacement = field.displacement_at(place.in.at);
+      if (!body.rigid_at) value.stress = stress.at(place.in.cell, field, place.in.at);
+      continue;
+    }
+    const Vector N = geometry::SimplexBasis::of(3, static_cast<int>(cell.size())).values(place.in.at.lambda);
     for (std::size_t i = 0; i < cell.size(); ++i)
       value.displacement += N[static_cast<Eigen::Index>(i)] * increment.u[b].segment<3>(3 * cell[i]);
-    if (body.rigid_at) continue;
     const auto [known, is_new] = stresses.try_emplace(place.body);
     if (is_new) known->second = SolidStress(model, increment, b).at_nodes();
     value.stress = Eigen::Matrix<double, 6, 1>::Zero();

@@ -1,7 +1,8 @@
 // Displacements and stresses of bodies in space at points of the undeformed shape.
 //
-// Both are interpolated by the shape functions of the tetrahedron around the point: from the displacements of its
-// nodes, and from the stresses there, each the mean of those of the elements around the node, as in the .vtu files.
+// In a tetrahedron both are interpolated by its shape functions: from the displacements of its nodes, and from the
+// stresses there, each the mean of those of the cells around the node, as in the .vtu files. In a super-element both
+// are those of its modes.
 #pragma once
 
 #include <array>
@@ -11,17 +12,18 @@
 
 #include "scabo/analysis/space/solid_analysis.hpp"
 #include "scabo/geometry/box_tree.hpp"
+#include "scabo/result/solid/solid_stress.hpp"
 
 namespace scabo::result {
 
-/// The tetrahedra of a body, by points in them. `mesh` must outlive it.
+/// The cells of a body, by points in them. `mesh` must outlive it.
 class SolidFinder {
  public:
   explicit SolidFinder(const mesh::SolidMesh& mesh);
 
   struct Place {
     std::size_t cell = 0;
-    Vector lambda;  ///< barycentric
+    PlaceInCell at = {};
   };
   /// A point at most 1e-6 of the size of a cell outside of it counts as inside.
   std::optional<Place> at(const Eigen::Vector3d& point) const;

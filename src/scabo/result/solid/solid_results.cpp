@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -135,12 +137,21 @@ std::string rows_of(const model::SpaceModel& model, const analysis::PosedSolids&
   return fmt::to_string(rows);
 }
 
+std::ptrdiff_t super_elements_of(const mesh::SolidMesh& mesh) {
+  return std::count_if(mesh.cells.begin(), mesh.cells.end(),
+                       [](const std::vector<int>& cell) { return mesh::is_super_element(cell.size()); });
+}
+std::ptrdiff_t finite_elements_of(const mesh::SolidMesh& mesh) {
+  return static_cast<std::ptrdiff_t>(mesh.cells.size()) - super_elements_of(mesh);
+}
+
 Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& posed) {
   Eigen::Index nodes = 0;
-  std::size_t cells = 0;
+  std::ptrdiff_t finite = 0, super = 0;
   for (const analysis::SolidBody& body : posed.model.bodies) {
     nodes += body.mesh.nodes.cols();
-    cells += body.mesh.cells.size();
+    finite += finite_elements_of(body.mesh);
+    super += super_elements_of(body.mesh);
   }
   Json json;
   json["scabo"] = version();
@@ -149,7 +160,8 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
   json["status"] = "running";
   json["reason"] = nullptr;
   json["warnings"] = texts_of(model.warnings);
-  json["model"] = {{"nodes", nodes}, {"dofs", 3 * nodes}, {"finite_elements", cells}, {"steps", Json::array()}};
+  json["model"] = {{"nodes", nodes}, {"dofs", 3 * nodes}, {"finite_elements", finite}, {"steps", Json::array()}};
+  if (super > 0) json["model"]["super_elements"] = super;
   for (const model::Step& step : model.steps) json["model"]["steps"].push_back(step.name);
   for (std::size_t b = 0; b < posed.model.bodies.size(); ++b) {
     const mesh::SolidMesh& mesh = posed.model.bodies[b].mesh;
@@ -160,7 +172,8 @@ Json begun_summary(const model::SpaceModel& model, const analysis::PosedSolids& 
                                        {"rigid", model.bodies[b].rigid},
                                        {"materials", materials},
                                        {"nodes", mesh.nodes.cols()},
-                                       {"finite_elements", mesh.cells.size()}});
+                                       {"finite_elements", finite_elements_of(mesh)}});
+    if (super > 0) json["model"]["bodies"].back()["super_elements"] = super_elements_of(mesh);
   }
   for (const model::SpaceContact& contact : model.contacts)
     json["model"]["contacts"].push_back({{"name", contact.name},
@@ -177,9 +190,12 @@ std::string log_header(const model::SpaceModel& model, const Json& summary) {
   if (!model.title.empty()) text += model.title + '\n';
   if (!model.file.empty()) text += fmt::format("Model: {}\n", model.file);
   const Json& sizes = summary["model"];
-  text += fmt::format("{} in space, {} nodes, {} degrees of freedom, {} tetrahedra\n",
+  text += fmt::format("{} in space, {} nodes, {} degrees of freedom, {} tetrahedra{}\n",
                       model.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", model.bodies.size()),
-                      sizes["nodes"].get<long>(), sizes["dofs"].get<long>(), sizes["finite_elements"].get<long>());
+                      sizes["nodes"].get<long>(), sizes["dofs"].get<long>(), sizes["finite_elements"].get<long>(),
+                      sizes.contains("super_elements")
+                          ? fmt::format(", {} hexahedra and wedges", sizes["super_elements"].get<long>())
+                          : "");
   for (const model::SpaceContact& contact : model.contacts)
     text += fmt::format("{} {}: {} on {}{}\n", contact.tied ? "tie" : "contact", contact.name, contact.b.text,
                         contact.a.text, contact.tied ? "" : "; " + describe_law(contact.law));

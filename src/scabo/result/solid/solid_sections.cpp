@@ -2,30 +2,72 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <map>
+#include <optional>
 
-#include "scabo/result/solid/solid_stress.hpp"
+#include "scabo/base/cell_topology.hpp"
+#include "scabo/geometry/facet_basis.hpp"
 
 namespace scabo::result {
 
 namespace {
 
-using Corners = std::array<int, 4>;
+struct Place {
+  PlaceInCell at;
+  Eigen::Vector3d x;
+  int node = -1;  // of the cell; -1: the centre of a super-element
+};
+using Part = std::array<Place, 4>;
 
-/// The tetrahedra between the nodes of one with 4 or 10 nodes.
-const std::vector<Corners>& parts_of(std::size_t nodes) {
-  static const std::vector<Corners> whole{{0, 1, 2, 3}}, eight{{0, 4, 6, 7}, {1, 4, 5, 8}, {2, 5, 6, 9}, {3, 7, 8, 9},
-                                                               {6, 8, 4, 5}, {6, 8, 5, 9}, {6, 8, 9, 7}, {6, 8, 7, 4}};
-  return nodes == 4 ? whole : eight;
+Vector lambda_of_node(int node) {
+  if (node < 4) return Vector::Unit(4, node);
+  const std::array<int, 2>& edge = geometry::SimplexBasis::of(3, 10).edges()[static_cast<std::size_t>(node - 4)];
+  return 0.5 * (Vector::Unit(4, edge[0]) + Vector::Unit(4, edge[1]));
 }
 
-struct Place {
-  Vector lambda;
-  Eigen::Vector3d x;
-};
+/// The tetrahedra between the nodes of one with 4 or 10 nodes.
+std::vector<Part> parts_of_tetrahedron(const Matrix& nodes) {
+  using Corners = std::array<int, 4>;
+  static const std::vector<Corners> whole{{0, 1, 2, 3}}, eight{{0, 4, 6, 7}, {1, 4, 5, 8}, {2, 5, 6, 9}, {3, 7, 8, 9},
+                                                               {6, 8, 4, 5}, {6, 8, 5, 9}, {6, 8, 9, 7}, {6, 8, 7, 4}};
+  std::vector<Part> parts;
+  for (const Corners& corners : nodes.cols() == 4 ? whole : eight) {
+    Part& part = parts.emplace_back();
+    for (std::size_t k = 0; k < 4; ++k) part[k] = {{lambda_of_node(corners[k]), -1}, nodes.col(corners[k]), corners[k]};
+  }
+  return parts;
+}
+
+/// Those between the centre of a super-element and the triangles between the nodes of its facets.
+std::vector<Part> parts_of_super_element(const Matrix& nodes) {
+  using Corners = std::array<int, 3>;
+  static const std::vector<Corners> of_triangle{{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}},
+      of_square{{0, 4, 7}, {1, 5, 4}, {2, 6, 5}, {3, 7, 6}, {4, 5, 6}, {4, 6, 7}};
+  const auto& topology = CellTopology::of(static_cast<std::size_t>(nodes.cols()));
+  const Eigen::Vector3d centre = nodes.leftCols(static_cast<Eigen::Index>(topology.corners)).rowwise().mean();
+  std::vector<Part> parts;
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    const std::vector<std::size_t> of_side = topology.nodes_of_side(side, true);
+    const Matrix& places = geometry::FacetBasis::of(static_cast<int>(of_side.size())).places();
+    const auto facet = static_cast<int>(side);
+    for (const Corners& corners : of_side.size() == 6 ? of_triangle : of_square) {
+      Part& part = parts.emplace_back();
+      part[0] = {{Eigen::Vector3d::Zero(), facet}, centre, -1};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto node = static_cast<int>(of_side[static_cast<std::size_t>(corners[k])]);
+        part[k + 1] = {{places.col(corners[k]).homogeneous(), facet}, nodes.col(node), node};
+      }
+    }
+  }
+  return parts;
+}
+
+std::vector<Part> parts_of(const Matrix& nodes) {
+  return mesh::is_super_element(static_cast<std::size_t>(nodes.cols())) ? parts_of_super_element(nodes)
+                                                                        : parts_of_tetrahedron(nodes);
+}
 
 Place between(const Place& a, const Place& b, double t) {
-  return {(1.0 - t) * a.lambda + t * b.lambda, (1.0 - t) * a.x + t * b.x};
+  return {{(1.0 - t) * a.at.lambda + t * b.at.lambda, a.at.facet}, (1.0 - t) * a.x + t * b.x};
 }
 
 /// Where a plane cuts a tetrahedron: three or four places around the section, or none. `height` above the plane; a
@@ -63,15 +105,13 @@ class Cutting {
   void add_cell(std::size_t body, std::size_t number, const Vector& height) {
     const mesh::SolidMesh& mesh = model_.bodies[body].mesh;
     const std::vector<int>& cell = mesh.cells[number];
-    for (const Corners& part : parts_of(cell.size())) {
-      std::array<Place, 4> corners;
+    const auto count = static_cast<Eigen::Index>(CellTopology::of(cell.size()).corners);
+    const double at_centre = height(cell).head(count).mean();
+    for (const Part& part : parts_of(mesh::nodes_of(mesh, cell))) {
       std::array<double, 4> heights{};
-      for (std::size_t k = 0; k < 4; ++k) {
-        const auto node = static_cast<std::size_t>(part[k]);
-        corners[k] = {lambda_of(part[k]), mesh.nodes.col(cell[node])};
-        heights[k] = height[cell[node]];
-      }
-      const std::vector<Place> around = cut(corners, heights);
+      for (std::size_t k = 0; k < 4; ++k)
+        heights[k] = part[k].node < 0 ? at_centre : height[cell[static_cast<std::size_t>(part[k].node)]];
+      const std::vector<Place> around = cut(part, heights);
       for (std::size_t k = 2; k < around.size(); ++k)
         add_triangle({body, number, {}, {}, 0.0}, {around[0], around[k - 1], around[k]});
     }
@@ -82,15 +122,10 @@ class Cutting {
     if (point.area == 0.0) return;
     for (std::size_t k = 0; k < 3; ++k) {
       const Place middle = between(corners[k], corners[(k + 1) % 3], 0.5);
-      point.lambda = middle.lambda;
+      point.at = middle.at;
       point.x = middle.x;
       points.push_back(point);
     }
-  }
-  static Vector lambda_of(int node) {
-    if (node < 4) return Vector::Unit(4, node);
-    const std::array<int, 2>& edge = geometry::SimplexBasis::of(3, 10).edges()[static_cast<std::size_t>(node - 4)];
-    return 0.5 * (Vector::Unit(4, edge[0]) + Vector::Unit(4, edge[1]));
   }
 
   const analysis::SolidModel& model_;
@@ -115,11 +150,14 @@ SolidSection section_of(const analysis::SolidModel& model, const model::SpaceSec
 
 SolidResultant resultant_of(const analysis::SolidModel& model, const analysis::SolidIncrement& increment,
                             const SolidSection& section) {
-  std::map<std::size_t, SolidStress> stresses;  // of the bodies
+  std::optional<SolidStress> stress;
+  std::optional<CellField> field;
   SolidResultant sum;
-  for (const SolidSection::Point& point : section.points) {
-    const SolidStress& stress = stresses.try_emplace(point.body, model, increment, point.body).first->second;
-    const Eigen::Vector3d force = point.area * (tensor_of(stress.at(point.cell, point.lambda)) * section.normal);
+  for (std::size_t i = 0; i < section.points.size(); ++i) {
+    const SolidSection::Point &point = section.points[i], &before = section.points[i > 0 ? i - 1 : 0];
+    if (i == 0 || point.body != before.body) stress.emplace(model, increment, point.body);
+    if (i == 0 || point.body != before.body || point.cell != before.cell) field = stress->field_of(point.cell);
+    const Eigen::Vector3d force = point.area * (tensor_of(stress->at(point.cell, *field, point.at)) * section.normal);
     sum.force += force;
     sum.moment += (point.x - section.about).cross(force);
   }

@@ -2,14 +2,16 @@
 //
 // With the normal n of the plane, force = int stress n dA, moment = int (x - c) x (stress n) dA: what the side to which
 // n points exerts on the other one, tension along n. Every tetrahedron is seen as eight with straight edges between its
-// nodes, whose sections are triangles; on these the stress of the element is integrated by a rule of degree 2, which is
-// exact where edges are straight and the stress is linear.
+// nodes, and every super-element as those between its centre and the triangles that the nodes of its facets form. Their
+// sections are triangles, on which the stress of the cell is integrated by a rule of degree 2, which is exact where
+// edges are straight and the stress is linear.
 #pragma once
 
 #include <vector>
 
 #include "scabo/analysis/space/solid_analysis.hpp"
 #include "scabo/model/solid_model.hpp"
+#include "scabo/result/solid/solid_stress.hpp"
 
 namespace scabo::result {
 
@@ -17,11 +19,11 @@ namespace scabo::result {
 struct SolidSection {
   struct Point {
     std::size_t body = 0, cell = 0;
-    Vector lambda;  ///< barycentric
+    PlaceInCell at;
     Eigen::Vector3d x;
     double area = 0.0;
   };
-  std::vector<Point> points;  ///< none: the plane cuts no elastic body
+  std::vector<Point> points;  ///< those of a cell one after the other; none: the plane cuts no elastic body
   Eigen::Vector3d normal, about;
 };
 

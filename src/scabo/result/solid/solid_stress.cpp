@@ -20,7 +20,40 @@ Matrix places_of_nodes(std::size_t nodes) {
   return places;
 }
 
+Matrix tetrahedron_strains(const Matrix& nodes, const Vector& u) {
+  const Matrix places = places_of_nodes(static_cast<std::size_t>(nodes.cols()));
+  Matrix strains(6, nodes.cols());
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i) strains.col(i) = element::strain_at(nodes, u, places.col(i));
+  return strains;
+}
+
+element::PyramidPlace pyramid_of(const PlaceInCell& place) { return {place.facet, place.lambda}; }
+
+/// Of a change that is linear in the coordinates; `change`: at the nodes.
+double temperature_at(const Matrix& nodes, const Vector& change, const PlaceInCell& place) {
+  if (place.facet < 0)
+    return change.dot(geometry::SimplexBasis::of(3, static_cast<int>(nodes.cols())).values(place.lambda));
+  return element::value_in_super_element(nodes, change, pyramid_of(place));
+}
+
 }  // namespace
+
+Eigen::Vector3d CellField::displacement_at(const PlaceInCell& place) const {
+  if (interior_) return interior_->displacement_at(pyramid_of(place));
+  if (place.facet >= 0) {  // of a rigid body: linear
+    Eigen::Vector3d at;
+    for (int k = 0; k < 3; ++k)
+      at[k] =
+          element::value_in_super_element(nodes_, u_.reshaped(3, nodes_.cols()).row(k).transpose(), pyramid_of(place));
+    return at;
+  }
+  const Vector N = geometry::SimplexBasis::of(3, static_cast<int>(nodes_.cols())).values(place.lambda);
+  return u_.reshaped(3, nodes_.cols()) * N;
+}
+
+element::Vec6 CellField::strain_at(const PlaceInCell& place) const {
+  return interior_ ? interior_->strain_at(pyramid_of(place)) : element::strain_at(nodes_, u_, place.lambda);
+}
 
 Eigen::Matrix3d tensor_of(const element::Vec6& s) {
   Eigen::Matrix3d tensor;
@@ -38,6 +71,7 @@ SolidStress::SolidStress(const analysis::SolidModel& model, const analysis::Soli
     : body_(model.bodies[body]), u_(increment.u[body]), heated_(increment.heated[body]) {
   if (is_rigid()) return;
   D_ = element::elasticity_in_space(body_.young, body_.poisson);
+  inside_ = analysis::inside_cells_of(model, increment, body);
   for (std::size_t i = 0; i < model.preloads.size(); ++i)
     if (model.preloads[i].body == static_cast<int>(body)) {
       cut_ = &model.preloads[i].cut;
@@ -57,14 +91,26 @@ Vector SolidStress::displacements_of(std::size_t cell) const {
   return of_cell;
 }
 
-element::Vec6 SolidStress::at(std::size_t cell, const Vector& lambda) const {
-  const std::vector<int>& nodes = body_.mesh.cells[cell];
-  element::Vec6 stress = D_ * element::strain_at(mesh::nodes_of(body_.mesh, nodes), displacements_of(cell), lambda);
+element::SolidCellLoads SolidStress::loads_in(std::size_t cell, const Matrix& nodes) const {
+  return element::loads_in_cell(nodes, *body_.solved[cell], body_.mesh.cells[cell], inside_);
+}
+
+CellField SolidStress::field_of(std::size_t cell) const {
+  const Matrix nodes = mesh::nodes_of(body_.mesh, body_.mesh.cells[cell]);
+  const Vector u = displacements_of(cell);
+  std::optional<element::SolidInterior> interior;
+  if (const element::SolidSuperElement* of = element::super_element_of(body_.solved, cell))
+    interior.emplace(nodes, *of, u, loads_in(cell, nodes));
+  return {nodes, u, std::move(interior)};
+}
+
+element::Vec6 SolidStress::at(std::size_t cell, const CellField& field, const PlaceInCell& place) const {
+  element::Vec6 stress = D_ * field.strain_at(place);
   if (heated_.size() == 0) return stress;
-  const Vector N = geometry::SimplexBasis::of(3, static_cast<int>(nodes.size())).values(lambda);
-  double change = 0.0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) change += N[static_cast<Eigen::Index>(i)] * heated_[nodes[i]];
-  stress -= body_.expansion * change * D_.leftCols<3>().rowwise().sum();
+  const std::vector<int>& nodes = body_.mesh.cells[cell];
+  const Vector change = heated_(nodes);
+  stress -= body_.expansion * temperature_at(mesh::nodes_of(body_.mesh, nodes), change, place) *
+            D_.leftCols<3>().rowwise().sum();
   return stress;
 }
 
@@ -75,11 +121,13 @@ Matrix SolidStress::at_nodes() const {
   Vector count = Vector::Zero(mesh.nodes.cols());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const std::vector<int>& cell = mesh.cells[c];
-    const Matrix nodes = mesh::nodes_of(mesh, cell), places = places_of_nodes(cell.size());
+    const Matrix nodes = mesh::nodes_of(mesh, cell);
     const Vector of_cell = displacements_of(c);
+    const element::SolidSuperElement* of = element::super_element_of(body_.solved, c);
+    const Matrix strains =
+        of ? element::strains_at_nodes(nodes, *of, of_cell, loads_in(c, nodes)) : tetrahedron_strains(nodes, of_cell);
     for (std::size_t i = 0; i < cell.size(); ++i) {
-      const Vector lambda = places.col(static_cast<Eigen::Index>(i));
-      sum.col(cell[i]) += D_ * element::strain_at(nodes, of_cell, lambda);
+      sum.col(cell[i]) += D_ * strains.col(static_cast<Eigen::Index>(i));
       count[cell[i]] += 1.0;
     }
   }
