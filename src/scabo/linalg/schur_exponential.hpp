@@ -7,14 +7,14 @@
 //
 // along a hyperbola z = m (1 + sin(i theta - alpha)) around a sector of the negative axis, by the midpoint rule, which
 // converges geometrically (Weideman and Trefethen, Math. Comp. 76 (2007) 1341). The constants used here were determined
-// by search: the error is below 3e-15 with 28 pairs of points for eigenvalues within 45 degrees of the real axis, and
-// below 2e-14 with 32 pairs within 55 degrees; the eigenvalues determine which set is used. Every point costs one
-// triangular solve, and all points share the products. Wider hyperbolas of 120 to 602 pairs of points, on which the
+// by search: 34 pairs of points have an error below 2e-14 for eigenvalues within 55 degrees of the real axis, and serve
+// those within 35; 44 pairs, as exact within 65 degrees, serve those within 55. Every point costs one triangular
+// solve, and all points share the products. Wider hyperbolas of 120 to 602 pairs of points, on which the
 // error is below 3e-14, serve the eigenvalues beyond; where they cost more than the dense exponential, or eigenvalues
-// are still outside, it is that. Several s, of which the longest is at most 64 times the shortest, share the solves of
-// one contour, because only e^z in its weights differs: of 96 pairs of points within 45 degrees (error below 6e-15) or
-// 120 within 55 (below 2e-14). Eigenvectors are not used, because S of a slender super-element is far from normal
-// (the condition of its eigenvectors exceeds 1e16); repeated or defective eigenvalues cause no difficulty.
+// are still outside, it is that. Several s share the solves of one contour, because only e^z in its weights differs: up
+// to 64 times the shortest with 126 pairs of points, in the wider sector up to 16 times. Eigenvectors are not used,
+// because S of a slender super-element is far from normal (the condition of its eigenvectors exceeds 1e16); repeated or
+// defective eigenvalues cause no difficulty.
 #pragma once
 
 #include <complex>
@@ -41,10 +41,11 @@ class Times {
   struct Group {
     std::vector<std::size_t> places;  // in the list
     std::vector<double> s;            // ascending in size
-    mutable Matrix weights[2] = {};   // of each contour, times x twice the points; empty until needed
+    mutable Matrix weights = {};      // times x twice the points; empty until needed
   };
   std::size_t count_ = 0;
-  std::vector<Group> groups_;
+  double shortest_ = 0.0, longest_ = 0.0;  // but for 0
+  std::vector<Group> groups_[2];           // for a narrower and a wider sector
 };
 
 class SchurExponential {

@@ -3,8 +3,7 @@
 
 namespace scabo::model {
 
-constexpr const char* state_at_end_file =
-    "end.state";  ///< displacements and contact, of every body and contact by name
+constexpr const char* state_at_end_file = "end.state";   ///< what every body and contact has, by its name
 constexpr const char* factors_at_end_file = "end.yaml";  ///< factors of loads and supports, which steps start from
 
 }  // namespace scabo::model

@@ -23,7 +23,7 @@ using Known = std::unordered_multimap<std::size_t, const ElasticBody*>;
 
 /// The one for which this holds; null if there is none.
 template <typename Holds>
-const ElasticBody* found(const Known& known, std::size_t hash, const Holds& holds) {
+const ElasticBody* known_body(const Known& known, std::size_t hash, const Holds& holds) {
   const auto [begin, end] = known.equal_range(hash);
   const auto entry = std::find_if(begin, end, [&](const auto& of) { return holds(*of.second); });
   return entry == end ? nullptr : entry->second;
@@ -55,9 +55,9 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
       return other.factored()->contact_dofs == factored->contact_dofs &&
              other.factored()->nodes.columns() == factored->nodes.columns() && other.equals(*body);
     };
-    if (const ElasticBody* const twin = found(here, hash, equal_to)) {
+    if (const ElasticBody* const twin = known_body(here, hash, equal_to)) {
       body->share(twin->factored());
-    } else if (const ElasticBody* const kept = found(factorised, hash, same_as)) {
+    } else if (const ElasticBody* const kept = known_body(factorised, hash, same_as)) {
       body->share(kept->factored());
       here.emplace(hash, body.get());
     } else {

@@ -153,7 +153,7 @@ TEST(SchurExponential, ManyTimesShareAWiderContour) {
   Matrix S = Matrix::Zero(12, 12);
   Vector c = Vector::Zero(12);
   std::vector<double> s;
-  for (int k = 0; k <= 12; ++k) s.push_back(-1.5 * std::pow(64.0, -k / 12.0));
+  for (int k = 0; k <= 12; ++k) s.push_back(-1.5 * std::pow(16.0, -k / 12.0));
   for (Eigen::Index i = 0; i < 12; i += 2) {
     const double a = std::pow(3.0, static_cast<double>(i) / 2.0), b = a * std::tan(50.0 / 57.29577951308232);
     S.block<2, 2>(i, i) << a, -b, b, a;
