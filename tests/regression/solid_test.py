@@ -419,10 +419,9 @@ class BlocksInSpace(support.InTemporaryDirectory):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("No mistakes found", done.stdout)
         self.assertRegex(done.stdout, "2 bodies, .* degrees of freedom, 156 finite elements, .* contact pairs; about .* of memory, less than a second")
-        for words in (["exponents", EXAMPLE / "model.yaml"], ["sweep", EXAMPLE / "model.yaml", "--vary", "contacts.joint.friction=0.1,0.2", "-o", self.directory / "sweep"]):
-            done = scabo(*words)
-            self.assertEqual(done.returncode, 1, done.stdout)
-            self.assertIn("is a model in space", done.stderr)
+        done = scabo("exponents", EXAMPLE / "model.yaml")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("is a model in space", done.stderr)
 
 
 if __name__ == "__main__":

@@ -245,6 +245,7 @@ TEST_P(Stacks, GiveTheSameTurnedMovedAndInOtherUnits) {
 /// A tie carries tension and shear: the weight of the hanging block, at the sides of the lower one.
 TEST_P(Stacks, HangOnATie) {
   Stack stack(GetParam(), 1.2);
+  stack.model.contacts[0].law.bond = true;
   hold_plane(stack.model.bodies[0], 2, -1.0, {0, 1, 2});
   stack.load(system::volume_forces(stack.model.bodies[1].mesh, {3.0, 0, density_weight}));
   const std::vector<SolidIncrement> increments = stack.solve({Vector::Ones(1)});
