@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/mesh/extruded_solid.hpp"
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
@@ -101,7 +102,12 @@ void Posing::add_body(const model::SpaceBody& of) {
     body.young = material.young, body.poisson = material.poisson, body.expansion = material.expansion;
   }
   if (auto wrong = folded_cell(of, body.mesh)) return mistakes_.push_back({of.source, *std::move(wrong)});
-  if (!of.rigid) body = with_super_elements(std::move(body));
+  try {
+    if (!of.rigid) body = with_super_elements(std::move(body));
+  } catch (const element::IllPosed&) {
+    return mistakes_.push_back(
+        {of.source, "a cell of it is too flat or distorted for a super-element: change its mesh, or leave out 'kind'"});
+  }
   boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});
   of_shapes_.push_back(std::move(shaped.faces));
   posed_.model.bodies.push_back(std::move(body));
