@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/mesh/extruded_solid.hpp"
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
@@ -55,7 +56,7 @@ class Posing {
 namespace {
 
 /// Why a cell has no stiffness, if there is one.
-std::optional<std::string> folded_cell(const model::SpaceBody& of, const mesh::SolidMesh& mesh) {
+std::optional<std::string> wrong_cell(const model::SpaceBody& of, const mesh::SolidMesh& mesh) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const double least = element::least_of_cell(mesh::nodes_of(mesh, mesh.cells[c]));
     if (least > 0.0) continue;
@@ -70,7 +71,12 @@ std::optional<std::string> folded_cell(const model::SpaceBody& of, const mesh::S
         "correct its nodes",
         of.mesh->cells[c].number, least);
   }
-  return {};
+  const auto cells = of.mesh && !of.made_of_shape ? mesh::overlapping_cells(mesh) : std::nullopt;
+  if (!cells) return {};
+  return fmt::format(
+      "elements {} and {} of its mesh file lie on the same side of a face that both have: leave one of them out",
+      of.mesh->cells[static_cast<std::size_t>((*cells)[0])].number,
+      of.mesh->cells[static_cast<std::size_t>((*cells)[1])].number);
 }
 
 }  // namespace
@@ -105,14 +111,13 @@ void Posing::add_body(const model::SpaceBody& of) {
     const auto& material = model_.materials[static_cast<std::size_t>(of.material)];
     body.young = material.young, body.poisson = material.poisson, body.expansion = material.expansion;
   }
-  if (auto wrong = folded_cell(of, body.mesh)) return mistakes_.push_back({of.source, *std::move(wrong)});
-  if (const auto cells = of.mesh && !of.made_of_shape ? mesh::overlapping_cells(body.mesh) : std::nullopt)
-    mistakes_.push_back(
-        {of.source, fmt::format("elements {} and {} of its mesh file lie on the same side of a face that "
-                                "both have: leave one of them out",
-                                of.mesh->cells[static_cast<std::size_t>((*cells)[0])].number,
-                                of.mesh->cells[static_cast<std::size_t>((*cells)[1])].number)});
-  if (!of.rigid) body = with_super_elements(std::move(body));
+  if (auto wrong = wrong_cell(of, body.mesh)) return mistakes_.push_back({of.source, *std::move(wrong)});
+  try {
+    if (!of.rigid) body = with_super_elements(std::move(body));
+  } catch (const element::IllPosed&) {
+    return mistakes_.push_back(
+        {of.source, "a cell of it is too flat or distorted for a super-element: change its mesh, or leave out 'kind'"});
+  }
   boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});
   of_shapes_.push_back(std::move(shaped.faces));
   posed_.model.bodies.push_back(std::move(body));

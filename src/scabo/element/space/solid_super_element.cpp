@@ -205,6 +205,8 @@ SolidSuperElement::SolidSuperElement(const Matrix& nodes, const Mat6& D) {
   const auto [E0, E1, E2] = solid_coefficients(nodes, D);
   const Matrix E1_hat = E1 - 0.5 * E0, E2_hat = E2 - 0.5 * (E1 + E1.transpose()) + 0.25 * E0;
   RingStiffness ring = ring_doubling(E0, E1_hat, E2_hat);
+  constexpr double most_wrong = 1e-8;
+  if (!(ring.residual < most_wrong)) throw IllPosed("its exponents are too far apart");
   impose_rigid_motions(rigid_motions_about(nodes, solid_boundary(nodes).centre), ring.K);
   solution_.K = std::move(ring.K);
   solution_.doublings = ring.doublings;
