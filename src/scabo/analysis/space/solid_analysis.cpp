@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "scabo/analysis/quasistatic/branch.hpp"
-#include "scabo/analysis/space/solid_mechanism.hpp"
+#include "scabo/analysis/space/smallest_motions.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/friction_work.hpp"
 #include "scabo/analysis/state/loads.hpp"
@@ -387,6 +387,9 @@ class SolidMarch {
     return {prepared_.model,        prepared_.structure,     prepared_.contact,      tightened,
             prepared_.paired.pairs, prepared_.paired.points, prepared_.paired.turned};
   }
+  /// Of motions that nothing determines the smallest one, of increments without preloads that are tightened.
+  void give_smallest_motions(const AppliedToSolids& applied, const contact::Problem& problem,
+                             const contact::Start& start, contact::Solution& solution) const;
   /// The solution of the contact problem; `to` has what it says of it.
   contact::Solution solved(const AppliedToSolids& applied, const SolidFactors& factors,
                            const std::vector<std::size_t>& tightened, SolidIncrement& to) const;
@@ -398,6 +401,17 @@ class SolidMarch {
   MovedSolids before_;
   std::vector<Warning> given_;
 };
+
+void SolidMarch::give_smallest_motions(const AppliedToSolids& applied, const contact::Problem& problem,
+                                       const contact::Start& start, contact::Solution& solution) const {
+  if (solution.status != contact::Status::solved || solution.undetermined.cols() == 0) return;
+  std::vector<Vector> moved = moved_solids(prepared_, applied, solution.p, solution.a).u;
+  for (std::size_t b = 0; b < moved.size(); ++b) moved[b] -= before_.u[b];
+  const std::vector<std::size_t> none;
+  const std::optional<Vector> a = smallest_motions(moving(none), problem, solution, moved);
+  if (!a) return;
+  if (auto other = contact::with_motions(solution, *a, problem, start, solver_)) solution = *std::move(other);
+}
 
 contact::Solution SolidMarch::solved(const AppliedToSolids& applied, const SolidFactors& factors,
                                      const std::vector<std::size_t>& tightened, SolidIncrement& to) const {
@@ -412,6 +426,7 @@ contact::Solution SolidMarch::solved(const AppliedToSolids& applied, const Solid
   if (uniqueness_ && evolution.problem.pairs() > 0)
     to.uniqueness = follow_history(evolution.problem, prepared_.contact.laws,
                                    contact::History(prepared_.contact.pairs.size()), start, solver_, evolution);
+  if (tightened.empty()) give_smallest_motions(applied, evolution.problem, start, evolution.solution);
   const contact::Solution& solution = evolution.solution;
   to.factors = factors;
   to.status = solution.status;
