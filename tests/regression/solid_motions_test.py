@@ -1,4 +1,5 @@
 """Bodies in space that nothing holds: the motion of a mechanism, motions that nothing determines, whether forces are unique."""
+import csv
 import math
 import unittest
 
@@ -85,7 +86,7 @@ contacts: {{joint: {{between: [base.top, block.{"surface" if "sphere" in shape e
     def test_a_smooth_block_may_slide(self):
         summary, _ = self.on_base(self.BRICK, [0, 0, -10], 0, 0, more="steps: [{name: press, increments: 3}]\n")
         self.assertEqual(summary["warnings"], ["step press, increment 1: supports, friction and loads do not determine body 'block': translations normal to "
-                                               "(0, 0, 1) and rotation about an axis along (0, 0, 1): add a support if the position matters"])
+                                               "(0, 0, 1) and rotation about an axis along (0, 0, 1); the smallest such motion was chosen: add a support if the position matters"])
 
     def test_two_blocks_that_press_each_other_may_go_anywhere(self):
         summary, _ = self.run_model("""bodies:
@@ -95,9 +96,15 @@ loads:
   p: {on: b.top, pressure: 1e5}
   q: {on: a.bottom, pressure: 1e5}
 contacts: {joint: {between: [a.top, b.bottom], friction: 0.3}}
+output: {points: [{at: [2, 2, 1], name: above}, {at: [0, 1, -1], name: below}]}
 """, 0)
-        self.assertIn("do not determine body 'a': any motion; body 'b': any motion: add a support", summary["warnings"][0])
+        self.assertIn("do not determine body 'a': any motion; body 'b': any motion; the smallest such motion was chosen: add a support", summary["warnings"][0])
         self.assertAlmostEqual(summary["increments"][-1]["contacts"]["joint"]["normal_force"][2], 4e5, delta=1e-3)
+        # What is given of the motions is the smallest: that of the deformation about the common centroid.
+        with open(self.directory / "results" / "points.csv", encoding="utf-8", newline="") as file:
+            points = {row["name"]: [float(row[f"u{axis}"]) for axis in "xyz"] for row in csv.DictReader(file)}
+        self.assert_vector(points["above"], [2e-5, 2e-5, -1e-4], 1e-13)
+        self.assert_vector(points["below"], [-2e-5, 0, 1e-4], 1e-13)
 
     def test_blocks_that_are_pulled_apart_and_one_that_stays(self):
         summary, _ = self.run_model(f"""bodies:

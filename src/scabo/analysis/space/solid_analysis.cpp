@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "scabo/analysis/quasistatic/branch.hpp"
-#include "scabo/analysis/space/solid_mechanism.hpp"
+#include "scabo/analysis/space/smallest_motions.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/friction_work.hpp"
 #include "scabo/analysis/state/loads.hpp"
@@ -414,6 +414,9 @@ class SolidMarch {
     return {prepared_.model,        prepared_.structure,     prepared_.contact,      tightened,
             prepared_.paired.pairs, prepared_.paired.points, prepared_.paired.turned};
   }
+  /// Of motions that nothing determines the smallest one, of increments without preloads that are tightened.
+  void give_smallest_motions(const AppliedToSolids& applied, const contact::Problem& problem,
+                             const contact::Start& start, contact::Solution& solution) const;
   /// The solution of the contact problem; `to` has what it says of it.
   contact::Evolution solved(const AppliedToSolids& applied, const SolidFactors& factors,
                             const std::vector<std::size_t>& tightened, SolidIncrement& to) const;
@@ -425,6 +428,17 @@ class SolidMarch {
   MovedSolids before_;
   std::vector<Warning> given_;
 };
+
+void SolidMarch::give_smallest_motions(const AppliedToSolids& applied, const contact::Problem& problem,
+                                       const contact::Start& start, contact::Solution& solution) const {
+  if (solution.status != contact::Status::solved || solution.undetermined.cols() == 0) return;
+  std::vector<Vector> moved = moved_solids(prepared_, applied, solution.p, solution.a).u;
+  for (std::size_t b = 0; b < moved.size(); ++b) moved[b] -= before_.u[b];
+  const std::vector<std::size_t> none;
+  const std::optional<Vector> a = smallest_motions(moving(none), problem, solution, moved);
+  if (!a) return;
+  if (auto other = contact::with_motions(solution, *a, problem, start, solver_)) solution = *std::move(other);
+}
 
 contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const SolidFactors& factors,
                                       const std::vector<std::size_t>& tightened, SolidIncrement& to) const {
@@ -438,6 +452,7 @@ contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const Soli
   contact::Evolution evolution = contact::evolve(problem, laws, state_.history, start, solver_);
   if (uniqueness_ && problem.pairs() > 0)
     to.uniqueness = follow_history(problem, laws, state_.history, start, solver_, evolution);
+  if (tightened.empty()) give_smallest_motions(applied, evolution.problem, start, evolution.solution);
   const contact::Solution& solution = evolution.solution;
   to.factors = factors;
   to.status = solution.status;

@@ -282,9 +282,10 @@ std::optional<Warning> undetermined_motion_warning(const MovingSolids& solids, c
         return warning.kind == WarningKind::undetermined_motion && warning.subject == subject;
       }))
     return std::nullopt;
-  return Warning{
-      WarningKind::undetermined_motion, subject,
-      fmt::format("supports, friction and loads do not determine {}: add a support if the position matters", text)};
+  return Warning{WarningKind::undetermined_motion, subject,
+                 fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
+                             "add a support if the position matters",
+                             text)};
 }
 
 /// Of the first increment that has such motions.
