@@ -1,7 +1,7 @@
 """A bolted flange on an elastic block: the model of Scabo, and the same mesh and conditions as a deck of CalculiX.
 
 A half of the flange beside one bolt, whose lower end is held in the plane of the joint. The bolt is tightened, then the edge of the flange is pulled, so
-that the flange pries about its other edge. Without friction; bolt and head are one turned body. Units: mm, N, MPa.
+that the flange pries about its other edge. Without friction. Units: mm, N, MPa.
 """
 import math
 import pathlib

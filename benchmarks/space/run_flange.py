@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A bolted flange in space (flange.py): Scabo and CalculiX on the same meshes of quadratic tetrahedra, one thread each.
 
-    run_flange.py --scabo build/bin/scabo [--levels 3] [--penalties 1e5,1e6,1e7] [--json figures.json] [--no-calculix]
+    run_flange.py --scabo build/bin/scabo [--levels 3] [--penalties 1e4,1e5,1e6,1e7] [--json figures.json] [--no-calculix]
 
 For each mesh: degrees of freedom, errors of the force of the joint and of its pressure, processor seconds, memory, after the bolt was tightened and the flange
 pulled. The pressure is that on a circle around the hole; its error is the mean square over the circle, over the largest value there. Both are compared with
@@ -84,7 +84,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scabo", type=pathlib.Path, required=True)
     parser.add_argument("--levels", type=int, default=len(LEVELS))
-    parser.add_argument("--penalties", default="1e5,1e6,1e7")
+    parser.add_argument("--penalties", default="1e4,1e5,1e6,1e7")
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--no-calculix", action="store_true")
     options = parser.parse_args()

@@ -162,6 +162,7 @@ class Refused(support.InTemporaryDirectory):
         for old, new, sentence in (
                 ("*BOUNDARY", "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n*BOUNDARY", "*EQUATION joins degrees of freedom"),
                 ("SLAVE, MASTER", "MASTER, MASTER", "each of both surfaces must be of one body, and not of the same"),
+                ("ELSET=LOWER\n1, 1,", "ELSET=LOWER\n1, -1,", "cell 1 has the node -1; numbers of nodes are positive"),
                 ("SLAVE, MASTER", "NONE, MASTER", "there is no surface 'NONE' with outer sides of solid elements"),
                 ("PRESSURE-OVERCLOSURE=HARD\n", "PRESSURE-OVERCLOSURE=EXPONENTIAL\n1e-3, 5.\n", "presses before the surfaces touch"),
                 ("1001, 3, -7.", "1001, 4, -7.", "a load along degree of freedom 4 does not act on a solid and is lost"),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -155,6 +156,8 @@ void SolidReader::elements(const AbaqusKeyword& key) {
     if (nodes.size() != wanted)
       builder_.fail(at, fmt::format("cell {} has {} nodes, but type {} has {}; correct the type or the line", number,
                                     nodes.size(), type, wanted));
+    if (const auto least = std::min_element(nodes.begin(), nodes.end()); *least < 1)
+      builder_.fail(at, fmt::format("cell {} has the node {}; numbers of nodes are positive", number, *least));
     numbers.push_back(number);
     if (nodes_of_split(type) && bricks_ == Bricks::divided)
       split(number, nodes, at);

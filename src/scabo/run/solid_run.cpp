@@ -8,6 +8,7 @@
 #include "scabo/run/checkpoint_pace.hpp"
 #include "scabo/run/failures.hpp"
 #include "scabo/run/origin.hpp"
+#include "scabo/system/pair_flexibility.hpp"
 
 namespace scabo::run {
 
@@ -20,10 +21,14 @@ constexpr double bytes_of_dof = 4000.0, seconds_of_dof = 1.6e-5;  // of elements
 constexpr double bytes_of_super_element = 1.5e5;                  // of each distinct one
 constexpr double field_seconds = 3e-6;                            // for each degree of freedom and increment
 constexpr double sweep_seconds = 3e-8;                            // for each degree of freedom and row of W
-/// For the square of the rows of W on one body: the block of its flexibility, of which a corner has the four nodes of a
-/// quadratic face, and W twice.
-constexpr double contact_bytes = 8.0 * (4.0 * 4.0 + 2.0);
-constexpr double row_seconds = 2e-8, solve_seconds = 1e-10;  // of an increment, for their square and their cube
+constexpr double row_seconds = 2e-8, solve_seconds = 1e-10;       // of an increment, for their square and their cube
+
+/// Of a body with these rows of W: the block of its flexibility, of which a corner has the four nodes of a quadratic
+/// face, and W twice.
+double contact_bytes(double rows) {
+  const double dofs = 4.0 * rows, parts = dofs > static_cast<double>(system::most_flexible_at_once) ? 4.0 / 9.0 : 1.0;
+  return sizeof(double) * (parts * dofs * dofs + 2.0 * rows * rows);
+}
 
 double count_distinct(const element::SuperElements& solved) {
   std::set<std::shared_ptr<const element::SolidSuperElement>> cells(solved.begin(), solved.end());
@@ -67,7 +72,7 @@ Plan plan_of(const analysis::PosedSolids& posed) {
   plan.sizes.dofs = 3 * plan.sizes.nodes;
   // The factors stay. Beside them there are elements and fields, or the block of one body at a time.
   const double most = rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
-  plan.bytes = CostConstants().base_bytes + factors + std::max(fields, contact_bytes * most * most);
+  plan.bytes = CostConstants().base_bytes + factors + std::max(fields, contact_bytes(most));
   plan.contact = plan.increments * (row_seconds + solve_seconds * all_rows) * all_rows * all_rows;
   return plan;
 }

@@ -8,6 +8,7 @@
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/joined_bodies.hpp"
+#include "scabo/system/pair_flexibility.hpp"
 #include "scabo/system/tributary_lengths.hpp"
 
 namespace scabo::system {
@@ -78,49 +79,9 @@ struct PartFlexibility {
   Matrix block;  // rows x rows, symmetric
 };
 
-/// N A N' of a symmetric A, exactly symmetric, by tiles of its columns: no other matrix is as large.
-Matrix congruent(const Eigen::SparseMatrix<double, Eigen::RowMajor>& N, const Matrix& A) {
-  constexpr Eigen::Index tile = 64;
-  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
-  const Eigen::Index rows = N.rows();
-  Matrix result(rows, rows), half(A.rows(), tile);
-  for (Eigen::Index first = 0; first < rows; first += tile) {
-    const Eigen::Index count = std::min(tile, rows - first), last = first + count;
-    for (Eigen::Index j = first; j < last; ++j) {
-      auto column = half.col(j - first);
-      column.setZero();
-      for (Row it(N, j); it; ++it) column += it.value() * A.col(it.col());
-      for (Eigen::Index i = j; i < rows; ++i) {
-        double sum = 0.0;
-        for (Row it(N, i); it; ++it) sum += it.value() * column[it.col()];
-        result(i, j) = sum;
-      }
-    }
-    for (Eigen::Index j = first; j < last; ++j)
-      for (Eigen::Index i = j + 1; i < last; ++i) result(j, i) = result(i, j);
-    for (Eigen::Index below = last; below < rows; below += tile) {
-      const Eigen::Index height = std::min(tile, rows - below);
-      result.block(first, below, count, height) = result.block(below, first, height, count).transpose();
-    }
-  }
-  return result;
-}
-
 PartFlexibility flexibility_of(const TouchedPart& touched, const BodySystem& part) {
   if (touched.dofs.empty()) return {};
-  // Without what supports hold: A has gigabytes in space, and would be copied to be filled up with zeros.
-  std::vector<int> moving;
-  Triplets selected;
-  for (std::size_t k = 0; k < touched.dofs.size(); ++k) {
-    if (!part.moves(touched.dofs[k])) continue;
-    selected.emplace_back(static_cast<int>(k), static_cast<int>(moving.size()), 1.0);
-    moving.push_back(touched.dofs[k]);
-  }
-  if (moving.size() == touched.dofs.size()) return {touched.rows, congruent(touched.motion, part.flexibility(moving))};
-  Eigen::SparseMatrix<double, Eigen::RowMajor> selection(touched.motion.cols(),
-                                                         static_cast<Eigen::Index>(moving.size()));
-  selection.setFromTriplets(selected.begin(), selected.end());
-  return {touched.rows, congruent(touched.motion * selection, part.flexibility(moving))};
+  return {touched.rows, pair_flexibility(touched.motion, touched.dofs, part)};
 }
 
 /// Whether W has so few entries that it is sparse; `rows` of all pairs.
