@@ -46,8 +46,12 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   std::vector<char> failed(distinct.size(), 0);
   linalg::parallel_for(work, threads, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
+    ElasticBody& body = *bodies[distinct[i]];
+    const ElasticPart& part = parts[distinct[i]];
+    const auto* const before = dynamic_cast<const ElasticBody*>(part.before);
     try {
-      bodies[distinct[i]]->factorise(options, parts[distinct[i]].nodes, parts[distinct[i]].contact_dofs);
+      if (!before || !body.factorise_by(*before, part.nodes, part.nodes_before, part.contact_dofs))
+        body.factorise(options, part.nodes, part.contact_dofs);
     } catch (const linalg::NotPositiveDefinite&) {
       failed[i] = 1;
     }

@@ -9,9 +9,10 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/base/error.hpp"
-#include "scabo/linalg/sparse_factor.hpp"
+#include "scabo/linalg/changed_factor.hpp"
 #include "scabo/system/ranks.hpp"
 #include "scabo/system/rigid_motions.hpp"
+#include "scabo/system/same_nodes.hpp"
 
 namespace scabo::system {
 
@@ -104,9 +105,31 @@ void ElasticBody::factorise(linalg::SparseOptions options, const Positions& node
     factored_->solver = linalg::SymmetricPositiveSolver(alone ? Matrix((*stiffness().dense)(dofs_, dofs_))
                                                               : Matrix(whole_dense()(dofs_, dofs_)));
   } else {
-    factored_->solver = linalg::SymmetricPositiveSolver(
-        principal_part(alone ? stiffness().sparse : whole_sparse(), dofs_, place_), options);
+    factored_->solver = linalg::SymmetricPositiveSolver(solved_part(), options);
   }
+}
+
+bool ElasticBody::factorise_by(const ElasticBody& before, const Positions& nodes, const Positions& nodes_before,
+                               const std::vector<int>& contact_dofs) {
+  const auto is_sparse = [](const Stiffness& one) { return !one.dense && !one.divided; };
+  if (!is_large() || !is_sparse(stiffness()) || !is_sparse(before.stiffness()) || nodes.components().dimension != 2)
+    return false;
+  Factored& known = *before.factored_;
+  std::call_once(known.solved_flag, [&] { known.solved = before.solved_part(); });
+  const std::vector<int> nodes_there = same_nodes(nodes, nodes_before);
+  std::vector<int> same, near;
+  for (const int dof : dofs_) {
+    const int there = nodes_there[static_cast<std::size_t>(plane_components.node_of(dof))];
+    const auto place = there < 0 ? -1 : place_of(there, plane_components.component_of(dof));
+    same.push_back(place < 0 ? -1 : before.place_[static_cast<std::size_t>(place)]);
+  }
+  for (const int dof : contact_dofs)
+    if (const int place = place_[static_cast<std::size_t>(dof)]; place >= 0) near.push_back(place);
+  auto factor = linalg::factor_by_changes(solved_part(), {known.solved, {before.factored_, &known.solver}}, same, near);
+  if (!factor) return false;
+  factored_->solver =
+      linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), known.solver.costs());
+  return true;
 }
 
 Displaced ElasticBody::displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted,
@@ -345,6 +368,11 @@ Matrix ElasticBody::whole_dense() const {
   Matrix K = *stiffness().dense;
   if (has_springs()) K += stiffness().springs.matrix;
   return inclined_.none() ? K : inclined_.stiffness(std::move(K));
+}
+
+linalg::SparseMatrix ElasticBody::solved_part() const {
+  const bool alone = inclined_.none() && stiffness().springs.none();
+  return principal_part(alone ? stiffness().sparse : whole_sparse(), dofs_, place_);
 }
 
 linalg::SparseMatrix ElasticBody::whole_sparse() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "scabo/system/body_system.hpp"
@@ -15,6 +16,9 @@ struct Factored {
   Stiffness stiffness;
   double largest_diagonal = 0.0;  ///< of the stiffness: asked for often, and as long as a product with it
   linalg::SymmetricPositiveSolver solver;
+  // Its matrix, once another one is compared with it:
+  linalg::SparseMatrix solved = {};
+  std::once_flag solved_flag = {};
 };
 
 class ElasticBody final : public BodySystem {
@@ -27,6 +31,9 @@ class ElasticBody final : public BodySystem {
   void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
   const void* factor() const override { return factored_.get(); }
   void factorise(linalg::SparseOptions options, const Positions& nodes, const std::vector<int>& contact_dofs);
+  /// By the factor of this body on an earlier mesh, with other nodes; false where that would not pay.
+  bool factorise_by(const ElasticBody& before, const Positions& nodes, const Positions& nodes_before,
+                    const std::vector<int>& contact_dofs);
 
   Vector spring_forces(const Vector& u) const override { return -stiffness().springs.times(u); }
   bool is_flexible() const override { return true; }
@@ -70,6 +77,8 @@ class ElasticBody final : public BodySystem {
   /// K + S along the directions of the constraints.
   Matrix whole_dense() const;
   linalg::SparseMatrix whole_sparse() const;
+  /// Of the sparse one what is solved for.
+  linalg::SparseMatrix solved_part() const;
   /// The degree of freedom, or both of its node, if that is inclined.
   std::vector<int> both_if_inclined(int dof) const;
   /// Displacements of the constraints; 0 of everything else.

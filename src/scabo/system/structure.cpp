@@ -146,7 +146,8 @@ std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const 
 }  // namespace
 
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks) {
+                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks,
+                         const Structure* before) {
   Structure structure;
   structure.dofs = Dofs(model, mesh);
   const Dofs& dofs = structure.dofs;
@@ -188,6 +189,9 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     stiffness.springs = structure.springs.of_part[p];
     stiffest.push_back(stiffness.springs.none() || stiffness.divided ? 0.0 : stiffness.largest_diagonal());
     parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), std::move(contact_dofs[p])});
+    if (!before || before->parts.size() != dofs.parts()) continue;
+    parts.back().before = before->parts[p].get();
+    parts.back().nodes_before = before->dofs.nodes(p);
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options);

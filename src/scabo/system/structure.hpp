@@ -65,9 +65,10 @@ std::vector<std::vector<Constraint>> constraints_of_support(const model::Model& 
 void check_supports(const model::Model& model, const mesh::Mesh& mesh);
 
 /// Factorises every part, on up to `threads` threads. `cells[body]`: its solved super-elements. `ranks`: the other
-/// processes of the run, or null.
+/// processes of the run, or null. `before`: of an earlier mesh, whose factors may serve for this one, or null.
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, int threads = 1, Ranks* ranks = nullptr);
+                         const std::vector<element::SolvedCells>& cells, int threads = 1, Ranks* ranks = nullptr,
+                         const Structure* before = nullptr);
 
 /// Adds the loads to a structure (apply_loads.cpp).
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,

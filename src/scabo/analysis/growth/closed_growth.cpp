@@ -334,12 +334,6 @@ class Numbered {
   std::vector<int> dofs_;
 };
 
-void set_shape(element::SolvedSuperElement& super_element, const Prepared& prepared, int body, const mesh::Cell& cell) {
-  super_element.ring = element::ring_of(cell, prepared.mesh.bodies[static_cast<std::size_t>(body)].nodes);
-  super_element.sectors = element::sectors_of(prepared.model, cell);
-  super_element.thickness = model::thickness_of(prepared.model, body);
-}
-
 /// Eq. (1) of one part.
 class ClosedPart {
  public:
@@ -393,7 +387,9 @@ void ClosedPart::add(int body, const ClosedCracks& cracks, const Vector& acting)
                     K_p_);
     }
     element::SolvedSuperElement closed;
-    set_shape(closed, prepared_, body, exchange.closed);
+    closed.ring = element::ring_of(exchange.closed, mesh.nodes);
+    closed.sectors = element::sectors_of(prepared_.model, exchange.closed);
+    closed.thickness = model::thickness_of(prepared_.model, body);
     add_stiffness(body, exchange.closed, closed.K(), closed_, K_c_);
     const auto follows = [&](int node) {
       inside.insert(node);

@@ -5,6 +5,7 @@
 
 #include "scabo/analysis/state/outside.hpp"
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/element/alike_cells.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/sliding_sides.hpp"
 
@@ -22,8 +23,9 @@ double largest_load(const system::Structure& structure) {
 
 /// Parts with their loads; pairs get the normals along which bodies may roll.
 std::shared_ptr<const system::Structure> make_systems(Discretisation& of, Timing& timing) {
-  const auto structure = std::make_shared<system::Structure>(timed(
-      timing.factorise, [&] { return system::make_structure(of.model, of.mesh, of.cells, of.threads, of.ranks); }));
+  const auto structure = std::make_shared<system::Structure>(timed(timing.factorise, [&] {
+    return system::make_structure(of.model, of.mesh, of.cells, of.threads, of.ranks, of.like.get());
+  }));
   timing.factorise -= structure->assembly_seconds;
   timing.assemble += structure->assembly_seconds;
   const Stopwatch stopwatch(timing.assemble);
@@ -40,9 +42,12 @@ void discretise(Discretisation& of, const std::vector<element::SolvedCells>& bef
     if (on_stage) on_stage(what);
   };
   stage("super-elements");
+  const std::vector<element::SolvedCells> like = std::move(of.cells);
   of.cells = timed(timing.super_elements, [&] {
-    return element::solve_cells(of.model, of.mesh, of.threads, system::divided_bodies(of.ranks, of.model, of.mesh),
-                                before);
+    std::vector<element::SolvedCells> cells = element::solve_cells(
+        of.model, of.mesh, of.threads, system::divided_bodies(of.ranks, of.model, of.mesh), before);
+    if (of.like) element::take_alike(cells, of.mesh, like);
+    return cells;
   });
   stage("factorisation");
   of.structure = make_systems(of, timing);
@@ -71,6 +76,7 @@ void replace(Discretisation& of, Discretisation by) {
 void drop_systems(Discretisation& of) {
   of.pairs.reset();
   of.structure.reset();
+  of.like.reset();
   of.references.clear();
 }
 

@@ -42,6 +42,8 @@ struct Discretisation {
 
   int threads = 1;                 ///< for its systems; worthwhile for its fields as well
   system::Ranks* ranks = nullptr;  ///< processes among which large bodies are divided; null: this one alone
+  /// Of an earlier mesh, nearly this one: its factors may serve for `structure`, and its `cells`, given here.
+  std::shared_ptr<const system::Structure> like;
 };
 
 using OnStage = std::function<void(const std::string&)>;
