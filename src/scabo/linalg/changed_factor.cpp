@@ -34,20 +34,25 @@ struct Numbered {
 
 Numbered none_of(Eigen::Index all) { return {{}, std::vector<int>(static_cast<std::size_t>(all), -1)}; }
 
+using Entries = std::vector<Eigen::Triplet<double>>;
+
 /// The rows and columns of these unknowns.
-std::vector<Eigen::Triplet<double>> entries_of(const SparseMatrix& A, const Numbered& of) {
-  std::vector<Eigen::Triplet<double>> entries;
+Entries entries_of(const SparseMatrix& A, const Numbered& of) {
+  Entries entries;
   for (const int j : of.unknowns)
     for (SparseMatrix::InnerIterator it(A, j); it; ++it)
       if (const int row = of.of(static_cast<int>(it.row())); row >= 0) entries.emplace_back(row, of.of(j), it.value());
   return entries;
 }
 
-SymmetricPositiveSolver factor_of(const std::vector<Eigen::Triplet<double>>& entries, Eigen::Index size) {
-  if (size == 0) return SymmetricPositiveSolver();
+SparseMatrix matrix_of(const Entries& entries, Eigen::Index size) {
   SparseMatrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  return SymmetricPositiveSolver(matrix);
+  return matrix;
+}
+
+SymmetricPositiveSolver factor_of(const SparseMatrix& A) {
+  return A.rows() > 0 ? SymmetricPositiveSolver(A) : SymmetricPositiveSolver();
 }
 
 /// Of a symmetric positive definite matrix.
@@ -63,8 +68,7 @@ class ChangedFactor final : public SparseFactor {
  public:
   ChangedFactor(const SparseMatrix& A, const Factorised& before, Numbered near, const std::vector<int>& far,
                 const std::vector<int>& same)
-      : factor_(before.factor), size_before_(before.A.rows()), near_(std::move(near)) {
-    Numbered near_before = none_of(before.A.rows());
+      : factor_(before.factor), size_before_(before.A.rows()), before_of_(same), near_(std::move(near)) {
     std::vector<char> is_far(static_cast<std::size_t>(before.A.rows()), 0);
     for (const int j : far) {
       const int i = same[static_cast<std::size_t>(j)];
@@ -72,9 +76,9 @@ class ChangedFactor final : public SparseFactor {
       far_.push_back(j);
       far_before_.push_back(i);
     }
+    Numbered near_before = none_of(before.A.rows());
     for (int i = 0; i < before.A.rows(); ++i)
       if (is_far[static_cast<std::size_t>(i)] == 0) near_before.add(i);
-    std::vector<int> border;  // b among the near unknowns of A_0
     for (const int j : near_.unknowns) {
       bool reaches = false;
       for (SparseMatrix::InnerIterator it(A, j); it && !reaches; ++it)
@@ -82,90 +86,120 @@ class ChangedFactor final : public SparseFactor {
       if (!reaches) continue;
       border_.push_back(near_.of(j));
       border_before_.push_back(same[static_cast<std::size_t>(j)]);
-      border.push_back(near_before.of(border_before_.back()));
+      border_among_.push_back(near_before.of(border_before_.back()));
     }
-    std::vector<Eigen::Triplet<double>> entries = entries_of(A, near_);
-    if (!border.empty()) {
+    Entries entries = entries_of(A, near_);
+    N_ = matrix_of(entries, near_.size());
+    N_before_ = matrix_of(entries_of(before.A, near_before), near_before.size());
+    near_before_ = std::move(near_before.unknowns);
+    if (!border_.empty()) {
       stiffness_ = inverse_of(factor_->inverse_block(border_before_));
-      const Matrix less =
-          stiffness_ -
-          inverse_of(factor_of(entries_of(before.A, near_before), near_before.size()).inverse_block(border));  // -(2)
+      const Matrix less = stiffness_ - inverse_of(factor_of(N_before_).inverse_block(border_among_));  // -C
       for (std::size_t j = 0; j < border_.size(); ++j)
         for (std::size_t i = 0; i < border_.size(); ++i)
           entries.emplace_back(border_[i], border_[j],
                                less(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
     }
-    solver_ = factor_of(entries, near_.size());
+    solver_ = factor_of(matrix_of(entries, near_.size()));
   }
 
   Matrix solve(const Matrix& B) const override {
     Matrix X(B.rows(), B.cols());
     for (Eigen::Index k = 0; k < B.cols(); ++k) {
       const HalfSolved half = half_solved(B.col(k));
-      X(far_, k) = factor_->solve_from(half.begun, held(half))(far_before_);
+      X(far_, k) = factor_->solve_from(half.begun, half.forces)(far_before_);
       X(near_.unknowns, k) = half.near;
     }
     return X;
   }
 
   Vector solve_at(const Vector& b, const std::vector<int>& wanted) const override {
-    Vector x(static_cast<Eigen::Index>(wanted.size()));
     const HalfSolved half = half_solved(b);
+    Vector x(static_cast<Eigen::Index>(wanted.size()));
+    std::vector<int> far, there;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const int place = near_.of(wanted[i]);
-      if (place < 0) return solve(b)(wanted, 0);
-      x[static_cast<Eigen::Index>(i)] = half.near[place];
+      if (place >= 0)
+        x[static_cast<Eigen::Index>(i)] = half.near[place];
+      else
+        far.push_back(static_cast<int>(i)), there.push_back(before_of_[static_cast<std::size_t>(wanted[i])]);
     }
+    if (!far.empty()) x(far) = factor_->solve_at(half.begun + factor_->begin(half.forces), there);
     return x;
   }
 
+  /// Unit forces on far unknowns J move the border by T_bJ in A_0, and are P = G^-1 T_bJ on it in eq. (1).
   Matrix inverse_block(const std::vector<int>& indices) const override {
-    std::vector<int> places;
-    for (const int i : indices)
-      if (const int place = near_.of(i); place >= 0) places.push_back(place);
-    if (places.size() == indices.size()) return solver_.inverse_block(places);
-    const auto m = static_cast<Eigen::Index>(indices.size());
-    Matrix block(m, m);
-    for (Eigen::Index k = 0; k < m; ++k)
-      block.col(k) = solve(Vector::Unit(static_cast<Eigen::Index>(near_.place.size()),
-                                        indices[static_cast<std::size_t>(k)]))(indices, 0);
-    return 0.5 * (block + block.transpose());
+    std::vector<int> near, far, places = border_, columns(static_cast<std::size_t>(near_.size()), -1), at, all;
+    for (std::size_t k = 0; k < border_.size(); ++k)
+      columns[static_cast<std::size_t>(border_[k])] = static_cast<int>(k);
+    all = border_before_;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      const int place = near_.of(indices[k]);
+      if (place < 0) {
+        far.push_back(static_cast<int>(k));
+        all.push_back(before_of_[static_cast<std::size_t>(indices[k])]);
+        continue;
+      }
+      int& column = columns[static_cast<std::size_t>(place)];
+      if (column < 0) column = static_cast<int>(places.size()), places.push_back(place);
+      near.push_back(static_cast<int>(k));
+      at.push_back(column);
+    }
+    const Matrix R = solver_.inverse_block(places);  // of N - C
+    Matrix block(indices.size(), indices.size());
+    block(near, near) = R(at, at);
+    if (far.empty()) return block;
+    const auto b = static_cast<Eigen::Index>(border_.size()), m = static_cast<Eigen::Index>(far.size());
+    const Matrix T = factor_->inverse_block(all), P = stiffness_ * T.topRightCorner(b, m);
+    const Matrix across = R(at, Eigen::seqN(0, b)) * P;
+    const Matrix among =
+        T.bottomRightCorner(m, m) + P.transpose() * (R.topLeftCorner(b, b) * P - T.topRightCorner(b, m));
+    block(near, far) = across;
+    block(far, near) = across.transpose();
+    block(far, far) = 0.5 * (among + among.transpose());
+    return block;
   }
 
  private:
   struct HalfSolved {
-    Vector begun;   // with r_f
-    Vector forces;  // G^-1 y_b
+    Vector begun;   // of A_0, with r_f
     Vector near;    // x_n
+    Vector forces;  // q, on the unknowns of A_0
   };
 
+  /// Eq. (3).
   HalfSolved half_solved(const Vector& r) const {
     HalfSolved half;
     Vector of_far = Vector::Zero(size_before_);
     of_far(far_before_) = r(far_);
     half.begun = factor_->begin(of_far);
+    half.near = Vector::Zero(near_.size());
+    half.forces = Vector::Zero(size_before_);
     Vector of_near = r(near_.unknowns);
-    half.forces = Vector::Zero(static_cast<Eigen::Index>(border_.size()));
-    if (!border_.empty()) half.forces = stiffness_ * factor_->solve_at(half.begun, border_before_);
-    of_near(border_) += half.forces;
-    half.near = solver_.solve(of_near).col(0);
+    if (border_.empty()) {
+      half.near = solver_.solve(of_near).col(0);
+      return half;
+    }
+    const Vector y = factor_->solve_at(half.begun, near_before_);
+    half.near(border_) = y(border_among_);
+    of_near(border_) += Vector(N_before_ * y)(border_among_);
+    const Vector z = solver_.solve(of_near - N_ * half.near).col(0);
+    half.near += z;
+    half.forces(border_before_) = stiffness_ * z(border_);
     return half;
-  }
-
-  /// q of eq. (3), on the unknowns of A_0.
-  Vector held(const HalfSolved& half) const {
-    Vector q = Vector::Zero(size_before_);
-    if (!border_.empty()) q(border_before_) = stiffness_ * half.near(border_) - half.forces;
-    return q;
   }
 
   std::shared_ptr<const SymmetricPositiveSolver> factor_;  // of A_0
   Eigen::Index size_before_;
   std::vector<int> far_, far_before_;  // in A and in A_0
+  std::vector<int> before_of_;         // of every unknown of A that in A_0
   Numbered near_;
-  std::vector<int> border_, border_before_;  // b among the near unknowns of A, and in A_0
-  Matrix stiffness_;                         // G^-1
-  SymmetricPositiveSolver solver_;           // of N - C
+  std::vector<int> near_before_;                            // o, in A_0
+  std::vector<int> border_, border_before_, border_among_;  // b among the near unknowns of A, in A_0, and among o
+  SparseMatrix N_, N_before_;
+  Matrix stiffness_;                // G^-1
+  SymmetricPositiveSolver solver_;  // of N - C
 };
 
 }  // namespace

@@ -14,11 +14,11 @@
 //
 //     C = H^-1 - G^-1                                                                                               (2)
 //
-// and with y = A_0^-1 [r_f, 0]
+// and with y = A_0^-1 [r_f, 0] and z = x_n - y_b
 //
-//     B F^-1 r_f = -G^-1 y_b,      x_f = (A_0^-1 [r_f, q])_f,      q = G^-1 (x_b - y_b)                             (3)
+//     (N - C) z = r_n + N_0 y_o - N y_b,      x_f = (A_0^-1 [r_f, q])_f,      q = G^-1 z_b                          (3)
 //
-// A solution takes as long as one with the factor of A_0, and N - C is small. By (2) its rounding is that of A_0^-1.
+// A solution takes as long as one with the factor of A_0, and N - C is small. Rounding of C and G^-1 counts by z alone.
 #pragma once
 
 #include <memory>

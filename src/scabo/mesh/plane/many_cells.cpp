@@ -8,7 +8,6 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <unordered_map>
 
 #include "scabo/base/disjoint_sets.hpp"
 #include "scabo/geometry/box.hpp"
@@ -291,12 +290,11 @@ std::variant<BodyMesh, Diagnostic> divide_image(const model::Body& body, double 
 /// Number of pieces that share no side with each other.
 std::size_t pieces_of(const BodyMesh& mesh) {
   DisjointSets pieces(mesh.cells.size());
-  std::unordered_map<std::uint64_t, std::size_t> of_side;
-  of_side.reserve(2 * mesh.nodes.size());
+  SideNumbers cell_of_side(mesh.nodes.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const LineElement& element : mesh.cells[c].boundary) {
-      const auto [other, is_new] = of_side.emplace(side_number(element.nodes.front(), element.nodes.back()), c);
-      pieces.join(c, other->second);
+      const int other = cell_of_side.add(element.nodes.front(), element.nodes.back(), static_cast<int>(c)).first;
+      pieces.join(c, static_cast<std::size_t>(other));
     }
   return pieces.sets();
 }

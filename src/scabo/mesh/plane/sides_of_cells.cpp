@@ -26,13 +26,10 @@ constexpr double largest_angle_at_tip = std::numbers::pi / 8;
 }  // namespace
 
 CellSides::CellSides(const PolygonMesh& polygons, const Domain& domain, int order, std::vector<Vec2>& nodes)
-    : domain_(domain), order_(order), nodes_(nodes) {
+    : domain_(domain), order_(order), nodes_(nodes), inside_(nodes.size()) {
   const std::vector<double> lobatto = geometry::lobatto_points(order);
   for (int i = 1; i < order; ++i) fractions_.push_back(0.5 * (1.0 + lobatto[static_cast<std::size_t>(i)]));
   find_arcs(polygons);
-  std::size_t sides = 0;
-  for (const PolygonCell& polygon : polygons.cells) sides += polygon.nodes.size();
-  if (order_ > 1) inside_.reserve(sides / 2);
   for (const PolygonCell& polygon : polygons.cells)
     for (std::size_t i = 0; polygon.open && i + 1 < polygon.nodes.size(); ++i)
       divide_at_tip(polygon.centre, std::minmax(polygon.nodes[i], polygon.nodes[i + 1]));
@@ -98,14 +95,13 @@ LineElement CellSides::element(int a, int b) {
 }
 
 int CellSides::first_inside(const Ends& ends) {
-  const auto [found, is_new] =
-      inside_.try_emplace(side_number(ends.first, ends.second), static_cast<int>(nodes_.size()));
+  const auto [first, is_new] = inside_.add(ends.first, ends.second, static_cast<int>(nodes_.size()));
   if (is_new) {
     const Vec2 from = at(ends.first), to = at(ends.second);
     const std::optional<geometry::Arc> arc = arc_of(ends.first, ends.second);
     for (const double t : fractions_) add_node(point_at(t, from, to, arc));
   }
-  return found->second;
+  return first;
 }
 
 int CellSides::add_node(const Vec2& x) {

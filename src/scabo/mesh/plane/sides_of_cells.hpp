@@ -18,6 +18,31 @@ inline std::uint64_t side_number(int a, int b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
 }
 
+/// A number for every side that is added, whichever of its ends is named first: of many, without an allocation for
+/// each.
+class SideNumbers {
+ public:
+  explicit SideNumbers(std::size_t nodes) : last_(nodes, -1) {}
+  /// The number of a side, `given` if it is new, and whether it is.
+  std::pair<int, bool> add(int a, int b, int given) {
+    const int low = std::min(a, b), high = std::max(a, b);
+    if (static_cast<std::size_t>(low) >= last_.size()) last_.resize(static_cast<std::size_t>(low) + 1, -1);
+    int& last = last_[static_cast<std::size_t>(low)];
+    for (int k = last; k >= 0; k = sides_[static_cast<std::size_t>(k)].before)
+      if (sides_[static_cast<std::size_t>(k)].high == high) return {sides_[static_cast<std::size_t>(k)].number, false};
+    sides_.push_back({high, given, last});
+    last = static_cast<int>(sides_.size()) - 1;
+    return {given, true};
+  }
+
+ private:
+  struct Side {
+    int high, number, before;  // the other end; the side of the same lower end that was added before
+  };
+  std::vector<Side> sides_;
+  std::vector<int> last_;  // side of every lower end
+};
+
 /// Nodes within a side are made once, for the cells on both sides of it.
 class CellSides {
  public:
@@ -50,8 +75,7 @@ class CellSides {
   std::unordered_map<std::uint64_t, std::size_t> on_arc_;      // line of the domain
   std::unordered_map<std::uint64_t, std::vector<int>> parts_;  // ends of elements that divide a side, from the lower
                                                                // number on
-  std::unordered_map<std::uint64_t, int> inside_;  // first node between the ends of an element, from the lower number
-                                                   // on: the others follow it
+  SideNumbers inside_;  // first node between the ends of an element, from the lower number on: the others follow it
 };
 
 }  // namespace scabo::mesh
