@@ -8,16 +8,32 @@ namespace scabo::linalg {
 
 namespace {
 
+/// The entries of one column of a part of a matrix.
+class Column {
+ public:
+  Column(const PrincipalPart& of, int unknown)
+      : place_(of.place), entry_(of.matrix, of.unknowns[static_cast<std::size_t>(unknown)]) {
+    skip();
+  }
+  explicit operator bool() const { return entry_; }
+  void operator++() { ++entry_, skip(); }
+  int row() const { return place_[static_cast<std::size_t>(entry_.row())]; }
+  double value() const { return entry_.value(); }
+
+ private:
+  void skip() {
+    while (entry_ && row() < 0) ++entry_;
+  }
+  const std::vector<int>& place_;
+  SparseMatrix::InnerIterator entry_;
+};
+
 /// Whether column j of A is column i of A_0, entry by entry in its order.
-bool is_same_column(const SparseMatrix& A, int j, const SparseMatrix& A_0, int i, const std::vector<int>& same) {
-  const int *const starts = A.outerIndexPtr(), *const starts_0 = A_0.outerIndexPtr();
-  const int count = starts[j + 1] - starts[j];
-  if (count != starts_0[i + 1] - starts_0[i]) return false;
-  const int *const rows = A.innerIndexPtr() + starts[j], *const rows_0 = A_0.innerIndexPtr() + starts_0[i];
-  const double *const values = A.valuePtr() + starts[j], *const values_0 = A_0.valuePtr() + starts_0[i];
-  for (int k = 0; k < count; ++k)
-    if (same[static_cast<std::size_t>(rows[k])] != rows_0[k] || values[k] != values_0[k]) return false;
-  return true;
+bool is_same_column(const PrincipalPart& A, int j, const PrincipalPart& A_0, int i, const std::vector<int>& same) {
+  Column one(A, j), other(A_0, i);
+  for (; one && other; ++one, ++other)
+    if (same[static_cast<std::size_t>(one.row())] != other.row() || one.value() != other.value()) return false;
+  return !one && !other;
 }
 
 /// Unknowns by their numbers, and the other way round.
@@ -37,11 +53,11 @@ Numbered none_of(Eigen::Index all) { return {{}, std::vector<int>(static_cast<st
 using Entries = std::vector<Eigen::Triplet<double>>;
 
 /// The rows and columns of these unknowns.
-Entries entries_of(const SparseMatrix& A, const Numbered& of) {
+Entries entries_of(const PrincipalPart& A, const Numbered& of) {
   Entries entries;
   for (const int j : of.unknowns)
-    for (SparseMatrix::InnerIterator it(A, j); it; ++it)
-      if (const int row = of.of(static_cast<int>(it.row())); row >= 0) entries.emplace_back(row, of.of(j), it.value());
+    for (Column entry(A, j); entry; ++entry)
+      if (const int row = of.of(entry.row()); row >= 0) entries.emplace_back(row, of.of(j), entry.value());
   return entries;
 }
 
@@ -66,23 +82,22 @@ Matrix inverse_of(Matrix A) {
 
 class ChangedFactor final : public SparseFactor {
  public:
-  ChangedFactor(const SparseMatrix& A, const Factorised& before, Numbered near, const std::vector<int>& far,
+  ChangedFactor(const PrincipalPart& A, const Factorised& before, Numbered near, const std::vector<int>& far,
                 const std::vector<int>& same)
-      : factor_(before.factor), size_before_(before.A.rows()), before_of_(same), near_(std::move(near)) {
-    std::vector<char> is_far(static_cast<std::size_t>(before.A.rows()), 0);
+      : factor_(before.factor), size_before_(before.A.size()), before_of_(same), near_(std::move(near)) {
+    std::vector<char> is_far(static_cast<std::size_t>(before.A.size()), 0);
     for (const int j : far) {
       const int i = same[static_cast<std::size_t>(j)];
       is_far[static_cast<std::size_t>(i)] = 1;
       far_.push_back(j);
       far_before_.push_back(i);
     }
-    Numbered near_before = none_of(before.A.rows());
-    for (int i = 0; i < before.A.rows(); ++i)
+    Numbered near_before = none_of(before.A.size());
+    for (int i = 0; i < before.A.size(); ++i)
       if (is_far[static_cast<std::size_t>(i)] == 0) near_before.add(i);
     for (const int j : near_.unknowns) {
       bool reaches = false;
-      for (SparseMatrix::InnerIterator it(A, j); it && !reaches; ++it)
-        reaches = near_.of(static_cast<int>(it.row())) < 0;
+      for (Column entry(A, j); entry && !reaches; ++entry) reaches = near_.of(entry.row()) < 0;
       if (!reaches) continue;
       border_.push_back(near_.of(j));
       border_before_.push_back(same[static_cast<std::size_t>(j)]);
@@ -93,12 +108,14 @@ class ChangedFactor final : public SparseFactor {
     N_before_ = matrix_of(entries_of(before.A, near_before), near_before.size());
     near_before_ = std::move(near_before.unknowns);
     if (!border_.empty()) {
-      stiffness_ = inverse_of(factor_->inverse_block(border_before_));
-      const Matrix less = stiffness_ - inverse_of(factor_of(N_before_).inverse_block(border_among_));  // -C
+      flexibility_ = factor_->inverse_block(border_before_);
+      stiffness_ = inverse_of(flexibility_);
+      stiffness_before_ = inverse_of(factor_of(N_before_).inverse_block(border_among_));
       for (std::size_t j = 0; j < border_.size(); ++j)
-        for (std::size_t i = 0; i < border_.size(); ++i)
-          entries.emplace_back(border_[i], border_[j],
-                               less(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+        for (std::size_t i = 0; i < border_.size(); ++i) {
+          const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+          entries.emplace_back(border_[i], border_[j], stiffness_(row, column) - stiffness_before_(row, column));  // -C
+        }
     }
     solver_ = factor_of(matrix_of(entries, near_.size()));
   }
@@ -184,10 +201,21 @@ class ChangedFactor final : public SparseFactor {
     const Vector y = factor_->solve_at(half.begun, near_before_);
     half.near(border_) = y(border_among_);
     of_near(border_) += Vector(N_before_ * y)(border_among_);
-    const Vector z = solver_.solve(of_near - N_ * half.near).col(0);
+    of_near -= N_ * half.near;
+    Vector z = solver_.solve(of_near).col(0), q = holding(z(border_));
+    // Once more, with what rounding of C has left: flexible bodies bend far by small forces.
+    of_near -= N_ * z;
+    of_near(border_) += stiffness_before_ * z(border_) - q;
+    z += solver_.solve(of_near).col(0);
     half.near += z;
-    half.forces(border_before_) = stiffness_ * z(border_);
+    half.forces(border_before_) = holding(z(border_));
     return half;
+  }
+
+  /// G^-1 z, to the rounding of G.
+  Vector holding(const Vector& z) const {
+    const Vector q = stiffness_ * z;
+    return q + stiffness_ * (z - flexibility_ * q);
   }
 
   std::shared_ptr<const SymmetricPositiveSolver> factor_;  // of A_0
@@ -198,20 +226,20 @@ class ChangedFactor final : public SparseFactor {
   std::vector<int> near_before_;                            // o, in A_0
   std::vector<int> border_, border_before_, border_among_;  // b among the near unknowns of A, in A_0, and among o
   SparseMatrix N_, N_before_;
-  Matrix stiffness_;                // G^-1
-  SymmetricPositiveSolver solver_;  // of N - C
+  Matrix flexibility_, stiffness_, stiffness_before_;  // G, G^-1, H^-1
+  SymmetricPositiveSolver solver_;                     // of N - C
 };
 
 }  // namespace
 
-std::unique_ptr<SparseFactor> factor_by_changes(const SparseMatrix& A, const Factorised& before,
+std::unique_ptr<SparseFactor> factor_by_changes(const PrincipalPart& A, const Factorised& before,
                                                 const std::vector<int>& same, const std::vector<int>& near) {
   constexpr Eigen::Index least_part = 8;  // of all unknowns: larger near ones take as long as a new factor
   std::vector<char> is_near(same.size(), 0);
   for (const int j : near) is_near[static_cast<std::size_t>(j)] = 1;
   std::vector<int> far;
-  Numbered changed = none_of(A.rows());
-  for (int j = 0; j < A.cols(); ++j) {
+  Numbered changed = none_of(A.size());
+  for (int j = 0; j < A.size(); ++j) {
     const auto unknown = static_cast<std::size_t>(j);
     const bool is_far =
         is_near[unknown] == 0 && same[unknown] >= 0 && is_same_column(A, j, before.A, same[unknown], same);
@@ -219,7 +247,7 @@ std::unique_ptr<SparseFactor> factor_by_changes(const SparseMatrix& A, const Fac
       far.push_back(j);
     else
       changed.add(j);
-    if (least_part * changed.size() > A.cols()) return nullptr;
+    if (least_part * changed.size() > A.size()) return nullptr;
   }
   try {
     return std::make_unique<ChangedFactor>(A, before, std::move(changed), far, same);

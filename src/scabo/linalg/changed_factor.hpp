@@ -28,16 +28,25 @@
 
 namespace scabo::linalg {
 
+/// Some rows and columns of a symmetric matrix.
+struct PrincipalPart {
+  const SparseMatrix& matrix;
+  const std::vector<int>& unknowns;  ///< ascending
+  const std::vector<int>& place;     ///< of every row of `matrix` among them, or -1
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(unknowns.size()); }
+};
+
 /// A matrix and its factor.
 struct Factorised {
-  const SparseMatrix& A;
+  PrincipalPart A;
   std::shared_ptr<const SymmetricPositiveSolver> factor;
 };
 
 /// `same`: of every unknown of A that of A_0 which may be the same one, distinct, or -1. `near`: unknowns of A whose
 /// inverse_block() will be asked for. Null where too much is different for this to pay, or where N - C has lost its
 /// digits.
-std::unique_ptr<SparseFactor> factor_by_changes(const SparseMatrix& A, const Factorised& before,
+std::unique_ptr<SparseFactor> factor_by_changes(const PrincipalPart& A, const Factorised& before,
                                                 const std::vector<int>& same, const std::vector<int>& near);
 
 }  // namespace scabo::linalg

@@ -24,6 +24,7 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   std::unordered_multimap<std::size_t, std::size_t> known;  // hash, distinct body
   for (ElasticPart& part : parts) {
     auto factored = std::make_shared<Factored>();
+    part.stiffness.sparse.markAsRValue();  // or Eigen copies what is moved
     factored->stiffness = std::move(part.stiffness);
     factored->largest_diagonal = factored->stiffness.largest_diagonal();
     auto body = std::make_unique<ElasticBody>(factored, part.nodes, std::move(part.constraints));

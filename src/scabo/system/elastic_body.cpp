@@ -96,16 +96,16 @@ void ElasticBody::factorise(linalg::SparseOptions options, const Positions& node
     options.ordering = linalg::Ordering::dissection_by_position;
   for (const int dof : dofs_)
     if (plane) options.positions.push_back(nodes.columns().col(plane_components.node_of(dof)));
-  const bool alone = inclined_.none() && stiffness().springs.none();
   if (stiffness().divided) {
     linalg::FactorisationCosts costs;
     auto factor = stiffness().divided->factorise(dofs_, inclined_, stiffness().springs.matrix, contact_dofs, costs);
     factored_->solver = linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), costs);
   } else if (stiffness().dense) {
-    factored_->solver = linalg::SymmetricPositiveSolver(alone ? Matrix((*stiffness().dense)(dofs_, dofs_))
-                                                              : Matrix(whole_dense()(dofs_, dofs_)));
+    factored_->solver = linalg::SymmetricPositiveSolver(is_whole_alone() ? Matrix((*stiffness().dense)(dofs_, dofs_))
+                                                                         : Matrix(whole_dense()(dofs_, dofs_)));
   } else {
-    factored_->solver = linalg::SymmetricPositiveSolver(solved_part(), options);
+    factored_->solver = linalg::SymmetricPositiveSolver(
+        principal_part(is_whole_alone() ? stiffness().sparse : whole_sparse(), dofs_, place_), options);
   }
 }
 
@@ -114,8 +114,6 @@ bool ElasticBody::factorise_by(const ElasticBody& before, const Positions& nodes
   const auto is_sparse = [](const Stiffness& one) { return !one.dense && !one.divided; };
   if (!is_large() || !is_sparse(stiffness()) || !is_sparse(before.stiffness()) || nodes.components().dimension != 2)
     return false;
-  Factored& known = *before.factored_;
-  std::call_once(known.solved_flag, [&] { known.solved = before.solved_part(); });
   const std::vector<int> nodes_there = same_nodes(nodes, nodes_before);
   std::vector<int> same, near;
   for (const int dof : dofs_) {
@@ -125,10 +123,15 @@ bool ElasticBody::factorise_by(const ElasticBody& before, const Positions& nodes
   }
   for (const int dof : contact_dofs)
     if (const int place = place_[static_cast<std::size_t>(dof)]; place >= 0) near.push_back(place);
-  auto factor = linalg::factor_by_changes(solved_part(), {known.solved, {before.factored_, &known.solver}}, same, near);
+  linalg::SparseMatrix whole, whole_before;
+  if (!is_whole_alone()) whole = whole_sparse().markAsRValue();
+  if (!before.is_whole_alone()) whole_before = before.whole_sparse().markAsRValue();
+  const linalg::PrincipalPart A{is_whole_alone() ? stiffness().sparse : whole, dofs_, place_},
+      A_before{before.is_whole_alone() ? before.stiffness().sparse : whole_before, before.dofs_, before.place_};
+  auto factor = linalg::factor_by_changes(A, {A_before, {before.factored_, &before.solver()}}, same, near);
   if (!factor) return false;
   factored_->solver =
-      linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), known.solver.costs());
+      linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), before.solver().costs());
   return true;
 }
 
@@ -368,11 +371,6 @@ Matrix ElasticBody::whole_dense() const {
   Matrix K = *stiffness().dense;
   if (has_springs()) K += stiffness().springs.matrix;
   return inclined_.none() ? K : inclined_.stiffness(std::move(K));
-}
-
-linalg::SparseMatrix ElasticBody::solved_part() const {
-  const bool alone = inclined_.none() && stiffness().springs.none();
-  return principal_part(alone ? stiffness().sparse : whole_sparse(), dofs_, place_);
 }
 
 linalg::SparseMatrix ElasticBody::whole_sparse() const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "scabo/system/body_system.hpp"
@@ -16,9 +15,6 @@ struct Factored {
   Stiffness stiffness;
   double largest_diagonal = 0.0;  ///< of the stiffness: asked for often, and as long as a product with it
   linalg::SymmetricPositiveSolver solver;
-  // Its matrix, once another one is compared with it:
-  linalg::SparseMatrix solved = {};
-  std::once_flag solved_flag = {};
 };
 
 class ElasticBody final : public BodySystem {
@@ -77,8 +73,7 @@ class ElasticBody final : public BodySystem {
   /// K + S along the directions of the constraints.
   Matrix whole_dense() const;
   linalg::SparseMatrix whole_sparse() const;
-  /// Of the sparse one what is solved for.
-  linalg::SparseMatrix solved_part() const;
+  bool is_whole_alone() const { return inclined_.none() && !has_springs(); }  // K itself
   /// The degree of freedom, or both of its node, if that is inclined.
   std::vector<int> both_if_inclined(int dof) const;
   /// Displacements of the constraints; 0 of everything else.

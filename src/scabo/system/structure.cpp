@@ -171,6 +171,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
   };
   std::vector<std::size_t> elastic;
   std::vector<ElasticPart> parts;
+  parts.reserve(dofs.parts());
   std::vector<double> stiffest;  // of those on springs
   std::vector<std::vector<int>> contact_dofs = dofs_in_contacts(model, mesh, dofs, structure.bars);
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
@@ -188,10 +189,15 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     });
     stiffness.springs = structure.springs.of_part[p];
     stiffest.push_back(stiffness.springs.none() || stiffness.divided ? 0.0 : stiffness.largest_diagonal());
-    parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), std::move(contact_dofs[p])});
+    stiffness.sparse.markAsRValue();  // or Eigen copies what is moved
+    ElasticPart& part = parts.emplace_back();
+    part.stiffness = std::move(stiffness);
+    part.nodes = dofs.nodes(p);
+    part.constraints = std::move(constraints[p]);
+    part.contact_dofs = std::move(contact_dofs[p]);
     if (!before || before->parts.size() != dofs.parts()) continue;
-    parts.back().before = before->parts[p].get();
-    parts.back().nodes_before = before->dofs.nodes(p);
+    part.before = before->parts[p].get();
+    part.nodes_before = before->dofs.nodes(p);
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options);

@@ -80,13 +80,39 @@ std::vector<int> in_the_middle() {
   return unknowns;
 }
 
-Factorised factorised(const SparseMatrix& A) { return {A, std::make_shared<const SymmetricPositiveSolver>(A)}; }
+/// The rows and columns of a matrix that are its last ones, behind others that are held.
+struct Part {
+  explicit Part(const SparseMatrix& A) {
+    constexpr int held = 2;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < held; ++k) {
+      place.push_back(-1);
+      entries.emplace_back(k, k, 5.0);
+      for (const int row : {held + k, held + 3}) entries.emplace_back(row, k, -1.0), entries.emplace_back(k, row, -1.0);
+    }
+    for (int j = 0; j < A.cols(); ++j) {
+      place.push_back(j);
+      unknowns.push_back(held + j);
+      for (SparseMatrix::InnerIterator it(A, j); it; ++it)
+        entries.emplace_back(held + static_cast<int>(it.row()), held + j, it.value());
+    }
+    matrix.resize(held + A.rows(), held + A.cols());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+  }
+  operator PrincipalPart() const { return {matrix, unknowns, place}; }
+  SparseMatrix matrix;
+  std::vector<int> unknowns, place;
+};
+
+Factorised factorised(const Part& part, const SparseMatrix& A) {
+  return {part, std::make_shared<const SymmetricPositiveSolver>(A)};
+}
 
 TEST(ChangedFactor, SolvesAsAFactorOfItsOwn) {
   const SparseMatrix before = grid();
   const Changed now = changed(before, in_the_middle(), 31);
-  const Factorised known = factorised(before);
-  const auto factor = factor_by_changes(now.A, known, now.same, {});
+  const Part part(before), part_now(now.A);
+  const auto factor = factor_by_changes(part_now, factorised(part, before), now.same, {});
   ASSERT_TRUE(factor);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> entry(-1.0, 1.0);
@@ -109,15 +135,16 @@ TEST(ChangedFactor, SolvesAsAFactorOfItsOwn) {
 
 TEST(ChangedFactor, SolvesTheSameMatrix) {
   const SparseMatrix A = grid();
-  const Factorised known = factorised(A);
+  const Part part(A);
+  const Factorised known = factorised(part, A);
   std::vector<int> same(static_cast<std::size_t>(A.rows()));
   for (std::size_t i = 0; i < same.size(); ++i) same[i] = static_cast<int>(i);
   const Vector b = Vector::LinSpaced(A.rows(), -1.0, 2.0), x = known.factor->solve(b);
-  const auto factor = factor_by_changes(A, known, same, {});
+  const auto factor = factor_by_changes(part, known, same, {});
   ASSERT_TRUE(factor);
   EXPECT_LT((factor->solve(b) - x).norm(), 1e-13 * x.norm());
   const std::vector<int> near{3, 100, 101};
-  const auto with_near = factor_by_changes(A, known, same, near);
+  const auto with_near = factor_by_changes(part, known, same, near);
   ASSERT_TRUE(with_near);
   const Matrix block = known.factor->inverse_block(near);
   EXPECT_LT((with_near->inverse_block(near) - block).norm(), 1e-12 * block.norm());
@@ -125,12 +152,13 @@ TEST(ChangedFactor, SolvesTheSameMatrix) {
 
 TEST(ChangedFactor, IsNoneWhereMuchIsDifferent) {
   const SparseMatrix before = grid();
-  const Factorised known = factorised(before);
+  const Part part(before), twice(2.0 * before);
+  const Factorised known = factorised(part, before);
   std::vector<int> same(static_cast<std::size_t>(before.rows()), -1);
-  EXPECT_FALSE(factor_by_changes(before, known, same, {}));
+  EXPECT_FALSE(factor_by_changes(part, known, same, {}));
   for (std::size_t i = 0; i < same.size(); ++i) same[i] = static_cast<int>(i);
-  EXPECT_FALSE(factor_by_changes(2.0 * before, known, same, {}));
-  EXPECT_TRUE(factor_by_changes(before, known, same, {}));
+  EXPECT_FALSE(factor_by_changes(twice, known, same, {}));
+  EXPECT_TRUE(factor_by_changes(part, known, same, {}));
 }
 
 }  // namespace
