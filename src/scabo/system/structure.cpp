@@ -143,14 +143,7 @@ std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const 
   return of_part;
 }
 
-}  // namespace
-
-Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks,
-                         const Structure* before) {
-  Structure structure;
-  structure.dofs = Dofs(model, mesh);
-  const Dofs& dofs = structure.dofs;
+linalg::SparseOptions sparse_options(const model::Model& model, const Ranks* ranks) {
   linalg::SparseOptions options;
   if (model.solver.factorisation == model::Factorisation::mumps) options.library = linalg::SparseLibrary::mumps;
   if (ranks && options.library == linalg::SparseLibrary::mumps)
@@ -161,6 +154,18 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     throw InputError(model.file, {{{0, 0, "solver.factorisation"},
                                    "the library of MUMPS was not found: write cholmod, "
                                    "or install libmumps-seq-dev"}});
+  return options;
+}
+
+}  // namespace
+
+Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
+                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks,
+                         const Structure* before) {
+  Structure structure;
+  structure.dofs = Dofs(model, mesh);
+  const Dofs& dofs = structure.dofs;
+  const linalg::SparseOptions options = sparse_options(model, ranks);
   auto constraints = constraints_of(model, mesh, dofs);
   structure.springs = springs_of(model, mesh, dofs);
   structure.bars = bars_of(model, mesh, dofs);

@@ -70,6 +70,7 @@ class Growing {
         tips_(growing_tips(solution.model)),
         all_tips_(tips_),
         factorised_(solution.structure),
+        first_cells_(solution.cells),
         cells_(solution.cells),
         first_(solution.increments.size()),
         from_(std::move(before)) {
@@ -113,7 +114,8 @@ class Growing {
   std::vector<Tip> tips_;                                // that may still grow
   const std::vector<Tip> all_tips_;                      // at first
   std::shared_ptr<const system::Structure> factorised_;  // of the last state that was factorised as a whole
-  std::vector<element::SolvedCells> cells_;              // its cells
+  const std::vector<element::SolvedCells> first_cells_;  // of the first state: equal ones take their solutions
+  std::vector<element::SolvedCells> cells_;              // the same of `factorised_`
   std::size_t first_ = 0;                                // increments of the steps before
   std::vector<std::vector<model::LocalSize>> sizes_;     // given by the user
   double first_length_ = 0.0;
@@ -142,10 +144,9 @@ Discretisation Growing::divided(model::Model model) {
   return of;
 }
 
-/// Of the cracks of a state.
 Discretisation Growing::divided_for(model::Model model, int number) {
   const bool is_first = (number - 1) % states_of_a_factor == 0;
-  if (is_first) factorised_.reset();
+  if (is_first) factorised_.reset(), cells_ = first_cells_;
   Discretisation of = divided(std::move(model));
   if (is_first) factorised_ = of.structure, cells_ = of.cells;
   return of;
@@ -177,8 +178,7 @@ int Growing::restore(const Continuation& from) {
     }
     tips_ = without_met(tips_, met);
     const int next = static_cast<int>(i - first_) + 2;
-    const bool has_factor = (next - 1) % states_of_a_factor == 0 && number - next < states_of_a_factor;
-    if (next != number && !has_factor) continue;
+    if (next != number && ((next - 1) % states_of_a_factor != 0 || number - next >= states_of_a_factor)) continue;
     model::Model refined = longer;
     refine_at_tips(refined, tips_, sizes_);
     Discretisation of = divided_for(std::move(refined), next);

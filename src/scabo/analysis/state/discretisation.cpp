@@ -46,7 +46,7 @@ void discretise(Discretisation& of, const std::vector<element::SolvedCells>& bef
   of.cells = timed(timing.super_elements, [&] {
     std::vector<element::SolvedCells> cells = element::solve_cells(
         of.model, of.mesh, of.threads, system::divided_bodies(of.ranks, of.model, of.mesh), before);
-    if (of.like) element::take_alike(cells, of.mesh, like);
+    if (!like.empty()) element::take_alike(cells, of.mesh, like);
     return cells;
   });
   stage("factorisation");
