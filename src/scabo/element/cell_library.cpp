@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "scabo/base/components.hpp"
+#include "scabo/element/alike_cells.hpp"
 #include "scabo/element/facet/mass.hpp"
 #include "scabo/element/plane/batch.hpp"
 #include "scabo/element/plane/conditioning.hpp"
@@ -157,16 +158,30 @@ std::size_t hash_of(const SolvedSuperElement& super_element) {
   return hash;
 }
 
+/// Of the coordinates of a body, a length.
+double rounding_of(const mesh::BodyMesh& mesh) {
+  double farthest = 0.0;
+  for (const Vec2& x : mesh.nodes) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
+  return 4.0 * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+/// Distinct super-elements by hash_of().
+using Known = std::unordered_multimap<std::size_t, std::shared_ptr<const SolvedSuperElement>>;
+Known distinct_of(const std::vector<SolvedCells>& all) {
+  Known known;
+  std::unordered_set<const SolvedSuperElement*> seen;
+  for (const SolvedCells& cells : all)
+    for (const auto& cell : cells)
+      if (cell && seen.insert(cell.get()).second) known.emplace(hash_of(*cell), cell);
+  return known;
+}
+
 /// Takes solutions of the same super-elements `before` for those of `solved`, and them out of `distinct` and `bodies`.
 /// Solutions from a batch are not taken, whose last bits may depend on what else is in it.
 void take_over(const std::vector<SolvedCells>& before, std::vector<std::shared_ptr<SolvedSuperElement>>& distinct,
                std::vector<std::size_t>& bodies, std::vector<SolvedCells>& solved) {
-  std::unordered_multimap<std::size_t, std::shared_ptr<const SolvedSuperElement>> known;
-  std::unordered_set<const SolvedSuperElement*> seen;
-  for (const SolvedCells& cells : before)
-    for (const auto& cell : cells)
-      if (cell && seen.insert(cell.get()).second) known.emplace(hash_of(*cell), cell);
-  if (seen.size() >= fewest_of_a_batch) return;
+  const Known known = distinct_of(before);
+  if (known.size() >= fewest_of_a_batch) return;
   std::unordered_map<const SolvedSuperElement*, std::shared_ptr<const SolvedSuperElement>> taken;
   std::size_t left = 0;
   for (std::size_t i = 0; i < distinct.size(); ++i) {
@@ -268,6 +283,25 @@ StressIntensity SolvedSuperElement::factors(const Vector& u, const std::vector<R
   return both_ ? analysis.of(both_->displacement(u), both_->loads(loads)) : analysis.of(u, loads);
 }
 
+void take_alike(std::vector<SolvedCells>& cells, const mesh::Mesh& mesh, const std::vector<SolvedCells>& like) {
+  const Known known = distinct_of(like);
+  std::unordered_map<const SolvedSuperElement*, std::shared_ptr<const SolvedSuperElement>> taken;
+  for (std::size_t b = 0; b < cells.size(); ++b) {
+    const double rounding = rounding_of(mesh.bodies[b]);
+    for (auto& cell : cells[b]) {
+      if (!cell) continue;
+      const auto [found, is_new] = taken.emplace(cell.get(), cell);
+      if (is_new) {
+        const auto [first, last] = known.equal_range(hash_of(*cell));
+        const auto alike =
+            std::find_if(first, last, [&](const auto& entry) { return are_alike(*entry.second, *cell, rounding); });
+        if (alike != last) found->second = alike->second;
+      }
+      cell = found->second;
+    }
+  }
+}
+
 std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh& mesh, int threads,
                                      const std::vector<char>& elsewhere, const std::vector<SolvedCells>& before) {
   std::vector<std::shared_ptr<SolvedSuperElement>> distinct;
@@ -278,9 +312,7 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
   std::vector<Diagnostic> folded;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (auto mistake = folded_elements(model.bodies[b], mesh.bodies[b])) folded.push_back(std::move(*mistake));
-    double farthest = 0.0;
-    for (const Vec2& x : mesh.bodies[b].nodes) farthest = std::max(farthest, x.lpNorm<Eigen::Infinity>());
-    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
+    const double rounding = rounding_of(mesh.bodies[b]);
     for (const mesh::Cell& cell : mesh.bodies[b].cells) {
       if (cell.kind != mesh::CellKind::superelement) {
         solved[b].emplace_back();

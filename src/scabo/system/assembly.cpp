@@ -336,7 +336,7 @@ Stiffness body_stiffness(const model::Model& model, const Extent& extent, const 
   if (is_whole(mesh))
     stiffness.dense = std::shared_ptr<const Matrix>(cells.front(), &cells.front()->K());
   else
-    stiffness.sparse = stiffness_of(model, mesh.nodes.size(), {{mesh, cells, extent, {}}}, threads);
+    stiffness.sparse = stiffness_of(model, mesh.nodes.size(), {{mesh, cells, extent, {}}}, threads).markAsRValue();
   return stiffness;
 }
 
@@ -344,14 +344,15 @@ Stiffness part_stiffness(const model::Model& model, const mesh::Mesh& mesh,
                          const std::vector<element::SolvedCells>& cells, const Dofs& dofs, std::size_t part,
                          int threads) {
   const std::vector<int>& bodies = dofs.bodies_of(part);
-  Stiffness stiffness;
-  if (bodies.size() == 1) {
-    const auto b = static_cast<std::size_t>(bodies.front());
-    stiffness = body_stiffness(model, model::extent_of(model, bodies.front()), mesh.bodies[b], cells[b], threads);
-  } else {
+  const auto first = static_cast<std::size_t>(bodies.front());
+  Stiffness stiffness = bodies.size() == 1 ? body_stiffness(model, model::extent_of(model, bodies.front()),
+                                                            mesh.bodies[first], cells[first], threads)
+                                           : Stiffness();
+  if (bodies.size() > 1) {
     for (const int body : bodies)
       stiffness.rounding = std::max(stiffness.rounding, rounding_of(cells[static_cast<std::size_t>(body)]));
-    stiffness.sparse = stiffness_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part, model), threads);
+    stiffness.sparse =
+        stiffness_of(model, dofs.nodes(part).size(), bodies_of(mesh, cells, dofs, part, model), threads).markAsRValue();
   }
   stiffness.resists_rigid_motions = dofs.is_unbounded(part);
   stiffness.revolved = dofs.revolved();

@@ -43,12 +43,14 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   std::vector<double> work;
   for (ElasticPart& part : parts) {
     auto factored = std::make_shared<Factored>();
+    part.stiffness.sparse.markAsRValue();  // or Eigen copies what is moved
     factored->stiffness = std::move(part.stiffness);
     factored->largest_diagonal = factored->stiffness.largest_diagonal();
     factored->nodes = std::move(part.nodes);
     factored->contact_dofs = std::move(part.contact_dofs);
     auto body = std::make_unique<ElasticBody>(factored, factored->nodes, std::move(part.constraints));
-    const std::size_t hash = hash_of(factored->stiffness);
+    const bool is_alone = parts.size() == 1 && factorised.empty();  // equal to none
+    const std::size_t hash = is_alone ? 0 : hash_of(factored->stiffness);
     const auto equal_to = [&](const ElasticBody& other) { return other.equals(*body); };
     // Of a body made before the factor must be the very one that would be made here.
     const auto same_as = [&](const ElasticBody& other) {
@@ -70,8 +72,11 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
   std::vector<char> failed(distinct.size(), 0);
   linalg::parallel_for(work, threads, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
+    ElasticBody& body = *bodies[distinct[i]];
+    const ElasticPart& part = parts[distinct[i]];
+    const auto* const before = dynamic_cast<const ElasticBody*>(part.before);
     try {
-      bodies[distinct[i]]->factorise(options);
+      if (!before || !body.factorise_by(*before, part.nodes_before)) body.factorise(options);
     } catch (const linalg::NotPositiveDefinite&) {
       failed[i] = 1;
     }

@@ -161,6 +161,10 @@ struct ElasticPart {
   std::vector<Constraint> constraints;
   /// Of the nodes in contact pairs, ascending and distinct: those whose flexibility is asked for later.
   std::vector<int> contact_dofs = {};
+  /// The body on an earlier mesh, by whose factor a large one is solved where most of its matrix is the same, and the
+  /// nodes there; null: none.
+  const BodySystem* before = nullptr;
+  Positions nodes_before = {};
 };
 /// The same for many bodies, on up to `threads` threads. Bodies whose matrices are equal bit for bit, as those of equal
 /// blocks with equal supports are wherever they stand, share stiffness and factor. `before`: bodies, of which those

@@ -9,9 +9,10 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/base/error.hpp"
-#include "scabo/linalg/sparse_factor.hpp"
+#include "scabo/linalg/changed_factor.hpp"
 #include "scabo/system/ranks.hpp"
 #include "scabo/system/rigid_motions.hpp"
+#include "scabo/system/same_nodes.hpp"
 
 namespace scabo::system {
 
@@ -103,18 +104,43 @@ void ElasticBody::factorise(linalg::SparseOptions options) {
     options.ordering = linalg::Ordering::dissection_by_position;
   for (const int dof : dofs_)
     if (plane) options.positions.push_back(nodes.columns().col(plane_components.node_of(dof)));
-  const bool alone = inclined_.none() && stiffness().springs.none();
   if (stiffness().divided) {
     linalg::FactorisationCosts costs;
     auto factor = stiffness().divided->factorise(dofs_, inclined_, stiffness().springs.matrix, contact_dofs, costs);
     factored_->solver = linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), costs);
   } else if (stiffness().dense) {
-    factored_->solver = linalg::SymmetricPositiveSolver(alone ? Matrix((*stiffness().dense)(dofs_, dofs_))
-                                                              : Matrix(whole_dense()(dofs_, dofs_)));
+    factored_->solver = linalg::SymmetricPositiveSolver(is_whole_alone() ? Matrix((*stiffness().dense)(dofs_, dofs_))
+                                                                         : Matrix(whole_dense()(dofs_, dofs_)));
   } else {
     factored_->solver = linalg::SymmetricPositiveSolver(
-        principal_part(alone ? stiffness().sparse : whole_sparse(), dofs_, place_), options);
+        principal_part(is_whole_alone() ? stiffness().sparse : whole_sparse(), dofs_, place_), options);
   }
+}
+
+bool ElasticBody::factorise_by(const ElasticBody& before, const Positions& nodes_before) {
+  const Positions& nodes = factored_->nodes;
+  const auto is_sparse = [](const Stiffness& one) { return !one.dense && !one.divided; };
+  if (!is_large() || !is_sparse(stiffness()) || !is_sparse(before.stiffness()) || nodes.components().dimension != 2)
+    return false;
+  const std::vector<int> nodes_there = same_nodes(nodes, nodes_before);
+  std::vector<int> same, near;
+  for (const int dof : dofs_) {
+    const int there = nodes_there[static_cast<std::size_t>(plane_components.node_of(dof))];
+    const auto place = there < 0 ? -1 : place_of(there, plane_components.component_of(dof));
+    same.push_back(place < 0 ? -1 : before.place_[static_cast<std::size_t>(place)]);
+  }
+  for (const int dof : factored_->contact_dofs)
+    if (const int place = place_[static_cast<std::size_t>(dof)]; place >= 0) near.push_back(place);
+  linalg::SparseMatrix whole, whole_before;
+  if (!is_whole_alone()) whole = whole_sparse().markAsRValue();
+  if (!before.is_whole_alone()) whole_before = before.whole_sparse().markAsRValue();
+  const linalg::PrincipalPart A{is_whole_alone() ? stiffness().sparse : whole, dofs_, place_},
+      A_before{before.is_whole_alone() ? before.stiffness().sparse : whole_before, before.dofs_, before.place_};
+  auto factor = linalg::factor_by_changes(A, {A_before, {before.factored_, &before.solver()}}, same, near);
+  if (!factor) return false;
+  factored_->solver =
+      linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), before.solver().costs());
+  return true;
 }
 
 Displaced ElasticBody::displaced(const Vector& f, const Vector& prescribed, const Balanced& wanted,

@@ -32,6 +32,8 @@ class ElasticBody final : public BodySystem {
   void share(std::shared_ptr<Factored> other) { factored_ = std::move(other); }
   const void* factor() const override { return factored_.get(); }
   void factorise(linalg::SparseOptions options);
+  /// By the factor of this body on an earlier mesh; false where that would not pay.
+  bool factorise_by(const ElasticBody& before, const Positions& nodes_before);
 
   Vector spring_forces(const Vector& u) const override { return -stiffness().springs.times(u); }
   bool is_flexible() const override { return true; }
@@ -75,6 +77,7 @@ class ElasticBody final : public BodySystem {
   /// K + S along the directions of the constraints.
   Matrix whole_dense() const;
   linalg::SparseMatrix whole_sparse() const;
+  bool is_whole_alone() const { return inclined_.none() && !has_springs(); }  // K itself
   /// The degree of freedom, or both of its node, if that is inclined.
   std::vector<int> both_if_inclined(int dof) const;
   /// Displacements of the constraints; 0 of everything else.

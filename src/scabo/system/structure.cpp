@@ -143,14 +143,7 @@ std::vector<std::vector<int>> dofs_in_contacts(const model::Model& model, const 
   return of_part;
 }
 
-}  // namespace
-
-Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
-                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks,
-                         const Structure* before) {
-  Structure structure;
-  structure.dofs = Dofs(model, mesh);
-  const Dofs& dofs = structure.dofs;
+linalg::SparseOptions sparse_options(const model::Model& model, const Ranks* ranks) {
   linalg::SparseOptions options;
   if (model.solver.factorisation == model::Factorisation::mumps) options.library = linalg::SparseLibrary::mumps;
   if (ranks && options.library == linalg::SparseLibrary::mumps)
@@ -161,6 +154,18 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     throw InputError(model.file, {{{0, 0, "solver.factorisation"},
                                    "the library of MUMPS was not found: write cholmod, "
                                    "or install libmumps-seq-dev"}});
+  return options;
+}
+
+}  // namespace
+
+Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
+                         const std::vector<element::SolvedCells>& cells, int threads, Ranks* ranks,
+                         const Structure* before, const Structure* like) {
+  Structure structure;
+  structure.dofs = Dofs(model, mesh);
+  const Dofs& dofs = structure.dofs;
+  const linalg::SparseOptions options = sparse_options(model, ranks);
   auto constraints = constraints_of(model, mesh, dofs);
   structure.springs = springs_of(model, mesh, dofs);
   structure.bars = bars_of(model, mesh, dofs);
@@ -171,6 +176,7 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
   };
   std::vector<std::size_t> elastic;
   std::vector<ElasticPart> parts;
+  parts.reserve(dofs.parts());
   std::vector<double> stiffest;  // of those on springs
   std::vector<std::vector<int>> contact_dofs = dofs_in_contacts(model, mesh, dofs, structure.bars);
   for (std::size_t p = 0; p < dofs.parts(); ++p) {
@@ -188,7 +194,15 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     });
     stiffness.springs = structure.springs.of_part[p];
     stiffest.push_back(stiffness.springs.none() || stiffness.divided ? 0.0 : stiffness.largest_diagonal());
-    parts.push_back({std::move(stiffness), dofs.nodes(p), std::move(constraints[p]), std::move(contact_dofs[p])});
+    stiffness.sparse.markAsRValue();  // or Eigen copies what is moved
+    ElasticPart& part = parts.emplace_back();
+    part.stiffness = std::move(stiffness);
+    part.nodes = dofs.nodes(p);
+    part.constraints = std::move(constraints[p]);
+    part.contact_dofs = std::move(contact_dofs[p]);
+    if (!like || like->parts.size() != dofs.parts()) continue;
+    part.before = like->parts[p].get();
+    part.nodes_before = like->dofs.nodes(p);
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options, before ? &before->parts : nullptr);

@@ -66,10 +66,10 @@ void check_supports(const model::Model& model, const mesh::Mesh& mesh);
 
 /// Factorises every part, on up to `threads` threads. `cells[body]`: its solved super-elements. `ranks`: the other
 /// processes of the run, or null. `before`: on another mesh; elastic parts that are the same to the last bit keep their
-/// factors.
+/// factors. `like`: on a mesh that differs little, whose factors may serve for this one, or null.
 Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
                          const std::vector<element::SolvedCells>& cells, int threads = 1, Ranks* ranks = nullptr,
-                         const Structure* before = nullptr);
+                         const Structure* before = nullptr, const Structure* like = nullptr);
 
 /// Adds the loads to a structure (apply_loads.cpp).
 void add_loads(Structure& structure, const model::Model& model, const mesh::Mesh& mesh,

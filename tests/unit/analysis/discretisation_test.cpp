@@ -27,7 +27,7 @@ Discretisation discretised(const model::Model& model) {
   of.model = model;
   of.mesh = mesh::make_mesh(model);
   Timing timing;
-  discretise(of, nullptr, {}, timing);
+  discretise(of, {}, timing);
   return of;
 }
 

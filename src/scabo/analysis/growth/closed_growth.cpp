@@ -99,11 +99,12 @@ bool ClosedCracks::close_faces(const Tip& tip, const Vec2& before) {
 /// The cells at an old tip become one, with those beyond sides that it does not see.
 bool ClosedCracks::join_at(const Tip& tip, const Vec2& before, const Vec2& now) {
   Exchange joined;
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-    const std::vector<int> of_cell = mesh_.cells[c].nodes();
-    if (std::any_of(of_cell.begin(), of_cell.end(), [&](int node) { return old_tip_.count(node) > 0; }))
+  const auto reaches_tip = [&](const mesh::LineElement& element) {
+    return old_tip_.count(element.nodes.front()) > 0 || old_tip_.count(element.nodes.back()) > 0;
+  };
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    if (std::any_of(mesh_.cells[c].boundary.begin(), mesh_.cells[c].boundary.end(), reaches_tip))
       joined.cells.push_back(c);
-  }
   std::set<std::vector<int>> faces;
   for (const int face : {2 * tip.crack, 2 * tip.crack + 1})
     for (const mesh::LineElement& element : mesh_.faces[static_cast<std::size_t>(face)])
@@ -133,12 +134,16 @@ bool ClosedCracks::join_at(const Tip& tip, const Vec2& before, const Vec2& now) 
 /// Adds the cells beyond all sides that are seen under more than an angle, or not at all; whether there are any.
 bool ClosedCracks::add_beyond(Exchange& joined, double angle) const {
   std::set<std::vector<int>> hidden;
+  std::set<int> begins;
   for (const mesh::LineElement& element : joined.closed.boundary)
-    if (!is_seen(element, joined.closed.centre, angle)) hidden.emplace(element.nodes.rbegin(), element.nodes.rend());
+    if (!is_seen(element, joined.closed.centre, angle))
+      hidden.emplace(element.nodes.rbegin(), element.nodes.rend()), begins.insert(element.nodes.back());
+  for (const auto& [right, left] : same_)
+    if (begins.count(left) > 0) begins.insert(right);
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
     bool beyond = false;
     for (const mesh::LineElement& element : mesh_.cells[c].boundary)
-      if (hidden.erase(same_nodes(element)) > 0) beyond = true;
+      if (begins.count(element.nodes.front()) > 0 && hidden.erase(same_nodes(element)) > 0) beyond = true;
     if (beyond) joined.cells.push_back(c);
   }
   return hidden.empty();
@@ -329,12 +334,6 @@ class Numbered {
   std::vector<int> dofs_;
 };
 
-void set_shape(element::SolvedSuperElement& super_element, const Prepared& prepared, int body, const mesh::Cell& cell) {
-  super_element.ring = element::ring_of(cell, prepared.mesh.bodies[static_cast<std::size_t>(body)].nodes);
-  super_element.sectors = element::sectors_of(prepared.model, cell);
-  super_element.thickness = model::thickness_of(prepared.model, body);
-}
-
 /// Eq. (1) of one part.
 class ClosedPart {
  public:
@@ -388,7 +387,9 @@ void ClosedPart::add(int body, const ClosedCracks& cracks, const Vector& acting)
                     K_p_);
     }
     element::SolvedSuperElement closed;
-    set_shape(closed, prepared_, body, exchange.closed);
+    closed.ring = element::ring_of(exchange.closed, mesh.nodes);
+    closed.sectors = element::sectors_of(prepared_.model, exchange.closed);
+    closed.thickness = model::thickness_of(prepared_.model, body);
     add_stiffness(body, exchange.closed, closed.K(), closed_, K_c_);
     const auto follows = [&](int node) {
       inside.insert(node);

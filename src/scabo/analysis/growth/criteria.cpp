@@ -156,4 +156,9 @@ double kink_at(model::GrowthCriterion criterion, const TipFactors& factors, doub
   return open.K.norm() > 0.0 ? kink_of(criterion, open, kappa).angle : 0.0;
 }
 
+double kink_or_none(double kink) {
+  constexpr double least = 1e-4;
+  return std::abs(kink) < least ? 0.0 : kink;
+}
+
 }  // namespace scabo::analysis

@@ -63,4 +63,8 @@ double kink_at(model::GrowthCriterion criterion, const TipFactors& factors, doub
 /// Eq. (2): [k_1, k_2] at a kink of up to 90 degrees either way.
 Vec2 factors_at_kink(const Vec2& factors, double angle);
 
+/// The kink that is followed, radians. Small ones are errors of the factors: the crack goes on straight, and stays on
+/// the line of cells that it is on.
+double kink_or_none(double kink);
+
 }  // namespace scabo::analysis

@@ -10,6 +10,7 @@
 
 #include "scabo/analysis/quasistatic/attempt.hpp"
 #include "scabo/analysis/state/cracks.hpp"
+#include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
 
 namespace scabo::analysis {
@@ -24,6 +25,32 @@ int material_at(const Prepared& prepared, const Tip& tip) {
                                  [&](const mesh::Cell& one) { return one.is_open() && one.centre == here; });
   ensure(cell != mesh.cells.end(), "a tip with factors has a cell");
   return cell->materials.front();
+}
+
+/// Whether displacements are those of the parts under their loads, with no pairs and no motions besides.
+bool has_loads_alone(const Prepared& prepared) {
+  return prepared.contact.pairs.empty() && prepared.contact.rigid_motions() == 0 && prepared.references.empty();
+}
+
+/// From rest, with the displacements of the cells at tips and anything elsewhere: half of a solution, without the
+/// refinement that the balance at every node takes.
+State at_tips_alone(const Prepared& prepared, const Factors& factors) {
+  State state = initial_state(prepared);
+  state.factors = factors;
+  state.forces = applied_forces(prepared, factors, state.released);
+  state.prescribed = prescribed_values(prepared, factors.supports, state.replaced.moved);
+  const system::Structure& structure = prepared.structure;
+  std::vector<std::vector<int>> wanted(structure.parts.size());
+  for (std::size_t b = 0; b < prepared.mesh.bodies.size(); ++b)
+    for (const mesh::Cell& cell : prepared.mesh.bodies[b].cells) {
+      if (!cell.is_open()) continue;
+      const std::vector<int> dofs = structure.dofs.of(static_cast<int>(b), cell.nodes());
+      std::vector<int>& of_part = wanted[structure.dofs.part_of(static_cast<int>(b))];
+      of_part.insert(of_part.end(), dofs.begin(), dofs.end());
+    }
+  for (std::size_t p = 0; p < wanted.size(); ++p)
+    state.u[p] = structure.parts[p]->displacement_at(state.forces[p], state.prescribed[p], wanted[p]);
+  return state;
 }
 
 }  // namespace
@@ -99,6 +126,7 @@ FactorsOfTips factors_of_tips(const Prepared& prepared, const std::vector<Tip>& 
 
 FactorsOfTips factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips, const Factors& factors,
                               const Options& options) {
+  if (has_loads_alone(prepared)) return factors_of_tips(prepared, tips, at_tips_alone(prepared, factors));
   const Reached reached = reach_from_rest(prepared, factors, options);
   if (!reached.reason.empty()) return reached.reason;
   return factors_of_tips(prepared, tips, reached.state);

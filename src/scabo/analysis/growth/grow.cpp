@@ -1,7 +1,5 @@
 #include "scabo/analysis/growth/grow.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +15,6 @@
 #include "scabo/analysis/march/reports.hpp"
 #include "scabo/analysis/state/continuation.hpp"
 #include "scabo/base/stopwatch.hpp"
-#include "scabo/model/wording.hpp"
 
 namespace scabo::analysis {
 
@@ -28,12 +25,9 @@ namespace {
 /// of its length, so that no step is short enough.
 constexpr double largest_turn = 0.25, shortest_part = 0.125;
 
-/// Smaller kinks, radians, are errors of the factors: the crack goes on straight, and stays on the line of cells that
-/// it is on.
-double kink_or_none(double kink) {
-  constexpr double least = 1e-4;
-  return std::abs(kink) < least ? 0.0 : kink;
-}
+/// So many states one after the other are solved by the factor of the first one's stiffness. They are counted from the
+/// first state of the step on, so that a run that resumes takes the same ones.
+constexpr int states_of_a_factor = 8;
 
 /// What the next state needs of the growth that leads to it.
 struct Growth {
@@ -75,8 +69,11 @@ class Growing {
         options_(options),
         tips_(growing_tips(solution.model)),
         all_tips_(tips_),
+        first_cells_(solution.cells),
         first_(solution.increments.size()),
         from_(std::move(before)) {
+    factorised_.structure = solution.structure;
+    factorised_.cells = solution.cells;
     for (const model::Body& body : solution.model.bodies) sizes_.push_back(body.mesh.refine);
     for (const Tip& tip : tips_) first_length_ = std::max(first_length_, length_of(crack_of(solution.model, tip)));
   }
@@ -93,6 +90,7 @@ class Growing {
   model::Model longer(const std::vector<Vec2>& directions, const GrowthResult& at, const std::vector<double>& lengths,
                       double part = 1.0) const;
   Discretisation divided(model::Model model);
+  Discretisation divided_for(model::Model model, int number);
   void go_on(Discretisation longer);
   bool has_contacts() const { return !model().contacts.empty(); }
   Sought sought(const Prepared& prepared) const;
@@ -109,14 +107,16 @@ class Growing {
   double part_done(int number) const;
   IncrementResult result_at(const Prepared& prepared, Reached& reached, int number);
   bool fail(const Prepared& prepared, std::string reason, int number);
-  void grow_to(const Prepared& prepared, const State& state, Next after);
+  void grow_to(const Prepared& prepared, const State& state, Next after, int number);
 
   StaticSolution& solution_;
   const Options& options_;
-  std::vector<Tip> tips_;                             // that may still grow
-  const std::vector<Tip> all_tips_;                   // at first
-  std::size_t first_ = 0;                             // increments of the steps before
-  std::vector<std::vector<model::LocalSize>> sizes_;  // given by the user
+  std::vector<Tip> tips_;                                // that may still grow
+  const std::vector<Tip> all_tips_;                      // at first
+  const std::vector<element::SolvedCells> first_cells_;  // of the first state: equal ones take their solutions
+  Discretisation factorised_;                            // structure and cells of the last state factorised as a whole
+  std::size_t first_ = 0;                                // increments of the steps before
+  std::vector<std::vector<model::LocalSize>> sizes_;     // given by the user
   double first_length_ = 0.0;
   std::optional<Growth> last_;  // that led to the present cracks
   /// With contacts: the state before, its pairs carried over to the present cracks.
@@ -134,7 +134,15 @@ model::Model Growing::longer(const std::vector<Vec2>& directions, const GrowthRe
 
 Discretisation Growing::divided(model::Model model) {
   mesh::Mesh mesh = timed(solution_.timing.mesh, [&] { return mesh::make_mesh(model); });
-  return remesh(solution_, std::move(model), std::move(mesh), solution_.timing);
+  return remesh(solution_, std::move(model), std::move(mesh), solution_.timing, &factorised_);
+}
+
+Discretisation Growing::divided_for(model::Model model, int number) {
+  const bool is_first = (number - 1) % states_of_a_factor == 0;
+  if (is_first) factorised_.structure.reset(), factorised_.cells = first_cells_;
+  Discretisation of = divided(std::move(model));
+  if (is_first) factorised_.structure = of.structure, factorised_.cells = of.cells;
+  return of;
 }
 
 void Growing::go_on(Discretisation longer) {
@@ -162,10 +170,12 @@ int Growing::restore(const Continuation& from) {
         extend(longer, tips_[t], from.increments[i + 1].growth->tips[t].position);
     }
     tips_ = without_met(tips_, met);
-  }
-  if (number > 1) {
-    refine_at_tips(longer, tips_, sizes_);
-    go_on(divided(std::move(longer)));
+    const int next = static_cast<int>(i - first_) + 2;
+    if (next != number && ((next - 1) % states_of_a_factor != 0 || number - next >= states_of_a_factor)) continue;
+    model::Model refined = longer;
+    refine_at_tips(refined, tips_, sizes_);
+    Discretisation of = divided_for(std::move(refined), next);
+    if (next == number) go_on(std::move(of));
   }
   solution_.pairings = number - 1;
   return number;
@@ -249,10 +259,15 @@ std::variant<Middle, std::string> Growing::middle(const Prepared& prepared, cons
     for (const CycledTip& tip : middle.cycled) middle.kinks.push_back(tip.kink);
     return middle;
   }
-  const Reached reached = reach_from(there, from, now.factors, options_);
-  if (!reached.reason.empty()) return reached.reason;
-  const auto found = factors_of_tips(there, tips_, reached.state),
-             alone = has_contacts() ? factors_of_tips(there, tips_, from) : found;
+  FactorsOfTips found, alone;
+  if (has_contacts()) {
+    const Reached reached = reach_from(there, from, now.factors, options_);
+    if (!reached.reason.empty()) return reached.reason;
+    found = factors_of_tips(there, tips_, reached.state);
+    alone = factors_of_tips(there, tips_, from);
+  } else {
+    found = alone = factors_of_tips(there, tips_, now.factors, options_);
+  }
   for (const auto* factors : {&found, &alone})
     if (const auto* reason = std::get_if<std::string>(factors)) return *reason;
   for (const TipFactors& factors : std::get<std::vector<TipFactors>>(alone)) middle.K_alone.push_back(factors.K);
@@ -397,11 +412,11 @@ bool Growing::fail(const Prepared& prepared, std::string reason, int number) {
   return false;
 }
 
-/// Makes the next cracks the present ones; with contacts their history follows.
-void Growing::grow_to(const Prepared& prepared, const State& state, Next after) {
+/// Makes the cracks of the next state the present ones; with contacts their history follows.
+void Growing::grow_to(const Prepared& prepared, const State& state, Next after, int number) {
   last_ = std::move(after.growth);
   if (!last_->met.empty()) refine_at_tips(*after.model, without_met(tips_, last_->met), sizes_);
-  Discretisation longer = divided(*std::move(after.model));
+  Discretisation longer = divided_for(*std::move(after.model), number);
   if (has_contacts()) {
     const Prepared there(longer);
     from_ = on_longer(there, prepared, state, tips_);
@@ -443,7 +458,7 @@ bool Growing::advance(int number, const State* known) {
   }
   if (!after.model) return after.failed.empty() ? false : fail(prepared, std::move(after.failed), number + 1);
   try {
-    grow_to(prepared, reached.state, std::move(after));
+    grow_to(prepared, reached.state, std::move(after), number + 1);
   } catch (const InputError& error) {
     return fail(prepared, error.diagnostics().front().message, number + 1);
   }
@@ -451,23 +466,6 @@ bool Growing::advance(int number, const State* known) {
 }
 
 }  // namespace
-
-void check_growth(const model::Model& model) {
-  if (!model::has_growth(model)) return;
-  const std::string file = model.file.empty() ? "model" : model.file;
-  if (const auto tip = end_on_a_border(model))
-    throw InputError(
-        file,
-        {{model.steps.back().source,
-          fmt::format("the tip '{}' lies on the border of a region, where materials meet: growth from there is not "
-                      "available in this version, so let it end inside one material",
-                      name_of(model, *tip))}});
-  if (!growing_tips(model).empty()) return;
-  throw InputError(file,
-                   {{model.steps.back().source,
-                     "no crack of the step has a tip that could grow: both ends of each lie on the boundary or on "
-                     "another crack"}});
-}
 
 bool continues_growth(const model::Model& model, const Options& options) {
   return options.from && options.from->at.step + 1 == model.steps.size() && options.from->at.progress.increment > 0;

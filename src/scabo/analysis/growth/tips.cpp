@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scabo/analysis/growth/grow.hpp"
 #include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/geometry/plane/outline_checks.hpp"
 #include "scabo/model/wording.hpp"
@@ -177,6 +178,23 @@ std::optional<Meeting> meeting(const model::Model& model, const Tip& tip, const 
         nearest = Meeting{point, barrier.what};
       }
   return nearest;
+}
+
+void check_growth(const model::Model& model) {
+  if (!model::has_growth(model)) return;
+  const std::string file = model.file.empty() ? "model" : model.file;
+  if (const auto tip = end_on_a_border(model))
+    throw InputError(
+        file,
+        {{model.steps.back().source,
+          fmt::format("the tip '{}' lies on the border of a region, where materials meet: growth from there is not "
+                      "available in this version, so let it end inside one material",
+                      name_of(model, *tip))}});
+  if (!growing_tips(model).empty()) return;
+  throw InputError(file,
+                   {{model.steps.back().source,
+                     "no crack of the step has a tip that could grow: both ends of each lie on the boundary or on "
+                     "another crack"}});
 }
 
 }  // namespace scabo::analysis

@@ -43,7 +43,7 @@ StaticSolution solve_on_mesh(model::Model model, mesh::Mesh mesh, const Options&
 
   std::optional<LargeSlip> large = large_slip_of(solution, options);
   try {
-    discretise(solution, nullptr, options.on_stage, solution.timing);
+    discretise(solution, options.on_stage, solution.timing);
     if (options.on_mesh) options.on_mesh(solution);
   } catch (const EndAtOnce&) {
     if (options.from) solution.increments = options.from->increments;

@@ -5,6 +5,7 @@
 
 #include "scabo/analysis/state/outside.hpp"
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/element/alike_cells.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/sliding_sides.hpp"
 
@@ -22,10 +23,11 @@ double largest_load(const system::Structure& structure) {
 
 /// Parts with their loads; pairs get the normals along which bodies may roll.
 std::shared_ptr<const system::Structure> make_systems(Discretisation& of, const Discretisation* before,
-                                                      Timing& timing) {
+                                                      const Discretisation* like, Timing& timing) {
+  const auto structure_of = [](const Discretisation* one) { return one ? one->structure.get() : nullptr; };
   const auto structure = std::make_shared<system::Structure>(timed(timing.factorise, [&] {
-    return system::make_structure(of.model, of.mesh, of.cells, of.threads, of.ranks,
-                                  before ? before->structure.get() : nullptr);
+    return system::make_structure(of.model, of.mesh, of.cells, of.threads, of.ranks, structure_of(before),
+                                  structure_of(like));
   }));
   timing.factorise -= structure->assembly_seconds;
   timing.assemble += structure->assembly_seconds;
@@ -35,19 +37,22 @@ std::shared_ptr<const system::Structure> make_systems(Discretisation& of, const 
   return structure;
 }
 
-}  // namespace
-
-void discretise(Discretisation& of, const Discretisation* before, const OnStage& on_stage, Timing& timing) {
+/// `before` and `like`: as of remesh(), or null.
+void discretise(Discretisation& of, const Discretisation* before, const Discretisation* like, const OnStage& on_stage,
+                Timing& timing) {
   const auto stage = [&](const char* what) {
     if (on_stage) on_stage(what);
   };
   stage("super-elements");
   of.cells = timed(timing.super_elements, [&] {
-    return element::solve_cells(of.model, of.mesh, of.threads, system::divided_bodies(of.ranks, of.model, of.mesh),
-                                before ? before->cells : std::vector<element::SolvedCells>());
+    std::vector<element::SolvedCells> cells =
+        element::solve_cells(of.model, of.mesh, of.threads, system::divided_bodies(of.ranks, of.model, of.mesh),
+                             before ? before->cells : std::vector<element::SolvedCells>());
+    if (like) element::take_alike(cells, of.mesh, like->cells);
+    return cells;
   });
   stage("factorisation");
-  of.structure = make_systems(of, before, timing);
+  of.structure = make_systems(of, before, like, timing);
   stage("condensation to the contact pairs");
   const Stopwatch stopwatch(timing.condense);
   of.pairs = std::make_shared<system::ContactSystem>(system::condense(*of.structure, of.model, of.mesh, of.threads));
@@ -55,13 +60,20 @@ void discretise(Discretisation& of, const Discretisation* before, const OnStage&
   of.references = references_of(of.model, of.mesh, of.cells, of.structure->dofs);
 }
 
-Discretisation remesh(const Discretisation& before, model::Model model, mesh::Mesh mesh, Timing& timing) {
+}  // namespace
+
+void discretise(Discretisation& of, const OnStage& on_stage, Timing& timing) {
+  discretise(of, nullptr, nullptr, on_stage, timing);
+}
+
+Discretisation remesh(const Discretisation& before, model::Model model, mesh::Mesh mesh, Timing& timing,
+                      const Discretisation* like) {
   Discretisation after;
   after.model = std::move(model);
   after.mesh = std::move(mesh);
   after.threads = before.threads;
   after.ranks = before.ranks;
-  discretise(after, &before, {}, timing);
+  discretise(after, &before, like, {}, timing);
   return after;
 }
 

@@ -47,12 +47,15 @@ struct Discretisation {
 using OnStage = std::function<void(const std::string&)>;
 
 /// Solves the super-elements of the mesh, factorises the parts and condenses them to the pairs. `on_stage` may be
-/// empty. `before`: on another mesh, or null. Super-elements and elastic parts that are the same there to the last bit
-/// keep their solutions and factors.
-void discretise(Discretisation& of, const Discretisation* before, const OnStage& on_stage, Timing& timing);
+/// empty.
+void discretise(Discretisation& of, const OnStage& on_stage, Timing& timing);
 
-/// The model on another mesh, or with longer cracks: what has not changed is kept.
-Discretisation remesh(const Discretisation& before, model::Model model, mesh::Mesh mesh, Timing& timing);
+/// The model on another mesh, or with longer cracks. Super-elements and elastic parts that are the same before to the
+/// last bit keep their solutions and factors. `like`: cells and, if it has one, structure of a mesh that differs
+/// little, or null: super-elements that differ from its own by rounding take their solutions, and large parts are
+/// solved by its factors.
+Discretisation remesh(const Discretisation& before, model::Model model, mesh::Mesh mesh, Timing& timing,
+                      const Discretisation* like = nullptr);
 
 /// Goes on with another mesh of the same model. References into the model stay valid.
 void replace(Discretisation& of, Discretisation by);

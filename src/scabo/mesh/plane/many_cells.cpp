@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <numbers>
 
@@ -167,22 +166,24 @@ namespace {
 /// The centre of a polygon from which its sides are seen. A side on a hollow arc is seen from where its end tangents
 /// are seen: the corner where they meet stands for it.
 Vec2 seeing_centre(const PolygonCell& polygon, const CellSides& sides, const std::vector<Vec2>& nodes, bool straight) {
+  if (straight || polygon.open) return polygon.centre;
   std::vector<Vec2> points;
   bool hollow = false;
   const std::size_t count = polygon.nodes.size();
+  points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const int a = polygon.nodes[i], b = polygon.nodes[(i + 1) % count];
     const Vec2 &from = nodes[static_cast<std::size_t>(a)], &to = nodes[static_cast<std::size_t>(b)];
     points.push_back(from);
     const std::optional<geometry::Arc> arc = sides.arc_of(a, b);
-    if (!arc || (polygon.open && i + 1 == count)) continue;
+    if (!arc) continue;
     const Vec2 &centre = arc->centre, middle = 0.5 * (from + to) - centre;
     if (cross(from - centre, to - centre) >= 0.0) continue;  // bulges outwards
     hollow = true;
     points.push_back(centre + (from - centre).squaredNorm() / middle.squaredNorm() * middle);
   }
   constexpr double well_seen = 0.1, hardly_seen = 1e-3;
-  if (!hollow || straight || polygon.open || visibility(points, polygon.centre) > well_seen) return polygon.centre;
+  if (!hollow || visibility(points, polygon.centre) > well_seen) return polygon.centre;
   const KernelCentre better = kernel_centre(points, well_seen);
   if (better.visibility > hardly_seen) return better.centre;
   throw Refusal("a cell is too large for the arc beside it", polygon.centre);
@@ -201,11 +202,12 @@ Cell cell_of(const PolygonCell& polygon, const model::Body& body, CellSides& sid
   cell.materials = {material_of(polygon.region)};
   if (!polygon.side_regions.empty()) cell.materials.clear();
   const std::size_t count = polygon.nodes.size();
-  for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i)
-    for (LineElement& element : sides.elements(polygon.nodes[i], polygon.nodes[(i + 1) % count])) {
-      cell.boundary.push_back(std::move(element));
-      if (!polygon.side_regions.empty()) cell.materials.push_back(material_of(polygon.side_regions[i]));
-    }
+  cell.boundary.reserve(count);
+  for (std::size_t i = 0; i + (polygon.open ? 1 : 0) < count; ++i) {
+    sides.append(polygon.nodes[i], polygon.nodes[(i + 1) % count], cell.boundary);
+    if (!polygon.side_regions.empty())
+      cell.materials.resize(cell.boundary.size(), material_of(polygon.side_regions[i]));
+  }
   return cell;
 }
 
@@ -246,6 +248,7 @@ BodyMesh body_mesh_of(const PolygonMesh& polygons, const BodyDomain& of, const m
   BodyMesh mesh;
   mesh.nodes = polygons.nodes;
   CellSides sides(polygons, of.domain, body.mesh.order, mesh.nodes);
+  mesh.cells.reserve(polygons.cells.size());
   for (const PolygonCell& polygon : polygons.cells) mesh.cells.push_back(cell_of(polygon, body, sides, mesh.nodes));
   if (body.mesh.kind == model::MeshKind::fem && body.mesh.order == 2)
     for (const Cell& cell : mesh.cells)
@@ -287,11 +290,11 @@ std::variant<BodyMesh, Diagnostic> divide_image(const model::Body& body, double 
 /// Number of pieces that share no side with each other.
 std::size_t pieces_of(const BodyMesh& mesh) {
   DisjointSets pieces(mesh.cells.size());
-  std::map<std::pair<int, int>, std::size_t> of_side;
+  SideNumbers cell_of_side(mesh.nodes.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const LineElement& element : mesh.cells[c].boundary) {
-      const auto [other, is_new] = of_side.emplace(std::minmax(element.nodes.front(), element.nodes.back()), c);
-      pieces.join(c, other->second);
+      const int other = cell_of_side.add(element.nodes.front(), element.nodes.back(), static_cast<int>(c)).first;
+      pieces.join(c, static_cast<std::size_t>(other));
     }
   return pieces.sets();
 }
