@@ -266,5 +266,51 @@ steps: [{name: weight, loads: {weight: 1}}, {name: push, loads: {push: PUSH}}]
             self.assertAlmostEqual(increment["energy"]["external"], elastic, delta=1e-8 * elastic)
 
 
+@unittest.skipIf(support.SANITIZED, "numbers")
+class Twins(Solved):
+    """A block torn off a larger one and pressed on it again, held by springs at its other end: the same broken pairs and forces
+    with its sides swapped, the bodies listed in another order, in other units, and turned (x -> y -> z -> x)."""
+
+    def tear(self, name, length=1, force=1, swapped=False, listed=1, turned=False):
+        axes, faces = [0, 1, 2], {face: face for face in ("bottom", "top", "left", "right")}
+        if turned:
+            axes, faces = [2, 0, 1], {"bottom": "left", "top": "right", "left": "front", "right": "back"}
+        def vector_of(*numbers):
+            return "[" + ", ".join(numbers[axis] if isinstance(numbers[axis], str) else repr(numbers[axis] * length) for axis in axes) + "]"
+        pressure = force / length**2
+        bodies = [f"  base: {{material: steel, shape: {{box: {{corner: {vector_of(0, 0, -4)}, size: {vector_of(12, 1, 4)}}}}}, mesh: {{size: {length}}}}}\n",
+                  f"  block: {{material: steel, shape: {{box: {{corner: {vector_of(2, 0, 0)}, size: {vector_of(8, 1, 2)}}}}}, mesh: {{size: {0.8 * length}}}}}\n"]
+        sides = [f"base.{faces['top']}", f"block.{faces['bottom']}"]
+        made = self.solve(f"""scabo: 1
+analysis: {{space: true}}
+materials: {{steel: {{young: {1e9 * pressure}, poisson: 0.3}}}}
+bodies:
+{"".join(bodies[::listed])}supports:
+  - {{on: base.{faces["bottom"]}, fix: [x, y, z], name: ground}}
+  - {{on: block.{faces["left"]}, displacement: {vector_of("null", "null", 2e-3)}, name: ram}}
+springs: [{{on: block.{faces["right"]}, k_n: {1e6 * pressure / length}, k_t: {2e6 * pressure / length}, name: wall}}]
+contacts: {{joint: {{between: [{", ".join(sides[::-1] if swapped else sides)}], friction: 0.5, cohesion: {4e5 * pressure}, tension: {2e5 * pressure}}}}}
+steps: [{{name: tear, increments: 5, loads: {{ram: 1}}}}, {{name: back, increments: 2, loads: {{ram: -0.5}}}}]
+""", name)
+        states = [[of["contacts"]["joint"][key] for key in ("broken", "open", "stick", "slip")] for of in made]
+        forces = [[of[key][name][axes.index(axis)] / force for key, name in (("reactions", "ram"), ("springs", "wall")) for axis in range(3)]
+                  + [of["energy"]["elastic"] / force / length] for of in made]
+        return states, forces
+
+    def test_the_same_pairs_break(self):
+        states, forces = self.tear("first")
+        broken = [of[0] for of in states]
+        self.assertEqual(broken, sorted(broken))
+        self.assertGreater(len(set(broken)), 3)  # one after the other
+        self.assertGreater(states[-1][3], 0)
+        for name, change in (("swapped", {"swapped": True}), ("listed", {"listed": -1}), ("units", {"length": 1000.0, "force": 1e-3}), ("turned", {"turned": True})):
+            with self.subTest(change=name):
+                other_states, other_forces = self.tear(name, **change)
+                self.assertEqual(other_states, states)
+                for one, other in zip(other_forces, forces, strict=True):
+                    for a, b in zip(one, other, strict=True):
+                        self.assertAlmostEqual(a, b, delta=1e-9 * 4e4)
+
+
 if __name__ == "__main__":
     support.main()
