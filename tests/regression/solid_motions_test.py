@@ -161,6 +161,22 @@ contacts: {joint: {between: [a.top, b.bottom], friction: 0.3}}
 """, 2)
         self.assertIn("keep an overlap by 0.0001, which no contact force can remove: free one side there", told)
 
+    def test_what_is_beyond_small_strains_and_rotations_is_told_once(self):
+        summary, _ = self.run_model("""bodies:
+  a: {material: m, shape: {box: {corner: [0, 0, -1], size: [2, 2, 1]}}, mesh: {size: 1}}
+  b: {material: m, shape: {box: {corner: [0, 0, 0], size: [2, 2, 1]}}, mesh: {size: 1}}
+  lever: {rigid: true, shape: {box: {corner: [5, 0, 0], size: [1, 1, 1]}}, mesh: {size: 1}}
+supports:
+  - {on: a.bottom, fix: [x, y, z]}
+  - {on: b.top, displacement: [0, 0, -0.2]}
+  - {on: lever, displacement: [0, 0, 0], rotation: [0, 0.09, 0.09]}
+contacts: {joint: {between: [a.top, b.bottom], friction: 0.3}}
+steps: [{name: press, increments: 2}]
+""", 0)
+        self.assertEqual(len(summary["warnings"]), 2, summary["warnings"])
+        self.assertRegex(summary["warnings"][0], r"^step press, increment 1: between bodies 'a' and 'b' the pressure reaches \S+, \S+ % of Young's modulus: small strains are assumed$")
+        self.assertRegex(summary["warnings"][1], r"^step press, increment 2: body 'lever' turns by 0.127 rad: the theory is valid for rotations of up to 0.1 rad, and normals of contacts and directions of loads do not turn$")
+
     def test_the_motion_is_drawn(self):
         self.on_base(self.BRICK, [5, 0, -10], 0.3, 2)
         done = scabo("plot", self.directory / "results", "-o", self.directory / "motion.png")

@@ -288,12 +288,7 @@ std::optional<Warning> undetermined_motion_warning(const MovingSolids& solids, c
                              text)};
 }
 
-/// Of the first increment that has such motions.
-std::optional<Warning> large_motion_warning(const SolidModel& model, const std::vector<Vector>& u,
-                                            const std::vector<Warning>& given) {
-  if (std::any_of(given.begin(), given.end(),
-                  [](const Warning& warning) { return warning.kind == WarningKind::large_displacement; }))
-    return std::nullopt;
+std::optional<Warning> large_motion_warning(const SolidModel& model, const std::vector<Vector>& u) {
   std::vector<SolidMotion> motions;
   std::vector<bool> rigid;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -306,20 +301,44 @@ std::optional<Warning> large_motion_warning(const SolidModel& model, const std::
                  large->text(model.bodies[static_cast<std::size_t>(large->body)].name)};
 }
 
+/// Of pairs of bodies whose pressure is beyond small strains.
+void add_pressures(const SolidModel& model, SolidIncrement& to) {
+  constexpr double most = 0.05;  // of Young's modulus: a strain
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const SolidBody& a = model.bodies[static_cast<std::size_t>(model.contacts[c].a.body)];
+    const SolidBody& b = model.bodies[static_cast<std::size_t>(model.contacts[c].b.body)];
+    double pressure = 0.0, stiffness = HUGE_VAL;
+    for (const SolidPair& pair : to.pairs)
+      if (pair.contact == static_cast<int>(c)) pressure = std::max(pressure, pair.normal_force() / pair.area);
+    for (const SolidBody* body : {&a, &b})
+      if (!body->rigid_at) stiffness = std::min(stiffness, body->young);
+    if (pressure > most * stiffness)
+      to.warnings.push_back({WarningKind::pressure, fmt::format("'{}', '{}'", a.name, b.name),
+                             fmt::format("between bodies '{}' and '{}' the pressure reaches {:.3g}, {:.3g} % of "
+                                         "Young's modulus: small strains are assumed",
+                                         a.name, b.name, pressure, 100.0 * pressure / stiffness)});
+  }
+}
+
 }  // namespace
 
 void add_warnings(const MovingSolids& solids, const contact::Solution& solution, std::vector<Warning>& given,
                   SolidIncrement& to) {
   if (auto motions = undetermined_motion_warning(solids, solution.undetermined, given))
     to.warnings.push_back(*std::move(motions));
-  const bool told = std::any_of(given.begin(), given.end(),
-                                [](const Warning& warning) { return warning.kind == WarningKind::several_solutions; });
-  if (to.uniqueness && to.uniqueness->others > 0 && !told)
+  if (to.uniqueness && to.uniqueness->others > 0)
     to.warnings.push_back({WarningKind::several_solutions, "",
                            fmt::format("other solutions exist ({} found); the one closest to the previous increment "
                                        "was chosen: see 'uniqueness' in summary.json",
                                        to.uniqueness->others)});
-  if (auto large = large_motion_warning(solids.model, to.u, given)) to.warnings.push_back(*std::move(large));
+  add_pressures(solids.model, to);
+  if (auto large = large_motion_warning(solids.model, to.u)) to.warnings.push_back(*std::move(large));
+  const auto is_told = [&](const Warning& warning) {
+    return std::any_of(given.begin(), given.end(), [&](const Warning& other) {
+      return warning.kind == other.kind && warning.subject == other.subject;
+    });
+  };
+  to.warnings.erase(std::remove_if(to.warnings.begin(), to.warnings.end(), is_told), to.warnings.end());
   given.insert(given.end(), to.warnings.begin(), to.warnings.end());
 }
 
