@@ -236,7 +236,7 @@ Json json_of(const analysis::IncrementResult& increment, const model::Model& mod
     for (const analysis::QuantityResult& quantity : increment.quantities)
       json["quantities"].push_back(json_of(quantity));
   }
-  if (increment.uniqueness) json["uniqueness"] = content_of(*increment.uniqueness);
+  if (increment.uniqueness) json["uniqueness"] = content_of_uniqueness(*increment.uniqueness);
   return json;
 }
 
@@ -318,7 +318,7 @@ Json json_of(const analysis::Timing& timing, bool running) {
 
 }  // namespace
 
-nlohmann::ordered_json content_of(const analysis::UniquenessResult& uniqueness) {
+nlohmann::ordered_json content_of_uniqueness(const analysis::UniquenessResult& uniqueness) {
   return {{"unique", uniqueness.verdict},
           {"others", uniqueness.others},
           {"complete", uniqueness.complete},

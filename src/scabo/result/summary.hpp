@@ -32,7 +32,7 @@ std::string summary_content(const analysis::StaticSolution& solution, const anal
                             std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// What an increment says of other solutions.
-nlohmann::ordered_json content_of(const analysis::UniquenessResult& uniqueness);
+nlohmann::ordered_json content_of_uniqueness(const analysis::UniquenessResult& uniqueness);
 
 /// The summary of a run ended by an error: `summary` with status `failed` and the reason.
 std::string failed_summary(const std::string& summary, const std::string& reason);

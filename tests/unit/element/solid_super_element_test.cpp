@@ -35,19 +35,19 @@ Matrix nodes_of_cell(int count, double moved) {
   return nodes.colwise() + Eigen::Vector3d(3, -2, 1);
 }
 
-const Vec6 strain_of_test = (Vec6() << 1.0, -0.5, 0.3, 0.8, -0.2, 0.6).finished();
+const Vec6 strain_of_cell = (Vec6() << 1.0, -0.5, 0.3, 0.8, -0.2, 0.6).finished();
 
 Eigen::Matrix3d gradient_of_test() {
   Eigen::Matrix3d gradient;
-  gradient << 1.0, 0.4, 0.3, 0.4, -0.5, -0.1, 0.3, -0.1, 0.3;  // of strain_of_test
+  gradient << 1.0, 0.4, 0.3, 0.4, -0.5, -0.1, 0.3, -0.1, 0.3;  // of strain_of_cell
   return gradient;
 }
 
-struct Case {
+struct CellCase {
   int nodes;
   double moved, poisson;
 };
-class CellsAsSuperElements : public testing::TestWithParam<Case> {
+class CellsAsSuperElements : public testing::TestWithParam<CellCase> {
  protected:
   const Matrix nodes = nodes_of_cell(GetParam().nodes, GetParam().moved);
   const Mat6 D = elasticity_in_space(3.0, GetParam().poisson);
@@ -73,13 +73,13 @@ TEST_P(CellsAsSuperElements, HaveSixRigidMotionsAndNoOther) {
 
 TEST_P(CellsAsSuperElements, HoldAConstantStrainExactly) {
   const Vector u = ((gradient_of_test() * nodes).colwise() + Eigen::Vector3d(5, 6, 7)).reshaped();
-  EXPECT_NEAR(u.dot(cell.K() * u) / (strain_of_test.dot(D * strain_of_test) * cell_volume_weights(nodes).sum()), 1.0,
+  EXPECT_NEAR(u.dot(cell.K() * u) / (strain_of_cell.dot(D * strain_of_cell) * cell_volume_weights(nodes).sum()), 1.0,
               1e-11);
-  EXPECT_LT((strains_at_nodes(nodes, cell, u).colwise() - strain_of_test).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_LT((strains_at_nodes(nodes, cell, u).colwise() - strain_of_cell).cwiseAbs().maxCoeff(), rounding);
   const auto place = place_in_super_element(nodes, inside, 1e-6);
   ASSERT_TRUE(place);
   const SolidInterior interior(nodes, cell, u);
-  EXPECT_LT((interior.strain_at(*place) - strain_of_test).norm(), rounding);
+  EXPECT_LT((interior.strain_at(*place) - strain_of_cell).norm(), rounding);
   EXPECT_LT((interior.displacement_at(*place) - gradient_of_test() * inside - Eigen::Vector3d(5, 6, 7)).norm(),
             rounding);
   EXPECT_FALSE(place_in_super_element(nodes, inside + Eigen::Vector3d(2, 0, 0), 1e-6));
@@ -88,7 +88,7 @@ TEST_P(CellsAsSuperElements, HoldAConstantStrainExactly) {
 /// The forces of a constant stress at the nodes are those on the facets.
 TEST_P(CellsAsSuperElements, AreInBalanceWithTheTractionsOfAConstantStress) {
   const Eigen::Matrix3d stress = [&] {
-    const Vec6 s = D * strain_of_test;
+    const Vec6 s = D * strain_of_cell;
     Eigen::Matrix3d tensor;
     tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
     return tensor;
@@ -116,9 +116,9 @@ TEST_P(CellsAsSuperElements, CarryTheirWeightAndTheMomentOfIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, CellsAsSuperElements,
-                         testing::Values(Case{20, 0.0, 0.3}, Case{20, 0.15, 0.3}, Case{20, 0.15, 0.49999},
-                                         Case{20, 0.15, 0.0}, Case{15, 0.0, 0.3}, Case{15, 0.15, 0.3},
-                                         Case{15, 0.15, 0.49999}));
+                         testing::Values(CellCase{20, 0.0, 0.3}, CellCase{20, 0.15, 0.3}, CellCase{20, 0.15, 0.49999},
+                                         CellCase{20, 0.15, 0.0}, CellCase{15, 0.0, 0.3}, CellCase{15, 0.15, 0.3},
+                                         CellCase{15, 0.15, 0.49999}));
 
 /// A temperature that is linear in the coordinates bends a free body of parallel sides without any stress: the
 /// quadratic displacements are exact at nodes and inside, which they are by the load inside the cell.

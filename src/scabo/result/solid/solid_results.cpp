@@ -77,7 +77,7 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   if (!model.springs.empty()) json["springs"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
-  if (increment.uniqueness) json["uniqueness"] = content_of(*increment.uniqueness);
+  if (increment.uniqueness) json["uniqueness"] = content_of_uniqueness(*increment.uniqueness);
   if (!solved) return json;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     json["contacts"][model.contacts[c].name] =
