@@ -218,6 +218,26 @@ output: {points: [{at: [2.3, 0.4, 0.1], name: heated}]}
         self.assertAlmostEqual(values["heated"]["stress_yy"], 0.0, delta=1e-2)
         self.assertAlmostEqual(values["heated"]["uy"], 0.4 * 1e-5 * 30, delta=1e-12)
 
+    def test_the_picture_of_a_mechanism_has_hexahedra(self):
+        """A lifted block: cells and faces of the picture keep their nodes, and it is drawn."""
+        (self.directory / "model.yaml").write_text(HEAD + """materials: {m: {young: 1e9, poisson: 0.2}}
+bodies:
+  base: {material: m, shape: {box: {corner: [0, 0, -1], size: [2, 2, 1]}}, mesh: {size: 1, kind: hexahedra}}
+  block: {material: m, shape: {box: {corner: [0, 0, 0], size: [2, 2, 1]}}, mesh: {size: 1, kind: hexahedra}}
+supports: [{on: base.bottom, fix: [x, y, z]}]
+loads: {lift: {on: block.top, traction: [0, 0, 1e3]}}
+contacts: {joint: {between: [base.top, block.bottom], friction: 0.3}}
+""", encoding="utf-8")
+        self.assertEqual(scabo("run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet").returncode, 2)
+        picture = arrays_of(self.directory / "results" / "mechanism.vtu")
+        lengths = [end - start for start, end in zip([0, *picture["offsets"]], picture["offsets"])]
+        self.assertEqual(sorted(set(zip(picture["types"], lengths))), [(9, 4), (25, 20)])
+        of_cell = [list(picture["connectivity"][end - 20:end]) for kind, end in zip(picture["types"], picture["offsets"]) if kind == 25]
+        points = picture["Points"] if "Points" in picture else picture["points"]
+        for cell in of_cell:  # node 9 lies between the first two corners
+            first, second, middle = (points[3 * node:3 * node + 3] for node in (cell[0], cell[1], cell[8]))
+            self.assertEqual([(a + b) / 2 for a, b in zip(first, second)], list(middle))
+
     def test_hexahedra_and_wedges_of_a_file(self):
         """The good file with every kind of cell: forces balance, and the mesh file keeps its cells."""
         done = scabo("run", ROOT / "tests" / "input" / "good" / "hexahedra_in_space.yaml", "-o", self.directory / "results", "--quiet")

@@ -161,9 +161,10 @@ def mechanism(results, magnification=None, units=None, view=None):
     tetrahedra = grid.cell_data["body"] > 0
     for start, end, value in zip(grid.starts()[tetrahedra], grid.offsets[tetrahedra], grid.cell_data["motion"][tetrahedra]):
         motion[grid.connectivity[start:end]] = value
-    image = seen_image(after, triangles_of(facets), motion)
+    corners = triangles_of(facets)
+    image = seen_image(after, corners, motion)
     edges = sharp_edges(grid.points, facets)
-    both = np.concatenate([before[edges.ravel()], after[edges.ravel()], after[facets[:, :3].ravel()]])[:, :2]
+    both = np.concatenate([before[edges.ravel()], after[edges.ravel()], after[corners.ravel()]])[:, :2]
     width, height = style.map_size(both.min(axis=0), both.max(axis=0), beside=0.95)
     legend = [(Line2D([], [], color="0.45", linewidth=0.8, linestyle=(0, (4, 3))), "before")]
     figure = style.new_figure(width, height, results.title, described(results, magnification, units), legend)

@@ -6,14 +6,6 @@ namespace scabo::result {
 
 namespace {
 
-/// Of VTK, whose nodes have the order of CellTopology.
-std::uint8_t vtk_type(std::size_t nodes) {
-  constexpr std::uint8_t tetra = 10, quadratic_tetra = 24, quadratic_hexahedron = 25, quadratic_wedge = 26;
-  if (nodes == 4) return tetra;
-  if (nodes == 10) return quadratic_tetra;
-  return nodes == 15 ? quadratic_wedge : quadratic_hexahedron;
-}
-
 void add_stress(const element::Vec6& stress, SolidCells& cells) {
   const StressInSpace measures(stress);
   for (int k = 0; k < 6; ++k) cells.stress.push_back(static_cast<float>(stress[k]));
@@ -24,6 +16,13 @@ void add_stress(const element::Vec6& stress, SolidCells& cells) {
 }
 
 }  // namespace
+
+std::uint8_t vtk_type(std::size_t nodes) {
+  constexpr std::uint8_t tetra = 10, quadratic_tetra = 24, quadratic_hexahedron = 25, quadratic_wedge = 26;
+  if (nodes == 4) return tetra;
+  if (nodes == 10) return quadratic_tetra;
+  return nodes == 15 ? quadratic_wedge : quadratic_hexahedron;
+}
 
 SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidIncrement& increment) {
   const std::vector<Vector>& u = increment.u;

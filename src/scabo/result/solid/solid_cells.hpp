@@ -9,7 +9,8 @@
 
 namespace scabo::result {
 
-inline constexpr std::uint8_t vtk_tetra = 10, vtk_quadratic_tetra = 24;
+/// Of a cell with so many nodes, in VTK, whose nodes have the order of CellTopology.
+std::uint8_t vtk_type(std::size_t nodes);
 
 struct SolidCells {
   std::vector<double> points;  // 3 per point

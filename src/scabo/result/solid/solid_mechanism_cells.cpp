@@ -33,8 +33,7 @@ void add_body(const mesh::SolidMesh& mesh, const analysis::SolidBodyMotion& moti
   const auto first = static_cast<std::int32_t>(cells.point_body.size());
   for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) add_point(mesh.nodes.col(i), motion, number, cells);
   for (const std::vector<int>& cell : mesh.cells)
-    add_cell({cell.begin(), cell.end()}, first, cell.size() == 4 ? vtk_tetra : vtk_quadratic_tetra, motion.largest,
-             number, 0, cells);
+    add_cell({cell.begin(), cell.end()}, first, vtk_type(cell.size()), motion.largest, number, 0, cells);
   cells.opening.resize(cells.point_body.size(), 0.0);
   cells.slip.resize(3 * cells.point_body.size(), 0.0);
   cells.pair.resize(cells.point_body.size(), 0);
@@ -59,8 +58,8 @@ void add_faces(const analysis::SolidModel& model, const analysis::SolidMechanism
   cells.slip.insert(cells.slip.end(), faces.slip.begin(), faces.slip.end());
   cells.pair.insert(cells.pair.end(), faces.pair.begin(), faces.pair.end());
   for (std::size_t i = 0; i < faces.types.size(); ++i) {
-    const auto* corners = faces.connectivity.data() + 3 * i;
-    add_cell({corners, corners + 3}, first, faces.types[i],
+    const auto start = faces.connectivity.begin() + (i > 0 ? faces.offsets[i - 1] : 0);
+    add_cell({start, faces.connectivity.begin() + faces.offsets[i]}, first, faces.types[i],
              largest[static_cast<std::size_t>(faces.cell_contact[i] - 1)], 0, faces.cell_contact[i], cells);
   }
 }
