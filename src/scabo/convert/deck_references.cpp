@@ -37,7 +37,8 @@ class ReferenceReader {
   /// False, with a remark, if there is a parameter that is not listed.
   bool has_only(const DeckBlock& block, const std::set<std::string>& known) {
     bool fine = true;
-    for (const auto& [name, value] : block.parameters) {
+    for (const auto& parameter : block.parameters) {
+      const auto& name = parameter.first;
       const bool is_known = std::any_of(known.begin(), known.end(), [&](const std::string& word) {
         const files::LessWithoutBlanks less;
         return !less(word, name) && !less(name, word);
