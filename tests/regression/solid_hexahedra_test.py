@@ -243,7 +243,7 @@ contacts: {joint: {between: [base.top, block.bottom], friction: 0.3}}
         done = scabo("run", ROOT / "tests" / "input" / "good" / "hexahedra_in_space.yaml", "-o", self.directory / "results", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = summary_of(self.directory / "results")
-        self.assertEqual(summary["warnings"], [])
+        self.assertEqual([warning for warning in summary["warnings"] if "do not determine body" not in warning], [])  # all are loose
         bodies = {body["name"]: body for body in summary["model"]["bodies"]}
         self.assertEqual(bodies["stack"]["super_elements"], 2)
         self.assertEqual(bodies["block"]["super_elements"], 0)

@@ -106,7 +106,7 @@ loads: {{push: {{on: block.bottom, nodal_force: [1, 2, -8]}}}}
 loads: {push: {on: block.top, traction: [1, 0, 0]}}
 """)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("a rigid motion is held neither by supports", done.stderr)
+        self.assertIn("body 'block': translation along (1, 0, 0), held neither by supports", done.stderr)
 
     def test_a_beam_on_its_foundation_is_that_of_the_plane(self):
         """Loaded at one end; in space a slice of it between planes of symmetry."""

@@ -9,6 +9,7 @@ namespace scabo::linalg {
 bool GeneralSolver::factorise(Matrix& A, Eigen::Index n) {
   factor_ = &A;
   n_ = n;
+  norm_ = n > 0 ? A.topLeftCorner(n, n).cwiseAbs().colwise().sum().maxCoeff() : 0.0;
   if (static_cast<Eigen::Index>(pivots_.size()) < n) pivots_.resize(static_cast<std::size_t>(A.cols()));
   if (n == 0) return true;
   return LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, static_cast<int>(n), static_cast<int>(n), A.data(),
@@ -17,8 +18,14 @@ bool GeneralSolver::factorise(Matrix& A, Eigen::Index n) {
 
 double GeneralSolver::reciprocal_condition() const {
   if (n_ == 0) return 1.0;
-  const auto pivots = factor_->diagonal().head(n_).cwiseAbs();
-  return pivots.minCoeff() / pivots.maxCoeff();
+  if (static_cast<Eigen::Index>(work_.size()) < 4 * n_) {
+    work_.resize(static_cast<std::size_t>(4 * factor_->cols()));
+    whole_work_.resize(static_cast<std::size_t>(factor_->cols()));
+  }
+  double reciprocal = 0.0;
+  LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', static_cast<int>(n_), factor_->data(),
+                      static_cast<int>(factor_->outerStride()), norm_, &reciprocal, work_.data(), whole_work_.data());
+  return reciprocal;
 }
 
 void GeneralSolver::solve_in_place(Vector& x) const {

@@ -12,7 +12,7 @@ class GeneralSolver {
  public:
   /// Factorises the leading n x n block of `A`, which is overwritten. False if a pivot is exactly zero.
   [[nodiscard]] bool factorise(Matrix& A, Eigen::Index n);
-  /// The least pivot over the largest one: that of a singular matrix is rounding.
+  /// Estimate of 1 / (|A| |A^-1|) in the 1-norm.
   double reciprocal_condition() const;
   /// x <- A^-1 x for the first n entries of `x`.
   void solve_in_place(Vector& x) const;
@@ -20,7 +20,10 @@ class GeneralSolver {
  private:
   const Matrix* factor_ = nullptr;
   Eigen::Index n_ = 0;
+  double norm_ = 0.0;
   std::vector<int> pivots_;
+  mutable std::vector<double> work_;
+  mutable std::vector<int> whole_work_;
 };
 
 }  // namespace scabo::linalg

@@ -309,6 +309,7 @@ double pressure_error(int f) {
     model.bodies.push_back(with_super_elements(std::move(body)));
   }
   SolidContact tie;
+  tie.law.bond = true;
   tie.a = {0, test::facets_at(model.bodies[0].mesh, {0, 0, 0}, upwards)};
   tie.b = {1, test::facets_at(model.bodies[1].mesh, {0, 0, 0}, -upwards)};
   model.contacts.push_back(tie);

@@ -218,7 +218,7 @@ contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const Soli
   const contact::Problem problem = problem_of_solids(prepared_, applied, factors, state_.slip, tightened);
   const contact::JointLaws laws = laws_of_solids(prepared_, factors);
   contact::Evolution evolution = contact::evolve(problem, laws, state_.history, start, solver_);
-  if (uniqueness_ && problem.pairs() > 0)
+  if (uniqueness_ && !prepared_.contact.pairs.empty())
     to.uniqueness = follow_history(problem, laws, state_.history, start, solver_, evolution);
   if (tightened.empty()) give_smallest_motions(applied, evolution.problem, start, evolution.solution);
   const contact::Solution& solution = evolution.solution;
