@@ -37,6 +37,15 @@ KeptThreads& kept_threads() {
   return kept;
 }
 
+struct SingleThread {
+  std::mutex lock;
+  int users = 0, before = 1;
+};
+SingleThread& single_thread() {
+  static SingleThread single;
+  return single;
+}
+
 }  // namespace
 
 KeptBlasThreads::KeptBlasThreads() {
@@ -74,6 +83,20 @@ void product(CBLAS_TRANSPOSE op, const Matrix& A, const Matrix& B, int depth, Ma
 }
 
 }  // namespace
+
+OneBlasThread::OneBlasThread() {
+  SingleThread& single = single_thread();
+  const std::lock_guard guard(single.lock);
+  if (single.users++ > 0) return;
+  single.before = openblas_get_num_threads();
+  if (single.before > 1) openblas_set_num_threads(1);
+}
+
+OneBlasThread::~OneBlasThread() {
+  SingleThread& single = single_thread();
+  const std::lock_guard guard(single.lock);
+  if (--single.users == 0 && single.before > 1) openblas_set_num_threads(single.before);
+}
 
 double largest_of(const Eigen::Ref<const Vector>& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 

@@ -18,6 +18,16 @@ class KeptBlasThreads {
   KeptBlasThreads& operator=(const KeptBlasThreads&) = delete;
 };
 
+/// BLAS has one thread while any of these objects exists: where results must not depend on how many it has, which its
+/// products of matrices do in their last digits.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+};
+
 /// The largest absolute component, 0 of a vector without any.
 double largest_of(const Eigen::Ref<const Vector>& v);
 

@@ -154,9 +154,9 @@ void solve_shifted(const Matrix& transposed, double s, const Points& points, Mat
       for (Eigen::Index solved = j; solved <= last; ++solved)
         for (Eigen::Index row = start; row < j; ++row) X.col(row) += s * transposed(solved, row) * X.col(solved);
     }
-    if (start > 0)  // not by BLAS, whose results depend on how many threads it has
-      X.leftCols(start).noalias() +=
-          s * X.middleCols(start, end - start) * transposed.block(start, 0, end - start, start);
+    if (start > 0)
+      add_product(s, X.middleCols(start, end - start), transposed.block(start, 0, end - start, start),
+                  X.leftCols(start));
     end = start;
   }
 }
@@ -318,7 +318,8 @@ Matrix SchurExponential::propagate(const Vector& c, const std::vector<Forcing>& 
       continue;
     }
     if (group.weights.size() == 0) group.weights = weights_at(contour, group.s);
-    const Matrix rows = group.weights * resolved(schur_.T, c, forcings, group.s.back(), shift, contour);
+    Matrix rows = Matrix::Zero(group.weights.rows(), c.size());
+    add_product(1.0, group.weights, resolved(schur_.T, c, forcings, group.s.back(), shift, contour), rows);
     for (std::size_t k = 0; k < group.s.size(); ++k)
       column(group.places[k]) = rows.row(static_cast<Eigen::Index>(k)).transpose();
   }

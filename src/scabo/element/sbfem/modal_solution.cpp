@@ -30,6 +30,14 @@ Vector equivalent_load(const Block& block, const RadialLoad& load) {
   return h;
 }
 
+/// A B, by BLAS where that pays.
+Matrix times_columns(const Matrix& A, const Matrix& B) {
+  if (B.cols() < 8) return A * B;
+  Matrix C = Matrix::Zero(A.rows(), B.cols());
+  linalg::add_product(1.0, A, B, C);
+  return C;
+}
+
 /// See ModalSolution::slowest.
 double slowest_of(const ModalSolution& modal) {
   double slowest = 1.0;
@@ -182,6 +190,7 @@ void RadialField::add(std::size_t block, const Vector& moving, const Vector& slo
 RadialField::Values RadialField::at(double xi) const { return std::move(at(std::vector{xi}).front()); }
 
 std::vector<RadialField::Values> RadialField::at(const std::vector<double>& xis) const {
+  const linalg::OneBlasThread one_thread;
   const bool unbounded = solution_.domain.unbounded, finite = slowest_ == 1.0;
   // psi / xi^shift, because strains near the centre would otherwise be quotients of small numbers. Nothing decays more
   // slowly; constant terms no longer change below 1e-9.
@@ -198,11 +207,11 @@ std::vector<RadialField::Values> RadialField::at(const std::vector<double>& xis)
   for (std::size_t block = 0; block < parts_.size(); ++block) {
     const Part& part = parts_[block];
     const Matrix psi = part.modal->modes.propagate(part.c, part.w, times, shift);
-    Matrix psi_xi = part.modal->modes.T() * psi;  // times xi
+    Matrix psi_xi = times_columns(part.modal->modes.T(), psi);  // times xi
     for (const linalg::Forcing& forcing : part.w)
       for (Eigen::Index i = 0; i < psi_xi.cols(); ++i)
         psi_xi.col(i) += std::pow(clamped(xis[static_cast<std::size_t>(i)]), forcing.power - shift) * forcing.w;
-    const Matrix moving = part.modal->Phi * psi, slope = part.modal->Phi * psi_xi;
+    const Matrix moving = times_columns(part.modal->Phi, psi), slope = times_columns(part.modal->Phi, psi_xi);
     for (std::size_t i = 0; i < xis.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       add(block, moving.col(column), slope.col(column), clamped(xis[i]), s[i], shift, values[i]);
