@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "scabo/analysis/diagnostics/undetermined_motions.hpp"
 #include "scabo/linalg/least_distance.hpp"
 #include "scabo/system/rigid_motions.hpp"
 #include "scabo/system/solid_part.hpp"
@@ -10,8 +11,6 @@
 namespace scabo::analysis {
 
 namespace {
-
-constexpr Eigen::Index most_undetermined = 300;  // dense matrices
 
 Matrix rows_of(const std::vector<Vector>& rows, Eigen::Index columns) {
   Matrix matrix(static_cast<Eigen::Index>(rows.size()), columns);
