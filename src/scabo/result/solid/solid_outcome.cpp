@@ -17,7 +17,7 @@ Json components_of(const Eigen::Vector3d& vector) { return {vector.x(), vector.y
 
 }  // namespace
 
-Json content_of(const analysis::SolidMechanism& mechanism, const analysis::SolidModel& model) {
+Json content_of_mechanism(const analysis::SolidMechanism& mechanism, const analysis::SolidModel& model) {
   Json json = {{"text", analysis::describe(mechanism, model)},
                {"rule", mechanism.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated"},
                {"moving", std::count_if(mechanism.bodies.begin(), mechanism.bodies.end(),

@@ -10,7 +10,8 @@
 namespace scabo::result {
 
 /// With the bodies that move, in the order of the model.
-nlohmann::ordered_json content_of(const analysis::SolidMechanism& mechanism, const analysis::SolidModel& model);
+nlohmann::ordered_json content_of_mechanism(const analysis::SolidMechanism& mechanism,
+                                            const analysis::SolidModel& model);
 
 /// Adds the warnings of an increment to `texts` and `warnings` that are not there yet: those of a run that is resumed
 /// may be.

@@ -248,7 +248,7 @@ std::string totals_of(const Json& increment) {
 void note_outcome(const analysis::SolidModel& model, const analysis::SolidIncrement& increment, Json& json) {
   json["status"] = status_of(increment.status);
   if (!increment.reason.empty()) json["reason"] = increment.reason;
-  if (increment.mechanism) json["mechanism"] = content_of(*increment.mechanism, model);
+  if (increment.mechanism) json["mechanism"] = content_of_mechanism(*increment.mechanism, model);
 }
 
 std::string which_increment(const Json& summary, const Json& increment) {
