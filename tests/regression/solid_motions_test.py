@@ -184,8 +184,9 @@ steps: [{name: press, increments: 2}]
             self.skipTest(done.stderr)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.directory / "motion.mechanism.png").read_bytes().startswith(b"\x89PNG"))
-        report = scabo("report", self.directory / "results")
-        self.assertEqual(report.returncode, 0, report.stderr)
+        if not support.SANITIZED:  # there the page of the report is not built
+            report = scabo("report", self.directory / "results")
+            self.assertEqual(report.returncode, 0, report.stderr)
 
 
 if __name__ == "__main__":
