@@ -337,13 +337,16 @@ std::string vtu_content(const SolidFaces& faces) {
   return finish_piece(std::move(document), faces);
 }
 
-std::string vtu_content(const SolidMechanismCells& cells, int threads) {
-  const std::size_t points = cells.pair.size();
-  Document document = begin_piece(points, cells.types.size(), encoding_of(points), threads);
+namespace {
+
+/// `tangents`: components of the slip.
+template <typename Cells>
+std::string mechanism_content(const Cells& cells, int tangents, Encoding encoding, int threads) {
+  Document document = begin_piece(cells.pair.size(), cells.types.size(), encoding, threads);
   document.add(point_data("", true));
   document.add_field("displacement", 3, cells.displacement);
   document.add_field("opening", 1, cells.opening);
-  document.add_field("slip", 3, cells.slip);
+  document.add_field("slip", tangents, cells.slip);
   document.add_array("pair", 1, cells.pair);
   document.add_array("body", 1, cells.point_body);
   begin_cell_data(document);
@@ -353,22 +356,16 @@ std::string vtu_content(const SolidMechanismCells& cells, int threads) {
   return finish_piece(std::move(document), cells);
 }
 
+}  // namespace
+
+std::string vtu_content(const SolidMechanismCells& cells, int threads) {
+  return mechanism_content(cells, 3, encoding_of(cells.pair.size()), threads);
+}
+
 std::string vtu_content(const MechanismCells& cells, int threads) {
-  const std::size_t points = cells.pair.size();
   constexpr std::size_t few = 5000;
-  const Encoding encoding = points < few ? Encoding::text : encoding_of(points);
-  Document document = begin_piece(points, cells.types.size(), encoding, threads);
-  document.add(point_data("", true));
-  document.add_field("displacement", 3, cells.displacement);
-  document.add_field("opening", 1, cells.opening);
-  document.add_field("slip", 1, cells.slip);
-  document.add_array("pair", 1, cells.pair);
-  document.add_array("body", 1, cells.point_body);
-  begin_cell_data(document);
-  document.add_field("motion", 1, cells.motion);
-  document.add_array("body", 1, cells.body);
-  document.add_array("contact", 1, cells.contact);
-  return finish_piece(std::move(document), cells);
+  const std::size_t points = cells.pair.size();
+  return mechanism_content(cells, 1, points < few ? Encoding::text : encoding_of(points), threads);
 }
 
 FieldCollection::FieldCollection(const std::filesystem::path& path) : file_(path) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
+
+#include "scabo/analysis/space/solid_mechanism.hpp"
 
 namespace scabo::analysis {
 
@@ -17,23 +19,10 @@ bool turns_far(const SolidMotion& motion) { return motion.rotation > largest_sma
 }  // namespace
 
 SolidMotion motion_of(const mesh::SolidMesh& mesh, const Vector& u) {
-  const Eigen::Matrix3Xd moved = u.reshaped(3, mesh.nodes.cols());
-  const Eigen::Vector3d along = moved.rowwise().mean();
-  const Eigen::Matrix3Xd arms = mesh.nodes.colwise() - mesh.nodes.rowwise().mean();
-  Eigen::Vector3d turning = Eigen::Vector3d::Zero();
-  for (Eigen::Index i = 0; i < arms.cols(); ++i)
-    turning += Eigen::Vector3d(arms.col(i)).cross(Eigen::Vector3d(moved.col(i)));
-  const Eigen::Matrix3d second = arms * arms.transpose();
-  const Eigen::Matrix3d inertia = second.trace() * Eigen::Matrix3d::Identity() - second;
-  const Eigen::Vector3d rotation = inertia.ldlt().solve(turning);
-  SolidMotion motion;
-  motion.rotation = rotation.norm();
-  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
-    const Eigen::Vector3d arm = arms.col(i), rigid = along + rotation.cross(arm);
-    motion.displacement = std::max(motion.displacement, moved.col(i).norm());
-    motion.deformed = std::max(motion.deformed, (moved.col(i) - rigid).norm());
-    motion.size = std::max(motion.size, 2.0 * arm.norm());
-  }
+  const SolidBodyMotion rigid = motion_of_nodes(mesh, u);
+  SolidMotion motion{rigid.rotation.norm(), rigid.largest, 0.0, 2.0 * rigid.size};
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
+    motion.deformed = std::max(motion.deformed, (u.segment<3>(3 * i) - rigid.at(mesh.nodes.col(i))).norm());
   return motion;
 }
 

@@ -16,7 +16,7 @@ struct SolidMotion {
   double rotation = 0.0;      ///< rad
   double displacement = 0.0;  ///< the largest one of a node
   double deformed = 0.0;      ///< what is left of it without the rigid motion
-  double size = 0.0;          ///< twice the largest distance of a node from their mean
+  double size = 0.0;          ///< twice the largest distance of a node from the centroid
 };
 
 /// `u`: three numbers for each node.

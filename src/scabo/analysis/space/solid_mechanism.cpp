@@ -25,25 +25,6 @@ Vector displacement_of_body(const MovingSolids& solids, std::size_t b, const Vec
   return rigid * motion.segment(solids.contact.first_rigid[b], rigid.cols());
 }
 
-/// The motion without deformation that displacements of the nodes are.
-SolidBodyMotion motion_of_nodes(const mesh::SolidMesh& mesh, const Vector& u) {
-  const system::SolidVolume volume = system::volume_of(mesh);
-  SolidBodyMotion motion;
-  motion.about = volume.centroid;
-  Eigen::Vector3d turning = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
-    const Eigen::Vector3d arm = mesh.nodes.col(i) - motion.about, moved = u.segment<3>(3 * i);
-    motion.shift += volume.weights[i] / volume.volume * moved;
-    turning += volume.weights[i] * arm.cross(moved);
-    inertia += volume.weights[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-    motion.largest = std::max(motion.largest, moved.norm());
-    motion.size = std::max(motion.size, arm.norm());
-  }
-  motion.rotation = inertia.ldlt().solve(turning);
-  return motion;
-}
-
 /// Without parts that are rounding beside `largest`.
 Eigen::Vector3d rounded(Eigen::Vector3d vector, double largest) {
   for (double& component : vector)
@@ -150,6 +131,24 @@ std::vector<SolidPair> moved_pairs(const MovingSolids& solids, const Vector& u) 
 }
 
 }  // namespace
+
+SolidBodyMotion motion_of_nodes(const mesh::SolidMesh& mesh, const Vector& u) {
+  const system::SolidVolume volume = system::volume_of(mesh);
+  SolidBodyMotion motion;
+  motion.about = volume.centroid;
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
+    const Eigen::Vector3d arm = mesh.nodes.col(i) - motion.about, moved = u.segment<3>(3 * i);
+    motion.shift += volume.weights[i] / volume.volume * moved;
+    turning += volume.weights[i] * arm.cross(moved);
+    inertia += volume.weights[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    motion.largest = std::max(motion.largest, moved.norm());
+    motion.size = std::max(motion.size, arm.norm());
+  }
+  motion.rotation = inertia.ldlt().solve(turning);
+  return motion;
+}
 
 std::optional<Eigen::Vector3d> SolidBodyMotion::axis() const {
   if (rotation.norm() * size <= least_motion * largest) return std::nullopt;

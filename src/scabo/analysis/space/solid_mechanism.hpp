@@ -28,6 +28,9 @@ struct MovingSolids {
   const std::vector<char>& turned;  // whether the pairs are corners of side a
 };
 
+/// The motion without deformation nearest to displacements of the nodes; `largest` is theirs.
+SolidBodyMotion motion_of_nodes(const mesh::SolidMesh& mesh, const Vector& u);
+
 /// Of a problem that ended as a mechanism or collapse: the motion by Coulomb's law (contact/questions/onset.hpp), or,
 /// where that is not found, the one that proves the mechanism.
 SolidMechanism solid_mechanism(const MovingSolids& solids, const contact::Problem& problem,
