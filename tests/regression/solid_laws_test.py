@@ -1,12 +1,9 @@
 """Laws of contacts of models in space from the command line, against closed forms and plane models of the same body."""
 import math
-import signal
-import subprocess
-import time
 import unittest
 
 import support
-from solids import vector
+from solids import interrupt, vector
 from support import certificate_of, rows_of, scabo, summary_of
 
 HEAD = "scabo: 1\nmaterials: {m: {young: 1e9, poisson: 0}, steel: {young: 1e9, poisson: 0.3}}\n"
@@ -198,13 +195,7 @@ steps: [{name: lift, increments: COUNT, loads: {lift: LAST}}]
             "glue_right: {between: [right.top, lid.bottom], cohesion: 1e9, tension: 2e4}\n  pushed: {between: [middle.right, brake.left], friction: {static: 0.5, dynamic: 0.2, slip_distance: 1e-5}, gap: -1e-6}")
         text = text.replace("supports:", "  brake: {material: m, shape: {box: {corner: [3, 0, 0], size: [0.5, 1, 1]}}, mesh: {size: 0.5}}\nsupports:\n  - {on: brake.right, fix: [x, y, z]}")
         whole = self.solve(text, "whole")
-        process = subprocess.Popen([support.SCABO, "run", self.directory / "whole.yaml", "-o", self.directory / "cut", "--quiet"], stderr=subprocess.PIPE, text=True)
-        self.addCleanup(lambda: process.poll() is None and process.kill())
-        while process.poll() is None and not (self.directory / "cut" / "fields_0004.vtu").exists():
-            time.sleep(0.005)
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=support.PATIENCE)
-        self.assertEqual(process.returncode, 130)
+        interrupt(self, self.directory / "whole.yaml", self.directory / "cut")
         self.assertLess(len(summary_of(self.directory / "cut")["increments"]), 60)
         done = scabo("resume", self.directory / "cut", "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -6,11 +6,10 @@ import resource
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 
 import support
-from solids import arrays_of
+from solids import arrays_of, interrupt
 from support import ROOT, certificate_of, rows_of, scabo, summary_of
 
 EXAMPLE = ROOT / "examples" / "30_blocks_in_space"
@@ -306,14 +305,7 @@ steps:
         preload = f"{{{self.cut}, force: 20e3, tightened: tighten}}"
         whole = self.solve(preload, "--set", "steps.1.increments=40")
         shutil.rmtree(self.directory / "results")
-        process = subprocess.Popen([support.SCABO, "run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet", "--set", "steps.1.increments=40"],
-                                   stderr=subprocess.PIPE, text=True)
-        self.addCleanup(lambda: process.poll() is None and process.kill())
-        while process.poll() is None and not (self.directory / "results" / "fields_0004.vtu").exists():
-            time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=support.PATIENCE)
-        self.assertEqual(process.returncode, 130)
+        interrupt(self, self.directory / "model.yaml", self.directory / "results", "--set", "steps.1.increments=40")
         self.assertLess(len(summary_of(self.directory / "results")["increments"]), 41)
         done = scabo("resume", self.directory / "results", "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -3,7 +3,10 @@ import csv
 import itertools
 import math
 import re
+import signal
 import struct
+import subprocess
+import time
 
 import support
 
@@ -23,6 +26,29 @@ def arrays_of(file):
         key = "node_body" if name == b"body" and "node_body" not in arrays else name.decode()
         arrays[key] = struct.unpack_from(f"<{size // width}{letter}", content, at + 8)
     return arrays
+
+
+def interrupt(test, model, results, *words):
+    """Runs a model of at least five increments, and interrupts it after the fourth one."""
+    process = subprocess.Popen([support.SCABO, "run", model, "-o", results, "--quiet", *words], stderr=subprocess.PIPE, text=True)
+    test.addCleanup(lambda: process.poll() is None and process.kill())
+    while process.poll() is None and not (results / "fields_0004.vtu").exists():
+        time.sleep(0.005)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=support.PATIENCE)
+    test.assertEqual(process.returncode, 130)
+
+
+def increments_of_deck(test, deck, *words):
+    """Converts a deck, and solves the model; every increment has a certificate."""
+    (test.directory / "deck.inp").write_text(deck, encoding="utf-8")
+    for command in (("convert", test.directory / "deck.inp", "--force", *words), ("run", test.directory / "deck.yaml", "-o", test.directory / "results", "--quiet")):
+        done = support.scabo(*command)
+        test.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+    increments = support.summary_of(test.directory / "results")["increments"]
+    for increment in increments:
+        test.assertLessEqual(support.certificate_of(increment), 1e-10)
+    return increments
 
 
 def vector(row, name):

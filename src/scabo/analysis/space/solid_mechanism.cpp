@@ -258,9 +258,8 @@ std::string ways_of_body(const mesh::SolidMesh& mesh, const Matrix& U, double le
          dimensions_of(turning.matrixU().leftCols(turns), "rotation about an axis", "rotations about axes");
 }
 
-/// Its subject are the bodies. Nothing if they have no part in it, or if a warning of the same ones was given.
-std::optional<Warning> undetermined_motion_warning(const MovingSolids& solids, const Matrix& undetermined,
-                                                   const std::vector<Warning>& given) {
+/// Its subject are the bodies. Nothing if they have no part in it.
+std::optional<Warning> undetermined_motion_warning(const MovingSolids& solids, const Matrix& undetermined) {
   if (undetermined.cols() == 0) return std::nullopt;
   std::vector<Matrix> of_bodies;
   double largest = 0.0;
@@ -277,16 +276,14 @@ std::optional<Warning> undetermined_motion_warning(const MovingSolids& solids, c
     subject += fmt::format("{}'{}'", subject.empty() ? "" : ", ", solids.model.bodies[b].name);
     text += fmt::format("{}body '{}': {}", text.empty() ? "" : "; ", solids.model.bodies[b].name, ways);
   }
-  if (text.empty() || std::any_of(given.begin(), given.end(), [&](const Warning& warning) {
-        return warning.kind == WarningKind::undetermined_motion && warning.subject == subject;
-      }))
-    return std::nullopt;
+  if (text.empty()) return std::nullopt;
   return Warning{WarningKind::undetermined_motion, subject,
                  fmt::format("supports, friction and loads do not determine {}; the smallest such motion was chosen: "
                              "add a support if the position matters",
                              text)};
 }
 
+/// Of displacements and rotations that are not small.
 std::optional<Warning> large_motion_warning(const SolidModel& model, const std::vector<Vector>& u) {
   std::vector<SolidMotion> motions;
   std::vector<bool> rigid;
@@ -323,7 +320,7 @@ void add_pressures(const SolidModel& model, SolidIncrement& to) {
 
 void add_warnings(const MovingSolids& solids, const contact::Solution& solution, std::vector<Warning>& given,
                   SolidIncrement& to) {
-  if (auto motions = undetermined_motion_warning(solids, solution.undetermined, given))
+  if (auto motions = undetermined_motion_warning(solids, solution.undetermined))
     to.warnings.push_back(*std::move(motions));
   if (to.uniqueness && to.uniqueness->others > 0)
     to.warnings.push_back({WarningKind::several_solutions, "",

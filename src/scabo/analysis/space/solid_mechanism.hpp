@@ -40,7 +40,8 @@ SolidMechanism solid_mechanism(const MovingSolids& solids, const contact::Proble
 std::string reason_of_solids(const SolidModel& model, const contact::Solution& solution,
                              const std::optional<SolidMechanism>& mechanism);
 
-/// Warnings of a solution, to `given` too: motions that are not determined, and other solutions.
+/// Warnings of a solution that were not `given`, to these too: motions that are not determined, other solutions,
+/// pressures and motions that are not small.
 void add_warnings(const MovingSolids& solids, const contact::Solution& solution, std::vector<Warning>& given,
                   SolidIncrement& to);
 
