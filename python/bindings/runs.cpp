@@ -327,7 +327,6 @@ std::shared_ptr<SpaceResult> solve_space(const CheckedModel& checked, const std:
     if (watch.error().is_none()) throw;
     std::tie(solved->record.summary, end) = result::summary_of(*solved->model, *solved->posed, {}, true);
   }
-  for (const Warning& warning : end.warnings) solved->record.warnings.push_back(warning.text);
   solved->status = end.status;
   if (end.status != "solved")
     solved->record.why_not_solved = (end.status == "interrupted" || end.at.empty() ? "" : end.at + ": ") + end.reason;

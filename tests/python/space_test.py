@@ -38,6 +38,15 @@ def stack(increments=1):
     }
 
 
+class Warnings(unittest.TestCase):
+    def test_a_warning_of_an_increment_is_given_once(self):
+        model = stack(2)
+        model["supports"] = [support for support in model["supports"] if not support["on"].startswith("upper")]
+        with self.assertWarns(scabo.ModelWarning):
+            warnings = scabo.Model(model).run().warnings
+        self.assertEqual(len([text for text in warnings if "do not determine body 'upper'" in text]), 1)
+
+
 def displacement_at(points):
     """u = sigma / E [-nu x, -nu y, z] with sigma = -pressure."""
     return -PRESSURE / YOUNG * np.asarray(points) * [-POISSON, -POISSON, 1.0]

@@ -2,11 +2,10 @@
 // integrated.
 //
 // A place on a triangle is (lambda_2, lambda_3) of its barycentric coordinates, and its nodes are those of
-// SimplexBasis. A place on a quadrilateral is (eta, zeta), both from -1 to 1. Its nodes are the corners (-1, -1), (1,
-// -1), (1, 1),
-// (-1, 1), then with eight of them the middles of the edges 12, 23, 34, 41. With 4: N_i = (1 + eta_i eta)(1 + zeta_i
-// zeta)/4. With 8, the middle of an edge along eta has (1 - eta^2)(1 + zeta_i zeta)/2, and a corner its function with 4
-// less half of those of both middles beside it.
+// SimplexBasis. A place on a quadrilateral is (eta, zeta), both from -1 to 1. Its nodes are the corners (-1, -1),
+// (1, -1), (1, 1), (-1, 1), then with eight of them the middles of the edges 12, 23, 34, 41. With 4:
+// N_i = (1 + eta_i eta)(1 + zeta_i zeta)/4. With 8, the middle of an edge along eta has (1 - eta^2)(1 + zeta_i zeta)/2,
+// and a corner its function with 4 less half of those of both middles beside it.
 #pragma once
 
 #include <array>

@@ -362,10 +362,6 @@ OnFacet on_facet(const Matrix& nodes, const PyramidPlace& place) {
   return on;
 }
 
-}  // namespace
-
-namespace {
-
 constexpr int rings_of_interior = 12;
 
 /// The square roots of the values of xi, from 0 to 1.
