@@ -224,6 +224,7 @@ steps: [{name: shake, increments: 2, cycles: 2, loads: {push: back_and_forth}}]
         self.assertRegex(done.stderr, r"^scabo: cannot write .*: File too large\n$")
         summary = summary_of(self.directory / "results")
         self.assertEqual(summary["status"], "failed")
+        self.assertEqual(summary["warnings"], [])
         finished = len(summary["increments"])
         self.assertGreater(finished, 2)
         self.assertEqual(len(list((self.directory / "results").glob("fields_*.vtu"))), finished)

@@ -177,6 +177,21 @@ steps: [{name: press, increments: 2}]
         self.assertRegex(summary["warnings"][0], r"^step press, increment 1: between bodies 'a' and 'b' the pressure reaches \S+, \S+ % of Young's modulus: small strains are assumed$")
         self.assertRegex(summary["warnings"][1], r"^step press, increment 2: body 'lever' turns by 0.127 rad: the theory is valid for rotations of up to 0.1 rad, and normals of contacts and directions of loads do not turn$")
 
+    def test_friction_holds_a_block_that_slides_across_its_way(self):
+        """Pushed along x, free along y: without friction its place is not determined, with friction it is."""
+        for friction, told in ((0.0, 1), (0.3, 0)):
+            with self.subTest(friction=friction):
+                summary, _ = self.run_model(f"""bodies:
+{BASE}  block: {{material: m, shape: {{{self.BRICK}}}, mesh: {{size: 0.5}}}}
+supports:
+  - {{on: base.bottom, fix: [x, y, z]}}
+  - {{on: block.left, displacement: [1e-3, null, null]}}
+loads: {{weight: {{gravity: [0, 0, -10]}}}}
+contacts: {{joint: {{between: [base.top, block.bottom], friction: {friction}}}}}
+""", 0)
+                self.assertEqual(len([text for text in summary["warnings"] if "do not determine body 'block'" in text]), told)
+                self.assertEqual(summary["increments"][-1]["contacts"]["joint"]["stick"], 0)
+
     def test_the_motion_is_drawn(self):
         self.on_base(self.BRICK, [5, 0, -10], 0.3, 2)
         done = scabo("plot", self.directory / "results", "-o", self.directory / "motion.png")

@@ -96,7 +96,8 @@ namespace {
   if (solution.status == Status::mechanism || solution.status == Status::infeasible) return;
   if (judgement.solved(options.tolerance)) {
     solution.status = Status::solved;
-    if (problem.G.cols() > 0 && !known) solution.undetermined = undetermined_motions(problem, solution.states);
+    if (problem.G.cols() > 0 && !known)
+      solution.undetermined = undetermined_motions(problem, solution.states, solution.p);
   } else {
     solution.status = Status::not_converged;
     solution.reason = reason_of(judgement, options.judge, options.tolerance, story);

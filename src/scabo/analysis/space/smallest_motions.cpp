@@ -5,7 +5,6 @@
 
 #include "scabo/analysis/diagnostics/undetermined_motions.hpp"
 #include "scabo/linalg/least_distance.hpp"
-#include "scabo/system/rigid_motions.hpp"
 #include "scabo/system/solid_part.hpp"
 
 namespace scabo::analysis {
@@ -18,10 +17,10 @@ Matrix rows_of(const std::vector<Vector>& rows, Eigen::Index columns) {
   return matrix;
 }
 
-/// Conditions on y: B y >= h, C y = 0.
+/// Conditions on y: B y >= h.
 struct Conditions {
-  std::vector<Vector> within, held;  // rows of B, of C
-  std::vector<double> least;         // h
+  std::vector<Vector> within;  // rows of B
+  std::vector<double> least;   // h
 
   void keep(const Vector& row, double room) {
     constexpr double rounding = 1e-9;
@@ -38,10 +37,9 @@ Conditions conditions_of(const contact::Problem& problem, const contact::Solutio
     if (state == contact::ContactState::open) conditions.keep(moved.row(3 * i), solution.gap[i]);
     const Eigen::Vector2d friction = solution.p.segment<2>(3 * i + 1);
     if (state != contact::ContactState::slip || friction.isZero(0.0)) continue;
-    const Eigen::Vector2d along = -friction.normalized(), across(-along.y(), along.x());
+    const Eigen::Vector2d along = -friction.normalized();
     conditions.keep(moved.middleRows<2>(3 * i + 1).transpose() * along,
                     along.dot(solution.slip_increment.segment<2>(2 * i)));
-    conditions.held.push_back(moved.middleRows<2>(3 * i + 1).transpose() * across);
   }
   return conditions;
 }
@@ -73,16 +71,10 @@ Squares squares_of(const MovingSolids& solids, const std::vector<Vector>& moved,
 
 std::optional<Vector> smallest_motions(const MovingSolids& solids, const contact::Problem& problem,
                                        const contact::Solution& solution, const std::vector<Vector>& moved) {
-  Matrix U = solution.undetermined;
+  const Matrix& U = solution.undetermined;
   if (U.cols() == 0 || U.cols() > most_undetermined) return std::nullopt;
   const Conditions conditions = conditions_of(problem, solution, U);
-  Matrix within = rows_of(conditions.within, U.cols());
-  if (!conditions.held.empty()) {
-    const Matrix free = system::null_space(rows_of(conditions.held, U.cols()));
-    if (free.cols() == 0) return std::nullopt;
-    U = U * free;
-    within = within * free;
-  }
+  const Matrix within = rows_of(conditions.within, U.cols());
   const Squares squares = squares_of(solids, moved, U);
   const Eigen::LLT<Matrix> factor(squares.A);
   if (factor.info() != Eigen::Success) return std::nullopt;

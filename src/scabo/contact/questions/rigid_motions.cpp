@@ -271,6 +271,15 @@ Matrix sparse_null_space(const RigidMap::Sparse& H) {
   }
 }
 
+/// Of columns, those that A takes to 0: to `least`, and to rounding of the largest one.
+Matrix null_space_of(const Matrix& A, double least) {
+  const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  for (const double value : svd.singularValues())
+    if (value > std::max(1e-10 * svd.singularValues()[0], least)) ++rank;
+  return svd.matrixV().rightCols(A.cols() - rank);
+}
+
 }  // namespace
 
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states) {
@@ -297,12 +306,22 @@ Matrix undetermined_motions(const Problem& problem, const std::vector<ContactSta
     H.setFromTriplets(entries.begin(), entries.end());
     return sparse_null_space(H);
   }
-  const Matrix held = problem.G.dense()(rows, Eigen::all);
-  const Eigen::JacobiSVD<Matrix> svd(held, Eigen::ComputeFullV);
-  Eigen::Index rank = 0;
-  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
-    if (svd.singularValues()[k] > 1e-10 * svd.singularValues()[0]) ++rank;
-  return svd.matrixV().rightCols(m - rank);
+  return null_space_of(problem.G.dense()(rows, Eigen::all), 0.0);
+}
+
+Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states, const Vector& p) {
+  const Matrix motions = undetermined_motions(problem, states);
+  if (problem.dimension == 2 || motions.cols() == 0 || problem.pairs() == 0) return motions;
+  const Matrix moved = problem.G.sparse() * motions;
+  Matrix across = Matrix::Zero(problem.pairs(), motions.cols());
+  for (Eigen::Index i = 0; i < problem.pairs(); ++i) {
+    const Eigen::Vector2d friction = p.segment<2>(3 * i + 1);
+    if (states[static_cast<std::size_t>(i)] == ContactState::slip && !friction.isZero(0.0))
+      across.row(i) =
+          Eigen::Vector2d(-friction.y(), friction.x()).normalized().transpose() * moved.middleRows<2>(3 * i + 1);
+  }
+  constexpr double rounding = 1e-9;  // of the motions of pairs
+  return motions * null_space_of(across, rounding * moved.cwiseAbs().maxCoeff());
 }
 
 }  // namespace scabo::contact

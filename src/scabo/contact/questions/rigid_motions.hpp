@@ -20,4 +20,8 @@ std::optional<Vector> find_mechanism(const Problem& problem);
 /// position along these is not.
 Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states);
 
+/// Of these, in space, those that keep the direction of every slip under forces p: Coulomb's law ties it to that of the
+/// friction.
+Matrix undetermined_motions(const Problem& problem, const std::vector<ContactState>& states, const Vector& p);
+
 }  // namespace scabo::contact

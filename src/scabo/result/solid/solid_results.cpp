@@ -358,7 +358,6 @@ void SolidResults::add(const analysis::SolidIncrement& increment) {
     remove_later_fields(path_, finished_);
     Json& made = summary_->json["increments"];
     made.erase(made.size() - 1);
-    summary_->json["warnings"] = warnings;
     try {  // there is room for what was removed
       replace_summary();
     } catch (const WriteError&) {
@@ -442,7 +441,6 @@ SolidEnd SolidResults::finish(bool interrupted) {
   for (const Json& warning : json["warnings"]) text += "warning: " + warning.get<std::string>() + '\n';
   log_->append(text);
   replace_summary();
-  end.warnings = warnings_;
   return end;
 }
 
