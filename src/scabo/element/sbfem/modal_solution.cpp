@@ -31,12 +31,7 @@ Vector equivalent_load(const Block& block, const RadialLoad& load) {
 }
 
 /// A B, by BLAS where that pays.
-Matrix times_columns(const Matrix& A, const Matrix& B) {
-  if (B.cols() < 8) return A * B;
-  Matrix C = Matrix::Zero(A.rows(), B.cols());
-  linalg::add_product(1.0, A, B, C);
-  return C;
-}
+Matrix times_columns(const Matrix& A, const Matrix& B) { return B.cols() < 8 ? Matrix(A * B) : linalg::multiply(A, B); }
 
 /// See ModalSolution::slowest.
 double slowest_of(const ModalSolution& modal) {
