@@ -85,7 +85,7 @@ std::string first_text(std::string_view arguments) {
   return std::string(trimmed(text));
 }
 
-/// `'', (1.0, 2.0, 3.0)`.
+/// `'', (1.0, 2.0, 3.0)`; a number that is none, or too large for one, as it is.
 Eigen::Vector3d point_of(std::string_view arguments) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::size_t at = arguments.rfind('(');
@@ -115,7 +115,7 @@ void add_vertices(const StepFile& file, long number, int above, std::vector<Eige
     if (rank < 5)
       add_vertices(file, next, rank, vertices);
     else if (point != nullptr && point->type == "CARTESIAN_POINT")
-      vertices.push_back(point_of(point->arguments));
+      if (const Eigen::Vector3d at = point_of(point->arguments); at.allFinite()) vertices.push_back(at);
   }
 }
 

@@ -62,6 +62,16 @@ TEST(StepNames, OfBrokenTextAreNone) {
       for (const StepFace& face : faces) EXPECT_EQ(face.name, "");
 }
 
+TEST(StepNames, PointsThatAreNoNumbersAreNoVertices) {
+  const auto solids = step_solids(
+      "#1=MANIFOLD_SOLID_BREP('',#2);#2=CLOSED_SHELL('',(#3));#3=ADVANCED_FACE('a',(#4));#4=FACE_BOUND('',#5);"
+      "#5=VERTEX_LOOP('',#6,#7,#8);#6=VERTEX_POINT('',#9);#7=VERTEX_POINT('',#10);#8=VERTEX_POINT('',#11);"
+      "#9=CARTESIAN_POINT('',(nan,0.,0.));#10=CARTESIAN_POINT('',(0.,1e999,0.));#11=CARTESIAN_POINT('',(1.,2.,3.));");
+  ASSERT_EQ(solids.at(0).size(), 1u);
+  ASSERT_EQ(solids[0][0].vertices.size(), 1u);
+  EXPECT_EQ(solids[0][0].vertices[0], Eigen::Vector3d(1, 2, 3));
+}
+
 class Stl : public testing::Test {
  protected:
   std::string message(const std::string& text) const {

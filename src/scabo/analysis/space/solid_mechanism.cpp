@@ -136,14 +136,16 @@ SolidBodyMotion motion_of_nodes(const mesh::SolidMesh& mesh, const Vector& u) {
   const system::SolidVolume volume = system::volume_of(mesh);
   SolidBodyMotion motion;
   motion.about = volume.centroid;
+  const Vector weights = volume.weights / volume.weights.sum();
+  const Eigen::Ref<const Matrix> moved = u.reshaped(3, mesh.nodes.cols());
+  motion.shift = moved * weights;
   Eigen::Vector3d turning = Eigen::Vector3d::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
-    const Eigen::Vector3d arm = mesh.nodes.col(i) - motion.about, moved = u.segment<3>(3 * i);
-    motion.shift += volume.weights[i] / volume.volume * moved;
-    turning += volume.weights[i] * arm.cross(moved);
-    inertia += volume.weights[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-    motion.largest = std::max(motion.largest, moved.norm());
+    const Eigen::Vector3d arm = mesh.nodes.col(i) - motion.about;
+    turning += weights[i] * arm.cross(moved.col(i) - motion.shift);
+    inertia += weights[i] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    motion.largest = std::max(motion.largest, moved.col(i).norm());
     motion.size = std::max(motion.size, arm.norm());
   }
   motion.rotation = inertia.ldlt().solve(turning);
