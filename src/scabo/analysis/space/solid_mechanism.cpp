@@ -137,7 +137,7 @@ SolidBodyMotion motion_of_nodes(const mesh::SolidMesh& mesh, const Vector& u) {
   SolidBodyMotion motion;
   motion.about = volume.centroid;
   const Vector weights = volume.weights / volume.weights.sum();
-  const Eigen::Ref<const Matrix> moved = u.reshaped(3, mesh.nodes.cols());
+  const Eigen::Map<const Eigen::Matrix3Xd> moved(u.data(), 3, mesh.nodes.cols());
   motion.shift = moved * weights;
   Eigen::Vector3d turning = Eigen::Vector3d::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
