@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 namespace scabo::files {
 
@@ -96,8 +97,7 @@ Eigen::Vector3d point_of(std::string_view arguments) {
   return point;
 }
 
-/// Place of an entity between a face and its vertices: one only leads to others further down, so that no circle of
-/// broken files is followed.
+/// Place of an entity between a face and its vertices: one only leads to others further down.
 int rank_of(std::string_view type) {
   if (type == "FACE_BOUND" || type == "FACE_OUTER_BOUND") return 1;
   if (type == "EDGE_LOOP" || type == "VERTEX_LOOP") return 2;
@@ -106,31 +106,35 @@ int rank_of(std::string_view type) {
   return type == "VERTEX_POINT" ? 5 : 0;
 }
 
-void add_vertices(const StepFile& file, long number, int above, std::vector<Eigen::Vector3d>& vertices) {
+/// Every entity is followed once, whatever circles and repetitions a broken file has. `seen`: those that were followed.
+void add_vertices(const StepFile& file, long number, int above, std::set<long>& seen,
+                  std::vector<Eigen::Vector3d>& vertices) {
   const StepEntity* entity = file.find(number);
   const int rank = entity == nullptr ? 0 : rank_of(entity->type);
-  if (rank <= above) return;
+  if (rank <= above || !seen.insert(number).second) return;
   for (const long next : references(entity->arguments)) {
     const StepEntity* point = file.find(next);
     if (rank < 5)
-      add_vertices(file, next, rank, vertices);
+      add_vertices(file, next, rank, seen, vertices);
     else if (point != nullptr && point->type == "CARTESIAN_POINT")
       if (const Eigen::Vector3d at = point_of(point->arguments); at.allFinite()) vertices.push_back(at);
   }
 }
 
-/// Of a shell, or of one that is turned over.
-void add_faces(const StepFile& file, long shell, bool may_be_turned, std::vector<StepFace>& faces) {
+/// Of a shell, or of one that is turned over. `seen`: shells and faces that were followed.
+void add_faces(const StepFile& file, long shell, std::set<long>& seen, std::vector<StepFace>& faces) {
   const StepEntity* entity = file.find(shell);
-  if (entity == nullptr) return;
-  if (entity->type == "ORIENTED_CLOSED_SHELL" && may_be_turned)
-    for (const long next : references(entity->arguments)) add_faces(file, next, false, faces);
+  if (entity == nullptr || !seen.insert(shell).second) return;
+  if (entity->type == "ORIENTED_CLOSED_SHELL")
+    for (const long next : references(entity->arguments)) add_faces(file, next, seen, faces);
   if (entity->type != "CLOSED_SHELL") return;
   for (const long number : references(entity->arguments)) {
     const StepEntity* of = file.find(number);
     if (of == nullptr || (of->type != "ADVANCED_FACE" && of->type != "FACE_SURFACE")) continue;
+    if (!seen.insert(number).second) continue;
+    std::set<long> of_face;
     faces.push_back({first_text(of->arguments), {}});
-    for (const long bound : references(of->arguments)) add_vertices(file, bound, 0, faces.back().vertices);
+    for (const long bound : references(of->arguments)) add_vertices(file, bound, 0, of_face, faces.back().vertices);
   }
 }
 
@@ -142,7 +146,8 @@ std::vector<std::vector<StepFace>> step_solids(std::string_view text) {
   for (const auto& [number, entity] : file.entities()) {
     if (entity.type != "MANIFOLD_SOLID_BREP" && entity.type != "BREP_WITH_VOIDS") continue;
     solids.emplace_back();
-    for (const long shell : references(entity.arguments)) add_faces(file, shell, true, solids.back());
+    std::set<long> seen;
+    for (const long shell : references(entity.arguments)) add_faces(file, shell, seen, solids.back());
   }
   return solids;
 }

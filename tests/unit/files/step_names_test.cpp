@@ -1,5 +1,6 @@
 #include "scabo/files/step_names.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,7 +30,8 @@ DATA;
 #17 = CARTESIAN_POINT('end, of it',( 3.,4.,5.));
 #20 = BREP_WITH_VOIDS('',#2,(#21));
 #21 = ORIENTED_CLOSED_SHELL('',*,#22,.F.);
-#22 = CLOSED_SHELL('',(#3));
+#22 = CLOSED_SHELL('',(#23));
+#23 = ADVANCED_FACE('of the void',(),#99,.T.);
 #30 = ( A() B(#3) );
 ENDSEC;
 )");
@@ -49,7 +51,7 @@ TEST(StepNames, GoRoundInNoCircle) {
 #4=FACE_BOUND('',#5);#5=EDGE_LOOP('',(#5,#4,#6));#6=ORIENTED_EDGE('',#6,#5);#7=ORIENTED_CLOSED_SHELL('',#7,#2);)";
   const auto solids = step_solids(circles);
   ASSERT_EQ(solids.size(), 1u);
-  EXPECT_EQ(solids[0].size(), 2u);  // of the shell, and of it turned over
+  EXPECT_EQ(solids[0].size(), 1u);  // the shell turned over is the same
   EXPECT_TRUE(solids[0][0].vertices.empty());
   for (std::size_t k = 0; k < circles.size(); ++k) step_solids(circles.substr(0, k));
 }
@@ -60,6 +62,25 @@ TEST(StepNames, OfBrokenTextAreNone) {
         "#1=MANIFOLD_SOLID_BREP(#2);#2=CLOSED_SHELL((#3));#3=ADVANCED_FACE();"})
     for (const auto& faces : step_solids(text))
       for (const StepFace& face : faces) EXPECT_EQ(face.name, "");
+}
+
+TEST(StepNames, RepetitionsAreFollowedOnce) {
+  std::string repeated = "#1=BREP_WITH_VOIDS(''";
+  const auto refer = [&repeated](int number, int next, const char* type) {
+    repeated += fmt::format(");#{}={}(''", number, type);
+    for (int k = 0; k < 300; ++k) repeated += fmt::format(",#{}", next);
+  };
+  for (int k = 0; k < 300; ++k) repeated += ",#2";
+  refer(2, 3, "CLOSED_SHELL");
+  refer(3, 4, "ADVANCED_FACE");
+  refer(4, 5, "FACE_BOUND");
+  refer(5, 6, "EDGE_LOOP");
+  refer(6, 7, "ORIENTED_EDGE");
+  refer(7, 8, "EDGE_CURVE");
+  repeated += ");#8=VERTEX_POINT('',#9);#9=CARTESIAN_POINT('',(1.,2.,3.));";
+  const auto solids = step_solids(repeated);
+  ASSERT_EQ(solids.at(0).size(), 1u);
+  EXPECT_EQ(solids[0][0].vertices.size(), 1u);
 }
 
 TEST(StepNames, PointsThatAreNoNumbersAreNoVertices) {
