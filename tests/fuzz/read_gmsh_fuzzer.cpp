@@ -9,5 +9,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_solid_reader(data, size, [](std::string_view bytes, const std::string& file) {
     return scabo::files::parse_solid_gmsh(bytes, file);
   });
+  const auto kept = [](std::string_view bytes, const std::string& file) {
+    return scabo::files::parse_solid_gmsh(bytes, file, scabo::files::Bricks::kept);
+  };
+  check_solid_reader(data, size, kept, false);
   return 0;
 }

@@ -62,9 +62,7 @@ class Plate {
   std::int64_t between(const files::AddedNode& added) {
     const auto [found, is_new] = between_.try_emplace(added.corners, next_);
     if (!is_new) return found->second;
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < added.nodes.size(); ++i) at += added.weights[i] * places.at(added.nodes[i]);
-    places[next_] = at;
+    places[next_] = files::place_of(added, [&](std::int64_t node) { return places.at(node); });
     return next_++;
   }
 

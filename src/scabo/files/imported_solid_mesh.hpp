@@ -8,7 +8,10 @@
 
 namespace scabo::files {
 
-/// A tetrahedron with 4 or 10 nodes; where these are wanted, also a wedge with 6 or 15, or a hexahedron with 8 or 20
+/// What becomes of the hexahedra and wedges of a file: tetrahedra, or cells.
+enum class Bricks { divided, kept };
+
+/// A tetrahedron with 4 or 10 nodes; where these are kept, also a wedge with 6 or 15, or a hexahedron with 8 or 20
 /// (CellTopology).
 struct ImportedSolidCell {
   std::vector<int> nodes;

@@ -57,7 +57,7 @@ std::string other_format(std::string_view start) {
   if (begins("# vtk DataFile")) return "a legacy file of VTK; save it as .vtu";
   if (begins("$NOD")) return "a file of Gmsh in version 1; save it as version 4.1 or 2.2";
   if (begins("(0") || begins("(2")) return "a mesh of Fluent; convert it with Gmsh or meshio";
-  if (begins("\x89HDF")) return "an HDF5 file such as .med; convert it with Gmsh";
+  if (begins("\x89HDF")) return "an HDF5 file such as .med; convert it with meshio (meshio convert part.med part.vtu)";
   if (begins("<?xml") || begins("<Xdmf") || begins("<")) return "an XML file without VTKFile; save the mesh as .vtu";
   return "of an unknown format";
 }
@@ -104,11 +104,11 @@ ImportedSolidMesh parse_solid_mesh(std::string_view bytes, const std::string& pa
   const std::string_view text = readable(bytes, path);
   switch (format_of(text, path)) {
     case MeshFormat::gmsh:
-      return parse_solid_gmsh(text, path);
+      return parse_solid_gmsh(text, path, bricks);
     case MeshFormat::abaqus:
       return parse_solid_abaqus(text, path, read_beside, bricks);
     case MeshFormat::vtu:
-      return parse_solid_vtu(text, path);
+      return parse_solid_vtu(text, path, bricks);
   }
   throw BrokenInvariant("a format of meshes without a reader");
 }

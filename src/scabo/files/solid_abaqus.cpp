@@ -35,7 +35,7 @@ class SolidReader {
  public:
   SolidReader(std::string_view text, const std::string& file, const ReadInclude& read_include, Bricks bricks)
       : builder_(file),
-        solid_(builder_, SolidBuilder::TurnedCells::refused),
+        solid_(builder_, SolidBuilder::TurnedCells::refused, bricks),
         lines_(text, file, read_include, builder_),
         most_entries_(1'000'000 + 20 * static_cast<std::int64_t>(text.size())),
         bricks_(bricks) {}
@@ -56,8 +56,6 @@ class SolidReader {
   void keyword(const AbaqusKeyword& key);
   void nodes(const AbaqusKeyword& key);
   void elements(const AbaqusKeyword& key);
-  void keep(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at);
-  void split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at);
   void set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter);
   void surface(const AbaqusKeyword& key);
   void nodes_of_surface(const std::string& name);
@@ -77,11 +75,10 @@ class SolidReader {
   AbaqusSets node_sets_, element_sets_;
   struct Whole {
     std::vector<std::int64_t> nodes;
-    std::vector<int> parts;  // cells
+    SolidBuilder::CellRange parts;
   };
-  std::map<std::int64_t, Whole> split_;                        // by number
-  std::map<std::vector<std::int64_t>, std::int64_t> between_;  // nodes that are added, by their corners
-  std::map<std::int64_t, std::size_t> nodes_of_kept_;          // of cells that are not divided, by number
+  std::map<std::int64_t, Whole> split_;                // by number
+  std::map<std::int64_t, std::size_t> nodes_of_kept_;  // of cells that are not divided, by number
   std::vector<Surface> surfaces_;
   std::vector<std::string> remarks_;
   std::set<std::string> left_out_;  // types
@@ -159,42 +156,17 @@ void SolidReader::elements(const AbaqusKeyword& key) {
     if (const auto least = std::min_element(nodes.begin(), nodes.end()); *least < 1)
       builder_.fail(at, fmt::format("cell {} has the node {}; numbers of nodes are positive", number, *least));
     numbers.push_back(number);
+    const SolidBuilder::CellRange cells = solid_.add_cell(number, nodes, at);
     if (nodes_of_split(type) && bricks_ == Bricks::divided)
-      split(number, nodes, at);
+      split_.try_emplace(number, Whole{nodes, cells});
     else
-      keep(number, nodes, at);
+      nodes_of_kept_[number] = nodes.size();
   }
   if (whole_ && wanted > 0) {
     deck_.elements.push_back({type, {builder_.file(key.at), key.at.line}});
     for (const std::int64_t number : numbers) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
   }
   if (key.has("ELSET") && wanted > 0) add_all(element_sets_.named(key.value("ELSET")), std::move(numbers));
-}
-
-void SolidReader::keep(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at) {
-  if (nodes_of_kept_[number] = nodes.size(); bricks_ == Bricks::kept)
-    if (std::set<std::int64_t>(nodes.begin(), nodes.end()).size() < nodes.size())
-      builder_.fail(at, fmt::format("cell {} has a node twice: a hexahedron or wedge whose edges are collapsed is read "
-                                    "as tetrahedra only; leave out 'kind'",
-                                    number));
-  solid_.add_cell(number, nodes, at);
-}
-
-void SolidReader::split(std::int64_t number, const std::vector<std::int64_t>& nodes, const FilePlace& at) {
-  const auto [of, is_new] = split_.try_emplace(number, Whole{nodes, {}});
-  if (!is_new) builder_.fail(at, fmt::format("cell {} is there twice; number every one differently", number));
-  SplitSolid made = split_solid(nodes);
-  std::vector<std::int64_t> added;
-  for (AddedNode& node : made.added) {
-    const auto [known, is_first] = between_.try_emplace(node.corners, -1 - static_cast<std::int64_t>(between_.size()));
-    if (is_first) solid_.add_between(known->second, std::move(node.nodes), std::move(node.weights));
-    added.push_back(known->second);
-  }
-  for (std::vector<std::int64_t>& cell : made.tetrahedra) {
-    for (std::int64_t& node : cell)
-      if (node < 0) node = added[static_cast<std::size_t>(-node - 1)];
-    of->second.parts.push_back(solid_.add_part(number, cell, at));
-  }
 }
 
 void SolidReader::set(const AbaqusKeyword& key, AbaqusSets& sets, const char* parameter) {
@@ -350,7 +322,7 @@ void SolidReader::hand_over_sets() {
     for (const std::int64_t number : set.numbers) {
       const auto whole = split_.find(number);
       if (whole != split_.end())
-        for (const int part : whole->second.parts) solid_.add_cell_to_set(to, part);
+        solid_.add_cells_to_set(to, whole->second.parts);
       else if (const int cell = cells.find(number); cell >= 0)
         solid_.add_cell_to_set(to, cell);
     }
@@ -366,12 +338,7 @@ ImportedSolidMesh SolidReader::read() {
                  "the file has no solid elements; save the mesh with elements C3D4, C3D8, C3D10 or C3D20");
   hand_over_sets();
   ImportedSolidMesh mesh = solid_.finish();
-  if (!split_.empty())
-    remarks_.push_back(
-        fmt::format("{}: {} hexahedra and wedges are divided into quadratic tetrahedra of the same "
-                    "corners",
-                    builder_.file({}), split_.size()));
-  mesh.remarks = remarks_;
+  mesh.remarks.insert(mesh.remarks.begin(), remarks_.begin(), remarks_.end());
   return mesh;
 }
 

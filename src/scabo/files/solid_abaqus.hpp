@@ -10,9 +10,6 @@
 
 namespace scabo::files {
 
-/// What becomes of hexahedra and wedges.
-enum class Bricks { divided, kept };
-
 /// The mesh in the text of a file of that name. Keywords that describe no mesh are passed over. Throws InputError.
 ImportedSolidMesh parse_solid_abaqus(std::string_view text, const std::string& file,
                                      const ReadInclude& read_include = {}, Bricks bricks = Bricks::divided);

@@ -23,6 +23,22 @@ std::vector<int> chosen(const ImportedSolidCell& cell, const std::vector<std::si
   return nodes;
 }
 
+/// The same cell, seen in a mirror: two corners of a tetrahedron change places, or both ends of a hexahedron or wedge.
+void turn_over(ImportedSolidCell& cell) {
+  const CellTopology& topology = topology_of(cell);
+  const std::size_t corners = topology.corners;
+  const auto other = [corners](std::size_t corner) {
+    if (corners > 4) return (corner + corners / 2) % corners;
+    return corner == 1 || corner == 2 ? 3 - corner : corner;
+  };
+  const std::vector<int> before = cell.nodes;
+  for (std::size_t k = 0; k < corners; ++k) cell.nodes[k] = before[other(k)];
+  for (std::size_t k = corners; k < before.size(); ++k) {
+    const auto& [a, b] = topology.edges[k - corners];
+    cell.nodes[k] = before[topology.middle(other(a), other(b))];
+  }
+}
+
 }  // namespace
 
 int sides_of(const ImportedSolidCell& cell) { return static_cast<int>(topology_of(cell).sides.size()); }
@@ -52,43 +68,74 @@ void SolidBuilder::add_node(std::int64_t number, double x, double y, double z, c
   node_places_.push_back(at);
 }
 
-int SolidBuilder::add_cell(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at,
-                           std::int64_t entity) {
-  const auto index = static_cast<int>(cells_.size());
-  if (entity >= 0) {
-    std::array<std::int64_t, 4> corners{nodes[0], nodes[1], nodes[2], nodes[3]};
-    std::sort(corners.begin(), corners.end());
-    const auto [known, is_new] = repeated_.try_emplace({entity, corners}, index);
-    if (!is_new) return known->second;
-  }
+SolidBuilder::CellRange SolidBuilder::add_cell(std::int64_t number, std::span<const std::int64_t> nodes,
+                                               const FilePlace& at, std::int64_t entity) {
+  if (entity < 0) return next_cells(number, nodes, at);
+  std::vector<std::int64_t> corners(
+      nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(CellTopology::of(nodes.size()).corners));
+  std::sort(corners.begin(), corners.end());
+  const auto [known, is_new] = repeated_.try_emplace({entity, std::move(corners)});
+  if (is_new) known->second = next_cells(number, nodes, at);
+  return known->second;
+}
+
+SolidBuilder::CellRange SolidBuilder::next_cells(std::int64_t number, std::span<const std::int64_t> nodes,
+                                                 const FilePlace& at) {
+  const auto first = static_cast<int>(cells_.size());
+  const bool is_brick = CellTopology::of(nodes.size()).corners > 4;
+  if (is_brick && bricks_ == Bricks::kept && std::set<std::int64_t>(nodes.begin(), nodes.end()).size() < nodes.size())
+    files_.fail(at, fmt::format("cell {} has a node twice: a hexahedron or wedge whose edges are collapsed is read as "
+                                "tetrahedra only; leave out 'kind'",
+                                number));
+  if (is_brick && bricks_ == Bricks::divided)
+    divide(number, nodes, at);
+  else
+    append(number, number, nodes, at);
+  return {first, static_cast<int>(cells_.size())};
+}
+
+void SolidBuilder::append(std::int64_t number, std::int64_t unique_number, std::span<const std::int64_t> nodes,
+                          const FilePlace& at) {
   if (cells_.size() >= most_solid_entries) files_.fail(at, "the mesh has more than 5e8 cells");
-  cell_numbers_.push_back(number);
+  cell_numbers_.push_back(unique_number);
   written_numbers_.push_back(number);
   cell_places_.push_back(at);
   cells_.emplace_back(nodes.begin(), nodes.end());
-  return index;
 }
 
-int SolidBuilder::add_part(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at) {
-  const int index = add_cell(-1 - static_cast<std::int64_t>(cells_.size()), nodes, at);
-  written_numbers_.back() = number;
-  return index;
-}
-
-void SolidBuilder::add_between(std::int64_t number, std::vector<std::int64_t> nodes, std::vector<double> weights) {
-  between_.push_back({number, std::move(nodes), std::move(weights)});
+/// The first part has the number of the cell, so that a second cell of this number is found.
+void SolidBuilder::divide(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at) {
+  if (const auto least = std::min_element(nodes.begin(), nodes.end()); *least < 0)
+    files_.fail(at, fmt::format("cell {} has the node {}; numbers of nodes are not negative", number, *least));
+  const std::size_t first = cells_.size();
+  SplitSolid split = split_solid(nodes);
+  std::vector<std::int64_t> added;
+  for (AddedNode& node : split.added) {
+    const auto next = -1 - static_cast<std::int64_t>(between_.size());
+    const auto [known, is_new] = between_corners_.try_emplace(node.corners, next);
+    if (is_new) between_.push_back(std::move(node));
+    added.push_back(known->second);
+  }
+  for (std::vector<std::int64_t>& part : split.tetrahedra) {
+    for (std::int64_t& node : part)
+      if (node < 0) node = added[static_cast<std::size_t>(-node - 1)];
+    append(number, cells_.size() == first ? number : -1 - static_cast<std::int64_t>(cells_.size()), part, at);
+  }
+  if (cells_.size() == first) files_.fail(at, fmt::format("cell {} is flat; correct its nodes, or mesh again", number));
+  divided_[static_cast<int>(first)] = {static_cast<int>(cells_.size()), nodes.size()};
 }
 
 /// A node that the file does not have is told with its cell.
 void SolidBuilder::place_between() {
   const NumberIndex nodes(node_numbers_);
-  for (const Between& between : between_) {
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < between.nodes.size(); ++i)
-      if (const int node = nodes.find(between.nodes[i]); node >= 0)
-        at += between.weights[i] *
-              Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * static_cast<std::size_t>(node));
-    add_node(between.number, at.x(), at.y(), at.z(), {});
+  const auto place = [&](std::int64_t number) -> Eigen::Vector3d {
+    const int node = nodes.find(number);
+    if (node < 0) return Eigen::Vector3d::Zero();
+    return Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * static_cast<std::size_t>(node));
+  };
+  for (std::size_t k = 0; k < between_.size(); ++k) {
+    const Eigen::Vector3d at = place_of(between_[k], place);
+    add_node(-1 - static_cast<std::int64_t>(k), at.x(), at.y(), at.z(), {});
   }
 }
 
@@ -97,7 +144,13 @@ void SolidBuilder::add_side(int set, const SolidSide& side) {
 }
 
 void SolidBuilder::add_facet(int set, std::span<const std::int64_t> corners) {
-  side_sets_[static_cast<std::size_t>(set)].facets.push_back({corners[0], corners[1], corners[2]});
+  auto& facets = side_sets_[static_cast<std::size_t>(set)].facets;
+  if (corners.size() == 4 && bricks_ == Bricks::kept) {
+    facets.push_back({corners[0], corners[1], corners[2], corners[3]});
+    return;
+  }
+  for (const auto& [i, j, k] : triangles_of_facet({corners.begin(), corners.end()}))
+    facets.push_back({i, j, k, no_node});
 }
 
 void SolidBuilder::check_numbers(const NumberIndex& numbers, const std::vector<FilePlace>& places,
@@ -112,8 +165,9 @@ void SolidBuilder::check_numbers(const NumberIndex& numbers, const std::vector<F
           : fmt::format("two {}s have one number; number every one differently", what));
 }
 
-/// Puts the corners in order, or refuses the cell.
-void SolidBuilder::check_cell(ImportedSolidCell& cell, const FilePlace& at) const {
+/// 1 of a cell whose corners are in order, -1 of one that is turned over, 0 of a flat one: by the corners next to the
+/// first one.
+int SolidBuilder::sense_of(const ImportedSolidCell& cell) const {
   const auto node = [&](std::size_t i) {
     return Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * static_cast<std::size_t>(cell.nodes[i]));
   };
@@ -121,20 +175,34 @@ void SolidBuilder::check_cell(ImportedSolidCell& cell, const FilePlace& at) cons
   const Eigen::Vector3d a = node(1) - node(0), b = node(at_end - 1) - node(0), along = node(at_end) - node(0);
   const double size = std::max({a.norm(), b.norm(), along.norm()}), volume = a.cross(b).dot(along);
   const double flat = 1e-12 * size * size * size;
-  if (volume > flat) return;
-  if (corners > 4)
+  return volume > flat ? 1 : volume < -flat ? -1 : 0;
+}
+
+/// Puts the corners of a cell, or of all parts of one that is divided, in order, or refuses it.
+void SolidBuilder::put_in_order(std::span<ImportedSolidCell> parts, std::size_t nodes_of_whole,
+                                const FilePlace& at) const {
+  const auto of_sense = [&](int sense) {
+    return std::count_if(parts.begin(), parts.end(), [&](const auto& part) { return sense_of(part) == sense; });
+  };
+  const auto count = static_cast<std::ptrdiff_t>(parts.size()), turned = of_sense(-1);
+  if (of_sense(1) == count) return;
+  const bool is_brick = CellTopology::of(nodes_of_whole).corners > 4;
+  if (turned_ == TurnedCells::put_in_order && turned == count) {
+    for (ImportedSolidCell& part : parts) turn_over(part);
+    return;
+  }
+  const long number = parts.front().number;
+  if (turned_ == TurnedCells::put_in_order && of_sense(0) > 0)
+    files_.fail(at, fmt::format("cell {} is flat; correct its nodes, or mesh again", number));
+  if (turned_ == TurnedCells::put_in_order)
+    files_.fail(at, fmt::format("cell {} is folded: put its nodes in order, or mesh again", number));
+  if (is_brick)
     files_.fail(at, fmt::format("cell {} is flat or turned over: seen from its other end, the corners of its first one "
                                 "must be counter-clockwise; write the mesh again",
-                                cell.number));
-  if (turned_ == TurnedCells::refused)
-    files_.fail(at, fmt::format("cell {} is flat or turned over: seen from node 4, the nodes 1, 2, 3 must "
-                                "be counter-clockwise; write the mesh again",
-                                cell.number));
-  if (!(volume < -flat)) files_.fail(at, fmt::format("cell {} is flat; correct its nodes, or mesh again", cell.number));
-  std::swap(cell.nodes[1], cell.nodes[2]);
-  if (cell.nodes.size() == 4) return;
-  std::swap(cell.nodes[4], cell.nodes[6]);
-  std::swap(cell.nodes[8], cell.nodes[9]);
+                                number));
+  files_.fail(at, fmt::format("cell {} is flat or turned over: seen from node 4, the nodes 1, 2, 3 must "
+                              "be counter-clockwise; write the mesh again",
+                              number));
 }
 
 void SolidBuilder::make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh) const {
@@ -148,8 +216,13 @@ void SolidBuilder::make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh)
                                                  cell.number, number));
       cell.nodes.push_back(node);
     }
-    check_cell(cell, cell_places_[c]);
     mesh.cells.push_back(std::move(cell));
+  }
+  for (std::size_t c = 0, end = 0; c < cells_.size(); c = end) {
+    const auto of = divided_.find(static_cast<int>(c));
+    end = of == divided_.end() ? c + 1 : static_cast<std::size_t>(of->second.first);
+    put_in_order(std::span(mesh.cells).subspan(c, end - c),
+                 of == divided_.end() ? mesh.cells[c].nodes.size() : of->second.second, cell_places_[c]);
   }
 }
 
@@ -190,7 +263,8 @@ void SolidBuilder::make_side_sets(const NumberIndex& nodes, const std::vector<in
   for (std::size_t c = 0; by_corners && c < mesh.cells.size(); ++c)
     for (int side = 0; side < sides_of(mesh.cells[c]); ++side) {
       const std::vector<int> of_side = corners_of(mesh.cells[c], side);
-      Corners corners{of_side[0], of_side[1], of_side[2]};
+      Corners corners{-1, -1, -1, -1};
+      std::copy(of_side.begin(), of_side.end(), corners.begin());
       std::sort(corners.begin(), corners.end());
       sides_at.emplace(corners, SolidSide{static_cast<int>(c), side});
     }
@@ -201,11 +275,12 @@ void SolidBuilder::make_side_sets(const NumberIndex& nodes, const std::vector<in
       if (known.emplace(side.cell, side.side).second) set.sides.push_back(side);
     };
     for (const SolidSide& side : raw.sides) add(side);
-    for (const std::array<std::int64_t, 3>& facet : raw.facets) {
-      Corners corners{};
-      for (std::size_t k = 0; k < 3; ++k) {
+    for (const std::array<std::int64_t, 4>& facet : raw.facets) {
+      Corners corners{-1, -1, -1, -1};
+      for (std::size_t k = 0; k < 4 && facet[k] != no_node; ++k) {
         const int node = nodes.find(facet[k]);
-        corners[k] = node < 0 ? -1 : place[static_cast<std::size_t>(node)];
+        const int at = node < 0 ? -1 : place[static_cast<std::size_t>(node)];
+        corners[k] = at < 0 ? -2 : at;  // of no side
       }
       std::sort(corners.begin(), corners.end());
       const auto [first, last] = sides_at.equal_range(corners);
@@ -232,6 +307,10 @@ ImportedSolidMesh SolidBuilder::finish() {
   for (std::size_t i = 0; i < place.size(); ++i)
     if (place[i] >= 0) kept_numbers_.push_back(node_numbers_[i]);
   make_sets(nodes, place, mesh);
+  if (!divided_.empty())
+    mesh.remarks.push_back(
+        fmt::format("{}: {} hexahedra and wedges are divided into quadratic tetrahedra of the same corners",
+                    files_.file({}), divided_.size()));
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -14,6 +15,7 @@
 #include "scabo/files/imported_solid_mesh.hpp"
 #include "scabo/files/mesh_builder.hpp"
 #include "scabo/files/number_index.hpp"
+#include "scabo/files/split_solid.hpp"
 
 namespace scabo::files {
 
@@ -22,20 +24,22 @@ class SolidBuilder {
   /// What becomes of a cell whose corners have the other order than ImportedSolidMesh guarantees.
   enum class TurnedCells { refused, put_in_order };
 
+  /// Indices of the cells that one cell of the file becomes: itself, or its tetrahedra.
+  struct CellRange {
+    int first = 0, last = 0;  ///< without the last one
+  };
+
   /// `files`: knows the files of all places; it outlives this.
-  SolidBuilder(const MeshBuilder& files, TurnedCells turned) : files_(files), turned_(turned) {}
+  SolidBuilder(const MeshBuilder& files, TurnedCells turned, Bricks bricks)
+      : files_(files), turned_(turned), bricks_(bricks) {}
 
   /// Throws InputError if a coordinate is not finite.
   void add_node(std::int64_t number, double x, double y, double z, const FilePlace& at);
 
-  /// As many nodes as an ImportedSolidCell may have, in its order; 4 or 10 of a cell with an entity. Returns its index.
+  /// As many nodes as an ImportedSolidCell may have, in its order; their numbers are not negative.
   /// `entity`: cells with equal nodes and the same entity >= 0 are one cell that the file repeats for each of its sets.
-  int add_cell(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at, std::int64_t entity = -1);
-
-  /// A tetrahedron that is a part of cell `number`, which the caller knows to be there once. Returns its index.
-  int add_part(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at);
-  /// A node at the sum of weight * node; its number is negative.
-  void add_between(std::int64_t number, std::vector<std::int64_t> nodes, std::vector<double> weights);
+  CellRange add_cell(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at,
+                     std::int64_t entity = -1);
 
   std::size_t nodes() const { return node_numbers_.size(); }
   std::size_t cells() const { return cell_numbers_.size(); }
@@ -49,8 +53,11 @@ class SolidBuilder {
 
   void add_node_to_set(int set, std::int64_t node) { node_sets_[static_cast<std::size_t>(set)].nodes.push_back(node); }
   void add_cell_to_set(int set, int cell) { cell_sets_[static_cast<std::size_t>(set)].cells.insert(cell); }
+  void add_cells_to_set(int set, const CellRange& cells) {
+    for (int cell = cells.first; cell < cells.last; ++cell) add_cell_to_set(set, cell);
+  }
   void add_side(int set, const SolidSide& side);
-  /// By its three corners; those of all cells that have it. No side of a cell: left out.
+  /// By its three or four corners; those of all cells that have it. No side of a cell: left out.
   void add_facet(int set, std::span<const std::int64_t> corners);
 
   /// Throws InputError for what the header of ImportedSolidMesh excludes.
@@ -59,11 +66,6 @@ class SolidBuilder {
   const std::vector<std::int64_t>& kept_numbers() const { return kept_numbers_; }
 
  private:
-  struct Between {
-    std::int64_t number;
-    std::vector<std::int64_t> nodes;
-    std::vector<double> weights;
-  };
   struct RawNodes {
     std::string name;
     std::vector<std::int64_t> nodes;
@@ -75,9 +77,10 @@ class SolidBuilder {
   struct RawSides {
     std::string name;
     std::vector<SolidSide> sides;
-    std::vector<std::array<std::int64_t, 3>> facets;
+    std::vector<std::array<std::int64_t, 4>> facets;  // of triangles, the last one is no_node
   };
-  using Corners = std::array<int, 3>;  // ascending
+  using Corners = std::array<int, 4>;  // ascending; of triangles, the first one is -1
+  static constexpr std::int64_t no_node = std::numeric_limits<std::int64_t>::min();
 
   template <class Set>
   static int index_of(std::vector<Set>& sets, const std::string& name) {
@@ -89,9 +92,14 @@ class SolidBuilder {
   }
 
   void check_numbers(const NumberIndex& numbers, const std::vector<FilePlace>& places, const char* what) const;
+  CellRange next_cells(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at);
+  void append(std::int64_t number, std::int64_t unique_number, std::span<const std::int64_t> nodes,
+              const FilePlace& at);
+  void divide(std::int64_t number, std::span<const std::int64_t> nodes, const FilePlace& at);
   void place_between();
   void make_cells(const NumberIndex& nodes, ImportedSolidMesh& mesh) const;
-  void check_cell(ImportedSolidCell& cell, const FilePlace& at) const;
+  void put_in_order(std::span<ImportedSolidCell> parts, std::size_t nodes_of_whole, const FilePlace& at) const;
+  int sense_of(const ImportedSolidCell& cell) const;
   /// Drops nodes without a cell; `place`: of each node of the file, its index in the mesh, or -1.
   std::vector<int> keep_used_nodes(ImportedSolidMesh& mesh) const;
   void make_sets(const NumberIndex& nodes, const std::vector<int>& place, ImportedSolidMesh& mesh) const;
@@ -99,14 +107,18 @@ class SolidBuilder {
 
   const MeshBuilder& files_;
   TurnedCells turned_;
-  std::vector<std::int64_t> node_numbers_, cell_numbers_;
+  Bricks bricks_;
+  std::vector<std::int64_t> node_numbers_;
+  std::vector<std::int64_t> cell_numbers_;     // of parts but the first, negative
   std::vector<std::int64_t> written_numbers_;  // of cells: those of parts are that of the whole, many times
-  std::vector<Between> between_;
+  std::vector<AddedNode> between_;             // their numbers are -1, -2 and so on
+  std::map<std::vector<std::int64_t>, std::int64_t> between_corners_;  // those numbers by corners
+  std::map<int, std::pair<int, std::size_t>> divided_;  // by the first part, the end of them and the nodes of the whole
   std::vector<std::int64_t> kept_numbers_;
   std::vector<FilePlace> node_places_, cell_places_;
   std::vector<double> coordinates_;  // three of each node
   std::vector<std::vector<std::int64_t>> cells_;
-  std::map<std::pair<std::int64_t, std::array<std::int64_t, 4>>, int> repeated_;  // by entity and corners
+  std::map<std::pair<std::int64_t, std::vector<std::int64_t>>, CellRange> repeated_;  // by entity and corners
   std::vector<RawNodes> node_sets_;
   std::vector<RawCells> cell_sets_;
   std::vector<RawSides> side_sets_;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
+#include "scabo/base/cell_topology.hpp"
 #include "scabo/files/gmsh_reader.hpp"
 #include "scabo/files/solid_builder.hpp"
 
@@ -12,18 +14,56 @@ namespace scabo::files {
 
 namespace {
 
-constexpr std::array<GmshElement, 7> elements_of_solids{
-    {{1, 1, 2}, {2, 2, 3}, {4, 3, 4}, {8, 1, 3}, {9, 2, 6}, {11, 3, 10}, {15, 0, 1}}};
+constexpr std::array<GmshElement, 16> elements_of_solids{{{1, 1, 2},
+                                                          {2, 2, 3},
+                                                          {3, 2, 4},
+                                                          {4, 3, 4},
+                                                          {5, 3, 8},
+                                                          {6, 3, 6},
+                                                          {8, 1, 3},
+                                                          {9, 2, 6},
+                                                          {10, 2, 9},
+                                                          {11, 3, 10},
+                                                          {12, 3, 27},
+                                                          {13, 3, 18},
+                                                          {15, 0, 1},
+                                                          {16, 2, 8},
+                                                          {17, 3, 20},
+                                                          {18, 3, 15}}};
+
+/// Edges of Gmsh's cells in the order of their middle nodes, behind which those of sides and of the inside follow.
+struct GmshEdges {
+  std::size_t corners;
+  std::vector<std::array<std::size_t, 2>> edges;
+};
+const GmshEdges& edges_of_gmsh(std::size_t nodes) {
+  static const GmshEdges tetrahedron{4, {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}},
+      wedge{6, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}}},
+      brick{8, {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}}};
+  return nodes == 4 || nodes == 10 ? tetrahedron : nodes == 6 || nodes == 15 || nodes == 18 ? wedge : brick;
+}
+
+/// In the order of CellTopology, without nodes in the middle of sides and cells.
+std::vector<std::int64_t> in_order(const std::vector<std::int64_t>& nodes) {
+  const GmshEdges& of = edges_of_gmsh(nodes.size());
+  if (nodes.size() == of.corners) return nodes;
+  std::vector<std::int64_t> ordered(nodes.begin(),
+                                    nodes.begin() + static_cast<std::ptrdiff_t>(of.corners + of.edges.size()));
+  for (std::size_t e = 0; e < of.edges.size(); ++e)
+    ordered[CellTopology::of(of.corners).middle(of.edges[e][0], of.edges[e][1])] = nodes[of.corners + e];
+  return ordered;
+}
 
 class SolidGmsh : public GmshReader {
  public:
-  SolidGmsh(std::string_view bytes, const std::string& file)
-      : GmshReader(bytes, file, 3), files_(file), builder_(files_, SolidBuilder::TurnedCells::put_in_order) {}
+  SolidGmsh(std::string_view bytes, const std::string& file, Bricks bricks)
+      : GmshReader(bytes, file, 3), files_(file), builder_(files_, SolidBuilder::TurnedCells::put_in_order, bricks) {}
 
   ImportedSolidMesh read() {
     read_sections();
     if (builder_.cells() == 0)
-      fail_in_file(files_.file({}), 0, 0, "the file has no tetrahedra; save the mesh of a volume (in Gmsh: -3)");
+      fail_in_file(files_.file({}), 0, 0,
+                   "the file has no tetrahedra, hexahedra or wedges; save the mesh of a volume (in Gmsh: -3)");
     return builder_.finish();
   }
 
@@ -49,10 +89,11 @@ class SolidGmsh : public GmshReader {
 const GmshElement& SolidGmsh::element(std::int64_t type, std::int64_t number) {
   for (const GmshElement& known : elements_of_solids)
     if (known.type == type) return known;
+  const bool is_pyramid = type == 7 || type == 14 || type == 19;
   fail(
-      fmt::format("cell {} has Gmsh's type {}, which is not read in space; use tetrahedra of order 1 or 2 (in Gmsh: "
-                  "-3 -order 2, without Recombine)",
-                  number, type));
+      fmt::format("cell {} has Gmsh's type {}{}, which is not read in space; use tetrahedra, hexahedra or wedges of "
+                  "order 1 or 2 (in Gmsh: -3 -order 2{})",
+                  number, type, is_pyramid ? ", a pyramid" : "", is_pyramid ? ", without Recombine" : ""));
 }
 
 void SolidGmsh::find_sets(int dimension, const Tags& groups, std::int64_t entity) {
@@ -77,23 +118,21 @@ void SolidGmsh::add_element(const GmshElement& element, std::int64_t number, con
                             const Tags& nodes, const FilePlace& at, bool may_be_repeated) {
   if (element.dimension == 1) return;  // an edge names no face
   find_sets(element.dimension, groups, entity);
-  int cell = -1;
-  if (element.dimension == 3) {
-    Tags ordered = nodes;
-    if (nodes.size() == 10) std::swap(ordered[8], ordered[9]);  // Gmsh has the middle of 34 before that of 24
-    cell = builder_.add_cell(number, ordered, at, may_be_repeated ? magnitude(entity) : -1);
-  }
+  SolidBuilder::CellRange cells;
+  if (element.dimension == 3)
+    cells = builder_.add_cell(number, in_order(nodes), at, may_be_repeated ? magnitude(entity) : -1);
+  const std::size_t corners = element.nodes == 3 || element.nodes == 6 ? 3 : 4;  // of a side
   for (const int set : sets_) {
-    if (element.dimension == 3) builder_.add_cell_to_set(set, cell);
-    if (element.dimension == 2) builder_.add_facet(set, nodes);
+    if (element.dimension == 3) builder_.add_cells_to_set(set, cells);
+    if (element.dimension == 2) builder_.add_facet(set, std::span(nodes).first(corners));
     if (element.dimension == 0) builder_.add_node_to_set(set, nodes.front());
   }
 }
 
 }  // namespace
 
-ImportedSolidMesh parse_solid_gmsh(std::string_view bytes, const std::string& file) {
-  return SolidGmsh(bytes, file).read();
+ImportedSolidMesh parse_solid_gmsh(std::string_view bytes, const std::string& file, Bricks bricks) {
+  return SolidGmsh(bytes, file, bricks).read();
 }
 
 }  // namespace scabo::files

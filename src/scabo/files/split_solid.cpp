@@ -1,7 +1,9 @@
 #include "scabo/files/split_solid.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "scabo/base/cell_topology.hpp"
@@ -15,16 +17,10 @@ using Corners = std::vector<std::size_t>;
 
 using Shape = CellTopology;
 
-/// Triangles of a face from its corner with the least number.
 std::vector<std::array<Number, 3>> triangles_of(std::span<const Number> nodes, const Corners& face) {
   std::vector<Number> ring;
   for (const std::size_t corner : face) ring.push_back(nodes[corner]);
-  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
-  std::vector<std::array<Number, 3>> triangles;
-  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-    if (ring[0] != ring[k] && ring[k] != ring[k + 1] && ring[0] != ring[k + 1])
-      triangles.push_back({ring[0], ring[k], ring[k + 1]});
-  return triangles;
+  return triangles_of_facet(std::move(ring));
 }
 
 /// Of an edge between two corners of a cell with middle nodes; of one without them there are none.
@@ -47,8 +43,7 @@ class Middles {
     return std::minmax(nodes_[shape_.edges[e][0]], nodes_[shape_.edges[e][1]]);
   }
 
-  /// In the middle of the face that has both, or of the cell: by the functions of its nodes, half of the sum of the
-  /// four middle nodes less a quarter of that of the corners; in a cell, a quarter of both.
+  /// In the middle of the face that has both, or of the cell.
   Number added(Number a, Number b) {
     Corners face;
     for (const Corners& of : shape_.sides) {
@@ -62,11 +57,11 @@ class Middles {
     AddedNode node;
     for (const std::size_t corner : face) node.corners.push_back(nodes_[corner]);
     std::sort(node.corners.begin(), node.corners.end());
-    for (const std::size_t corner : face) node.nodes.push_back(nodes_[corner]), node.weights.push_back(-0.25);
+    node.ends = {a, b};
     for (std::size_t e = 0; e < shape_.edges.size(); ++e) {
       const auto in = [&](std::size_t corner) { return std::find(face.begin(), face.end(), corner) != face.end(); };
       if (!in(shape_.edges[e][0]) || !in(shape_.edges[e][1])) continue;
-      node.nodes.push_back(nodes_[shape_.corners + e]), node.weights.push_back(whole ? 0.25 : 0.5);
+      node.edges.push_back({nodes_[shape_.edges[e][0]], nodes_[shape_.edges[e][1]], nodes_[shape_.corners + e]});
     }
     split_.added.push_back(std::move(node));
     return -static_cast<Number>(split_.added.size());
@@ -88,6 +83,15 @@ std::optional<std::size_t> nodes_of_split(const std::string& type) {
   return {};
 }
 
+std::vector<std::array<Number, 3>> triangles_of_facet(std::vector<Number> ring) {
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  std::vector<std::array<Number, 3>> triangles;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+    if (ring[0] != ring[k] && ring[k] != ring[k + 1] && ring[0] != ring[k + 1])
+      triangles.push_back({ring[0], ring[k], ring[k + 1]});
+  return triangles;
+}
+
 SplitSolid split_solid(std::span<const Number> nodes) {
   const Shape& shape = Shape::of(nodes.size());
   SplitSolid split;
@@ -104,6 +108,27 @@ SplitSolid split_solid(std::span<const Number> nodes) {
     }
   }
   return split;
+}
+
+Eigen::Vector3d place_of(const AddedNode& added, const std::function<Eigen::Vector3d(Number)>& at) {
+  const bool in_a_face = added.corners.size() == 4;
+  const Eigen::Vector3d start = at(added.ends[0]), end = at(added.ends[1]);
+  const double size = (end - start).norm();
+  constexpr double tolerance = 1e-5;  // as of faces in contact
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  bool straight = true;
+  for (const AddedNode::Edge& edge : added.edges) {
+    const Eigen::Vector3d middle = at(edge.middle);
+    place += (in_a_face ? 0.5 : 0.25) * middle;
+    straight = straight && (middle - 0.5 * (at(edge.start) + at(edge.end))).norm() <= tolerance * size;
+  }
+  std::vector<Eigen::Vector3d> corners;
+  for (const std::int64_t corner : added.corners) corners.push_back(at(corner));
+  for (const Eigen::Vector3d& corner : corners) place -= 0.25 * corner;
+  const bool warped =
+      in_a_face && std::abs((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0])) >
+                       tolerance * size * size * size;
+  return straight && !warped ? 0.5 * (start + end) : place;
 }
 
 std::vector<std::vector<Number>> triangles_of_side(std::span<const Number> nodes, int side) {

@@ -178,7 +178,8 @@ void VtuReader::add_cells(const pugi::xml_node& cells, const VtuValues& connecti
       nodes.push_back(first_node + node);
     }
     begin = static_cast<std::size_t>(end);
-    if (types.whole[i] == 8) std::swap(nodes[2], nodes[3]);  // a pixel goes row by row
+    if (types.whole[i] == 8 || types.whole[i] == 11) std::swap(nodes[2], nodes[3]);  // pixels and voxels go row by row
+    if (types.whole[i] == 11) std::swap(nodes[6], nodes[7]);
     if (shape->use == VtuShape::Use::cell) {
       nodes.resize(static_cast<std::size_t>(shape->kept_nodes));
       add_cell(*shape, number, nodes, {0, line});

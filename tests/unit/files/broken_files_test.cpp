@@ -260,7 +260,7 @@ std::vector<Broken> vtu_files() {
       {"a.vtu", up_to(raw, "</AppendedData>"), "AppendedData has no end tag"},
       {"a.vtu", damaged, "array"},
       {"a.vtk", "# vtk DataFile Version 3.0\n", "the file is a legacy file of VTK; save it as .vtu"},
-      {"a.med", "\x89HDF\r\n", "an HDF5 file such as .med; convert it with Gmsh"},
+      {"a.med", "\x89HDF\r\n", "an HDF5 file such as .med; convert it with meshio"},
       {"a.xml", "<?xml version='1.0'?><mesh/>", "an XML file without VTKFile"},
       {"a.txt", "hello", "of an unknown format; Scabo reads meshes of Gmsh (.msh 2.2 and 4.1)"},
   };

@@ -247,6 +247,29 @@ TEST(SplitElements, PutAddedNodesWhereACurvedFaceLies) {
   }
 }
 
+/// So a distorted mesh of hexahedra passes a constant pressure as exactly as one of tetrahedra.
+TEST(SplitElements, HaveStraightDiagonalsWhereEdgesAreStraight) {
+  const auto corner = [](const Eigen::Vector3d& x) {  // plane faces z = 0 and z = 2, warped ones between them
+    return Eigen::Vector3d(x.x() + 0.1 * x.x() * x.y(), x.y() - 0.15 * x.x() * x.y() * x.z(), x.z());
+  };
+  const auto map = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {  // straight between the corners
+    const Eigen::Vector3d low = x.array().floor(), high = x.array().ceil();
+    return 0.5 * (corner(low) + corner(high));
+  };
+  const ImportedSolidMesh mesh = parse_solid_abaqus(bricks(true, false, map), "bricks.inp");
+  int in_the_plane = 0;
+  for (const ImportedSolidCell& cell : mesh.cells)
+    for (int side = 0; side < 4; ++side) {
+      const std::vector<int> nodes = nodes_of_side(cell, side);
+      const Matrix x = mesh.nodes(Eigen::all, nodes);
+      if (x.row(2).cwiseAbs().maxCoeff() > 1e-12) continue;
+      ++in_the_plane;
+      for (Eigen::Index k = 0; k < 3; ++k)
+        EXPECT_LT((x.col(3 + k) - 0.5 * (x.col(k) + x.col((k + 1) % 3))).norm(), 1e-15);
+    }
+  EXPECT_EQ(in_the_plane, 8);
+}
+
 TEST(SolidAbaqus, WithoutSolidsIsRefused) {
   EXPECT_THROW(parse_solid_abaqus("*NODE\n1, 0, 0, 0\n", "empty.inp"), InputError);
   EXPECT_THROW(parse_solid_abaqus("", "empty.inp"), InputError);

@@ -130,7 +130,7 @@ void SpaceReader::add_bodies_of_file(const Value& mesh, SpaceBody body) {
   if (file && hexahedra &&
       std::none_of(file->cells.begin(), file->cells.end(),
                    [](const files::ImportedSolidCell& cell) { return files::sides_of(cell) > 4; }))
-    report_.error(*kind, "the file has no hexahedra or wedges, which are read of .inp files: leave 'kind' out");
+    report_.error(*kind, "the file has no hexahedra or wedges: leave 'kind' out");
   const auto choice = file && region ? region_of(*region, *file) : std::optional(-1);
   if (!file || !choice) return model_.bodies.push_back(body);
   add_parts(mesh, solid_bodies(*file, *choice), std::move(body));
