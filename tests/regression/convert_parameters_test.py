@@ -41,7 +41,8 @@ WHOLE = ("*PART, NAME=P\n" + grid(1, 1, 1.0, 1.0, kind="CPE4", elset="PART") + "
          "*ELSET, ELSET=EVERY\nLOW, TOP, SIDE, P-1.PART\n*SOLID SECTION, ELSET=EVERY, MATERIAL=steel\n" + CONTACT
          + "*CONTACT CONTROLS\n*TIE\nLOW_RIGHT, SIDE_LEFT\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN_LOW_BOTTOM, 20.\n"
          "*BOUNDARY\nN_LOW_BOTTOM, 1, 2\nN_TOP_LEFT, 1\nP-1.N_PART_BOTTOM, 1, 2\n" + STATIC
-         + "*CLOAD\n109, 2, -5.\n*DLOAD\n103, P3, 7.\n*DSLOAD\nTOP_RIGHT, P, 1e3\n*RESTART, WRITE\n" + END)
+         + "*CLOAD\n109, 2, -5.\n*DLOAD\n103, P3, 7.\n*DSLOAD\nTOP_RIGHT, P, 1e3\n*RESTART, WRITE\n" + END
+         + "*STEP\n*STATIC\n*CHANGE FRICTION, INTERACTION=I\n*FRICTION\n0.2\n" + END)
 
 VALUES = {"NSET": "NEW", "ELSET": "NEW", "INC": "100", "ADJUST": "0.1", "AMPLITUDE": "A", "POSITION TOLERANCE": "0.1",
           "NAME": "NEW", "SOLVER": "PARDISO", "ORIENTATION": "O", "EXTRAPOLATION": "LINEAR", "MODULI": "INSTANTANEOUS"}
@@ -177,13 +178,16 @@ class Nodes(Converting):
     def test_soft_contact_is_part_of_the_model(self):
         """E / k L of 1000 / (sqrt(2) k): 0.7 % with 1e5, 7 % with 1e4."""
         law = "*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={}\n"
-        for text, stiff in ((law.format("LINEAR") + "1e5\n", True), (law.format("LINEAR") + "1e4\n", False),
+        for text, stiff in ((law.format("LINEAR") + "1e5\n", True), (law.format("LINEAR") + "0.\n", False),
                             (law.format("TABULAR") + "0., 0.\n1e3, 1e-2\n1e4, 1.5e-2\n", True),
                             (law.format("TABULAR") + "0., 0.\n1e3, 1e-2\n1.1e3, 2e-2\n", False),
                             (law.format("TABULAR") + "0., -0.1\n1e6, 1e-2\n", False), (law.format("EXPONENTIAL") + "1e-3, 1e6\n", False)):
             with self.subTest(text=text):
                 run = self.convert(self.blocks(0.0).replace("*SURFACE INTERACTION, NAME=I\n", text))
                 self.assertEqual(run.returncode, 0 if stiff else 1, run.stderr)
+        soft = self.blocks(0.0).replace("*SURFACE INTERACTION, NAME=I\n", law.format("LINEAR") + "1e4\n")
+        expected = 2 * 1e-3 / (2 / 1000 + 1 / 1e4)  # two blocks and the contact in a row
+        self.assertAlmostEqual(self.force(soft), -expected, delta=1e-9)
         for slope, stiff in (("1e5", True), ("1e4", False)):
             run = self.convert(self.blocks(0.0).replace("*FRICTION\n0.3\n", f"*FRICTION\n0.3, {slope}\n"))
             self.assertEqual(run.returncode, 0 if stiff else 1, run.stderr)

@@ -169,7 +169,7 @@ class Couplings(OfDecks):
                 (self.RIGID.replace("NSET=COLUMN_TOP", "NSET=TWO") + "*NSET, NSET=TWO\nCOLUMN_TOP, COLUMN_BOTTOM\n", load, "'TWO' of *RIGID BODY is not one face of one body"),
                 ("*ELSET, ELSET=ONE\n1\n" + self.RIGID.replace("NSET=COLUMN_TOP", "ELSET=ONE"), load, "the elements 'ONE' of *RIGID BODY are not all of one body"),
                 (self.KINEMATIC, step("*BOUNDARY", "9999, 7, 7, 0.1"), "degree of freedom 7 is not one of a reference node"),
-                ("*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n", load, "*EQUATION joins degrees of freedom"),
+                ("*EQUATION\n2\n5, 1, 1., 6, 1, -1.\n", load, "this *EQUATION neither leaves one displacement unknown nor ties"),
         ):
             with self.subTest(sentence=sentence):
                 done = self.convert(deck + coupling + steps)

@@ -138,7 +138,7 @@ class Numbers(support.InTemporaryDirectory):
     def test_rigid_contact(self):
         """A soft contact, or one that presses before it touches, is a hard one if the user says so."""
         deck = self.two_blocks("C3D8", lambda top: "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in top))
-        for law, what in (("LINEAR\n1000.", "the stiffness of contact is so small"), ("EXPONENTIAL\n1e-3, 5.", "presses before the surfaces touch")):
+        for law, what in (("LINEAR\n1000.", "the stiffness of contact is so small"), ("TABULAR\n0., 0.\n1., 1e-3", "the stiffness of contact is so small"), ("EXPONENTIAL\n1e-3, 5.", "presses before the surfaces touch")):
             (self.directory / "deck.inp").write_text(deck.replace("HARD", law), encoding="utf-8")
             done = scabo("convert", self.directory / "deck.inp", "--force", "--rigid-contact")
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -153,7 +153,6 @@ class Refused(support.InTemporaryDirectory):
     def test_with_a_sentence(self):
         deck = Numbers.two_blocks(None, "C3D8", lambda top: "*CLOAD\n1001, 3, -7.\n")
         for old, new, sentence in (
-                ("*BOUNDARY", "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n*BOUNDARY", "*EQUATION joins degrees of freedom"),
                 ("SLAVE, MASTER", "MASTER, MASTER", "each of both surfaces must be of one body, and not of the same"),
                 ("ELSET=LOWER\n1, 1,", "ELSET=LOWER\n1, -1,", "cell 1 has the node -1; numbers of nodes are positive"),
                 ("SLAVE, MASTER", "NONE, MASTER", "there is no surface 'NONE' with outer sides of solid elements"),
@@ -163,7 +162,7 @@ class Refused(support.InTemporaryDirectory):
                 ("*CLOAD\n", "*DLOAD\nUPPER, BZ, 3.\n*CLOAD\n", "forces per volume (BX, BY, BZ) and rotation (CENTRIF) are not taken in space"),
                 ("*CLOAD\n", "*DLOAD\n1001, P7, 3.\n*CLOAD\n", "a distributed load of type 'P7' is not taken; there are P1 to P6 and GRAV"),
                 ("*CLOAD\n", "*END STEP\n*STEP\n*STATIC\n1., 1.\n*BOUNDARY, OP=NEW\nLOWER_BOTTOM, 3\n*CLOAD\n", "begins or ends in step 2, which supports in space do not"),
-                ("PRESSURE-OVERCLOSURE=HARD\n", "PRESSURE-OVERCLOSURE=LINEAR\n1000.\n", "the stiffness of contact is so small"),
+                ("PRESSURE-OVERCLOSURE=HARD\n", "PRESSURE-OVERCLOSURE=TABULAR\n0., 0.\n1., 1e-3\n", "the stiffness of contact is so small"),
                 ("MATERIAL=steel\n*SOLID SECTION, ELSET=UPPER, MATERIAL=steel", "MATERIAL=steel", "have no material; add a *SOLID SECTION"),
         ):
             with self.subTest(sentence=sentence):

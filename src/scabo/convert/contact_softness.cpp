@@ -37,14 +37,15 @@ void tell(double softness, const files::DeckPlace& at, const char* what, const c
 
 }  // namespace
 
-void tell_softness(const files::ImportedMesh& mesh, const DeckBodies& bodies, const std::vector<double>& young, int a,
-                   int b, const DeckInteraction& interaction, Remarks& remarks) {
+std::optional<double> modulus_of(const files::ImportedMesh& mesh, const DeckBodies& bodies,
+                                 const std::vector<double>& young, int a, int b, const DeckInteraction& interaction,
+                                 Remarks& remarks) {
   // The softer body, whose displacements are the larger ones.
-  tell_softness(std::min(stiffness_of(mesh, bodies, young, a), stiffness_of(mesh, bodies, young, b)), interaction,
-                remarks);
+  return modulus_of(std::min(stiffness_of(mesh, bodies, young, a), stiffness_of(mesh, bodies, young, b)), interaction,
+                    remarks);
 }
 
-void tell_softness(double body, const DeckInteraction& interaction, Remarks& remarks) {
+std::optional<double> modulus_of(double body, const DeckInteraction& interaction, Remarks& remarks) {
   if (interaction.exponential) {
     constexpr const char* law =
         "PRESSURE-OVERCLOSURE=EXPONENTIAL presses before the surfaces touch, and Scabo's do not";
@@ -54,14 +55,28 @@ void tell_softness(double body, const DeckInteraction& interaction, Remarks& rem
       remarks.essential(interaction.at_stiffness,
                         fmt::format("{}; where it is but an aid of the solver, convert with --rigid-contact", law));
   }
-  if (!std::isfinite(body)) return;  // without a material, which is told elsewhere
+  if (!std::isfinite(body)) return {};  // without a material, which is told elsewhere
   const auto softness = [body](double stiffness) { return stiffness > 0.0 ? body / stiffness : HUGE_VAL; };
-  if (interaction.stiffness)
-    tell(softness(*interaction.stiffness), interaction.at_stiffness, "the stiffness of contact",
-         "Scabo's bodies in contact do not overlap", interaction.rigid, remarks);
+  std::optional<double> modulus;
+  if (interaction.stiffness) {
+    const double share = softness(*interaction.stiffness);
+    const bool is_bed = interaction.linear && !interaction.rigid && std::isfinite(share) && share > most_softness;
+    if (is_bed) {
+      modulus = interaction.stiffness;
+      remarks.note(interaction.at_stiffness,
+                   fmt::format("the stiffness of contact adds {:.2g} % to the displacements of the bodies, and is the "
+                               "`modulus` of the contact; where it is but an aid of the solver, convert with "
+                               "--rigid-contact",
+                               100.0 * share));
+    } else {
+      tell(share, interaction.at_stiffness, "the stiffness of contact", "Scabo's bodies in contact do not overlap",
+           interaction.rigid, remarks);
+    }
+  }
   if (interaction.stick_stiffness && *interaction.stick_stiffness > 0.0)
     tell(softness(*interaction.stick_stiffness), interaction.at_stick_stiffness, "the stiffness of sticking",
          "Scabo's pairs that stick do not slip", interaction.rigid, remarks);
+  return modulus;
 }
 
 }  // namespace scabo::convert

@@ -69,7 +69,7 @@ class Converter {
     write_pressures();
     write_body_loads();
     write_contacts();
-    parts_.steps = steps_text(content_.steps, driven_, parts_.curves);
+    parts_.steps = steps_text(content_.steps, driven_, parts_);
     parts_.title = content_.title;
     if (!content_.sections.empty()) parts_.thickness = content_.sections.front().thickness;
     result_.model = model_text(parts_, bodies_, remarks_, deck_name_, mesh_name_);
@@ -410,9 +410,7 @@ class Converter {
     for (std::size_t k = 0; k < content_.contacts.size(); ++k) {
       const DeckContact& contact = content_.contacts[k];
       const auto interaction = content_.interactions.find(contact.interaction);
-      if (!contact.tie && !contact.interaction.empty() && interaction == content_.interactions.end())
-        remarks_.essential(contact.at, fmt::format("there is no *SURFACE INTERACTION '{}'; correct its name",
-                                                   files::printable(contact.interaction)));
+      const bool known = interaction != content_.interactions.end();
       if (!contact_uses_[k]) continue;
       const auto [master, slave] = *contact_uses_[k];
       std::vector<std::pair<const DeckPiece*, const DeckPiece*>> pairs;
@@ -434,21 +432,23 @@ class Converter {
                 ? "both surfaces are of one body, and Scabo's contacts join two bodies; leave it out, or part the body"
                 : "the two surfaces do not lie opposite to each other, and the contact is lost; correct them");
       for (const auto& [a, b] : pairs) {
-        if (!contact.tie && interaction != content_.interactions.end())
-          tell_softness(mesh_, bodies_, young_, a->body, b->body, interaction->second, remarks_);
+        std::optional<double> modulus;
+        if (!contact.tie && known)
+          modulus = modulus_of(mesh_, bodies_, young_, a->body, b->body, interaction->second, remarks_);
         const std::string between = fmt::format("between: [{}, {}]", place(*a), place(*b));
-        const bool bonded = contact.tie || (interaction != content_.interactions.end() && interaction->second.tied);
-        const std::string wanted = interaction != content_.interactions.end() && content_.contacts.size() == 1
-                                       ? interaction->second.name
-                                       : contact.slave + "_" + contact.master;
+        const bool bonded = contact.tie || (known && interaction->second.tied);
+        const std::string wanted =
+            known && content_.contacts.size() == 1 ? interaction->second.name : contact.slave + "_" + contact.master;
         if (bonded && least_distance(mesh_, *b, *a) <= 1e-6 * length_of(mesh_, *b)) {
           parts_.ties += fmt::format("  {}: {{{}}}\n", yaml_word(names.take(wanted)), between);
           ++result_.ties;
           continue;
         }
-        const double mu = interaction == content_.interactions.end() ? 0.0 : interaction->second.friction;
-        parts_.contacts += fmt::format("  {}: {{{}, {}}}\n", yaml_word(names.take(wanted)), between,
-                                       bonded ? std::string("bond: true") : "friction: " + number_text(mu));
+        const std::string name = yaml_word(names.take(wanted));
+        if (bonded)
+          parts_.contacts += fmt::format("  {}: {{{}, bond: true}}\n", name, between);
+        else
+          add_contact(parts_, name, between, known ? interaction->second.friction : 0.0, modulus, contact.interaction);
         ++result_.contacts;
       }
     }

@@ -16,6 +16,7 @@
 #include "scabo/convert/solid_adjust.hpp"
 #include "scabo/convert/solid_bodies_of_deck.hpp"
 #include "scabo/convert/solid_model_writer.hpp"
+#include "scabo/convert/write_equations.hpp"
 #include "scabo/convert/write_model.hpp"
 #include "scabo/convert/write_references.hpp"
 #include "scabo/convert/write_steps.hpp"
@@ -50,6 +51,8 @@ class SolidConverter {
     if (to_.content.steps.empty())
       to_.remarks.essential({deck_name_, 1},
                             "the deck has no *STEP, so that nothing is analysed; add one with *STATIC");
+    write_joints();
+    write_equations(to_);
     write_references(to_);
     write_supports();
     write_forces();
@@ -57,7 +60,7 @@ class SolidConverter {
     write_body_loads();
     write_temperatures();
     write_contacts();
-    to_.parts.steps = steps_text(to_.content.steps, to_.driven, to_.parts.curves, true);
+    to_.parts.steps = steps_text(to_.content.steps, to_.driven, to_.parts, true);
     to_.parts.title = to_.content.title;
     to_.result.model = text();
     to_.result.mesh = solid_mesh_text(to_.deck, to_.bodies, to_.sets, deck_name_);
@@ -77,6 +80,21 @@ class SolidConverter {
     }
   }
 
+  /// Bodies of different materials that sides of elements join.
+  void write_joints() {
+    for (const auto& [a, b] : to_.bodies.joined) {
+      to_.remarks.note(
+          to_.deck.elements.front().at,
+          fmt::format("elements of two materials hang together: they become the bodies '{}' and '{}', with a "
+                      "tie between them",
+                      to_.name_of(a), to_.name_of(b)));
+      to_.parts.ties += fmt::format("  {0}: {{between: [{1}.to_{2}, {2}.to_{1}]}}\n",
+                                    yaml_word(to_.contact_names.take(to_.name_of(a) + "_" + to_.name_of(b))),
+                                    to_.name_of(a), to_.name_of(b));
+      ++to_.result.ties;
+    }
+  }
+
   // ---- supports and loads
 
   std::size_t body_of(int node) const {
@@ -92,9 +110,14 @@ class SolidConverter {
         to_.remarks.essential(given.at, "the support holds nodes of a rigid body; hold its reference node");
         continue;
       }
-      auto& [nodes, label] = held[{to_.bodies.of_node[static_cast<std::size_t>(at.first)], at.second, given.course}];
-      nodes.push_back(at.first);
-      if (label.empty()) label = given.label;
+      std::vector<int> bodies{to_.bodies.of_node[static_cast<std::size_t>(at.first)]};
+      if (const auto further = to_.bodies.further_of.find(at.first); further != to_.bodies.further_of.end())
+        bodies.insert(bodies.end(), further->second.begin(), further->second.end());
+      for (const int body : bodies) {
+        auto& [nodes, label] = held[{body, at.second, given.course}];
+        nodes.push_back(at.first);
+        if (label.empty()) label = given.label;
+      }
     }
     std::map<std::pair<int, std::string>, std::string> fixed;  // body and set: the axes along which it is held
     for (const auto& [key, of] : held) {
@@ -237,13 +260,27 @@ class SolidConverter {
 
   // ---- contacts
 
+  /// What a *CLEARANCE adds to the gap of the mesh.
+  double gap_of(const DeckContact& contact, const std::vector<int>& master, const std::vector<int>& slave) {
+    if (!contact.clearance) return 0.0;
+    const auto gaps = gaps_of_mesh(*to_.deck.solid, master, slave);
+    const double range = gaps ? gaps->second - gaps->first : 0.0, wanted = *contact.clearance;
+    constexpr double most_uneven = 0.01;  // of the clearance
+    if (gaps && range <= most_uneven * std::abs(wanted)) return wanted - 0.5 * (gaps->first + gaps->second);
+    to_.remarks.essential(
+        contact.at,
+        gaps
+            ? fmt::format("*CLEARANCE replaces the gaps of the mesh, which are from {:.3g} to {:.3g}, and the `gap` of "
+                          "Scabo's contacts is added to them; move the nodes so that they are equal",
+                          gaps->first, gaps->second)
+            : std::string("the surfaces of a contact with *CLEARANCE do not face each other; correct them"));
+    return 0.0;
+  }
+
   void write_contacts() {
     for (const DeckContact& contact : to_.content.contacts) {
       const auto interaction = to_.content.interactions.find(contact.interaction);
       const bool known = interaction != to_.content.interactions.end();
-      if (!contact.tie && !contact.interaction.empty() && !known)
-        to_.remarks.essential(contact.at, fmt::format("there is no *SURFACE INTERACTION '{}'; correct its name",
-                                                      files::printable(contact.interaction)));
       const auto master = to_.surface(contact.master, contact.at), slave = to_.surface(contact.slave, contact.at);
       if (master.empty() || slave.empty()) continue;
       if (master.size() > 1 || slave.size() > 1 || master.begin()->first == slave.begin()->first) {
@@ -255,13 +292,14 @@ class SolidConverter {
       const auto& [a, a_sides] = *master.begin();
       const auto& [b, b_sides] = *slave.begin();
       adjust_solids(to_.deck, contact, a_sides, b_sides, to_.remarks);
+      std::optional<double> modulus;
       if (known && !contact.tie) {
         const auto stiffness = [](const SolidDeckBody& body) {
           return body.rigid ? HUGE_VAL : body.young / std::cbrt(body.volume);
         };
-        tell_softness(std::min(stiffness(to_.bodies.bodies[static_cast<std::size_t>(a)]),
-                               stiffness(to_.bodies.bodies[static_cast<std::size_t>(b)])),
-                      interaction->second, to_.remarks);
+        modulus = modulus_of(std::min(stiffness(to_.bodies.bodies[static_cast<std::size_t>(a)]),
+                                      stiffness(to_.bodies.bodies[static_cast<std::size_t>(b)])),
+                             interaction->second, to_.remarks);
       }
       const std::string between =
           fmt::format("between: [{}.{}, {}.{}]", to_.name_of(a), to_.set_of(to_.sets.sides, a_sides, contact.master),
@@ -272,8 +310,8 @@ class SolidConverter {
         to_.parts.ties += fmt::format("  {}: {{{}}}\n", name, between);
         ++to_.result.ties;
       } else {
-        to_.parts.contacts += fmt::format("  {}: {{{}, friction: {}}}\n", name, between,
-                                          number_text(known ? interaction->second.friction : 0.0));
+        add_contact(to_.parts, name, between, known ? interaction->second.friction : 0.0, modulus, contact.interaction,
+                    gap_of(contact, a_sides, b_sides));
         ++to_.result.contacts;
       }
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/files/abaqus_lines.hpp"
@@ -14,16 +15,32 @@ using files::DeckBlock;
 using files::DeckLine;
 using files::upper;
 
+namespace {
+
+constexpr double most_friction = 1e6;  // the largest one that a model may have; decks write more where nothing slips
+
+}  // namespace
+
+void tell_unknown_interactions(const DeckContent& content, Remarks& remarks) {
+  for (const DeckContact& contact : content.contacts)
+    if (!contact.tie && !contact.interaction.empty() && !content.interactions.contains(contact.interaction))
+      remarks.essential(contact.at, fmt::format("there is no *SURFACE INTERACTION '{}'; correct its name",
+                                                files::printable(contact.interaction)));
+}
+
 bool ContactReader::read(const DeckBlock& block, bool in_step) {
   if (block.name == "SURFACEINTERACTION") {
     interaction_ = upper(parameter(block, "NAME"));
     laws_.clear();
+    changes_ = false;
     if (content_.interactions.contains(interaction_))
       remarks_.essential(block.at, fmt::format("there is another {} '{}' before this one; give each a name of its own",
                                                block.written, files::printable(parameter(block, "NAME"))));
     content_.interactions[interaction_].name = parameter(block, "NAME");
   } else if (block.name == "SURFACEBEHAVIOR") {
     surface_behavior(block);
+  } else if (block.name == "CHANGEFRICTION") {
+    change_friction(block, in_step);
   } else if (block.name == "FRICTION") {
     friction(block);
   } else if (block.name == "CONTACTPAIR" || block.name == "TIE") {
@@ -38,12 +55,25 @@ bool ContactReader::read(const DeckBlock& block, bool in_step) {
   return true;
 }
 
+void ContactReader::change_friction(const DeckBlock& block, bool in_step) {
+  const std::string name = parameter(block, "INTERACTION");
+  if (!in_step) return remarks_.essential(block.at, "*CHANGE FRICTION stands outside of a step; give it within *STEP");
+  if (!content_.interactions.contains(upper(name)))
+    return remarks_.essential(
+        block.at, fmt::format("there is no *SURFACE INTERACTION '{}'; correct its name", files::printable(name)));
+  interaction_ = upper(name);
+  laws_.clear();
+  changes_ = true;
+  remarks_.note(block.at, "*CHANGE FRICTION: the coefficient goes to its new value over the step, and not at once");
+}
+
 void ContactReader::friction(const DeckBlock& block) {
   if (interaction_.empty())
     return remarks_.essential(block.at, "*FRICTION stands before any *SURFACE INTERACTION and is lost");
   if (block.lines.empty()) return;
   if (const auto mu = number(remarks_, block.lines[0], 0, "the coefficient of friction"))
-    content_.interactions[interaction_].friction = *mu;
+    (changes_ ? content_.steps.back().friction[interaction_] : content_.interactions[interaction_].friction) =
+        std::min(*mu, most_friction);
   DeckInteraction& interaction = content_.interactions[interaction_];
   if (block.lines[0].fields.size() > 1) {
     interaction.stick_stiffness = number(remarks_, block.lines[0], 1, "the stiffness of sticking", 0.0);
@@ -72,6 +102,7 @@ void ContactReader::surface_behavior(const DeckBlock& block) {
   const auto slope = law == "TABULAR" ? least_slope(block) : number(remarks_, block.lines[0], 0, "the stiffness");
   if (!slope) return;
   content_.interactions[interaction_].stiffness = slope;
+  content_.interactions[interaction_].linear = law == "LINEAR";
   content_.interactions[interaction_].at_stiffness = block.lines[0].at;
 }
 
@@ -119,6 +150,32 @@ void ContactReader::pairs(const DeckBlock& block, bool in_step) {
     adjust(block, contact);
     content_.contacts.push_back(std::move(contact));
   }
+}
+
+void ContactReader::clearance(const DeckBlock& block, bool in_step) {
+  const std::string text = parameter(block, "VALUE");
+  double value = 0.0;
+  for (const auto& [name, given] : block.parameters)
+    if (name != "MASTER" && name != "SLAVE" && name != "VALUE")
+      remarks_.essential(block.at, fmt::format("*CLEARANCE with {} is not taken; there is MASTER, SLAVE, VALUE",
+                                               files::printable(name)));
+  if (in_step)
+    return remarks_.essential(block.at, "*CLEARANCE within a step is not taken; give it before the first step");
+  if (!files::parse_number(std::string_view(text), value) || !std::isfinite(value))
+    return remarks_.essential(block.at,
+                              fmt::format("'{}' is no VALUE of *CLEARANCE; write a length", files::printable(text)));
+  const std::string slave = upper(parameter(block, "SLAVE")), master = upper(parameter(block, "MASTER"));
+  for (DeckContact& contact : content_.contacts) {
+    if (contact.tie || upper(contact.slave) != slave || upper(contact.master) != master) continue;
+    if (contact.clearance)
+      remarks_.essential(block.at, "another *CLEARANCE of this contact stands before this one; leave one of them");
+    contact.clearance = value;
+    return;
+  }
+  remarks_.essential(block.at,
+                     fmt::format("no *CONTACT PAIR before this *CLEARANCE has the slave '{}' and the master '{}'; "
+                                 "correct the names",
+                                 files::printable(slave), files::printable(master)));
 }
 
 void ContactReader::adjust(const DeckBlock& block, DeckContact& contact) {

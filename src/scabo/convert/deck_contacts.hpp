@@ -12,6 +12,9 @@
 
 namespace scabo::convert {
 
+/// Contacts whose *SURFACE INTERACTION is not there.
+void tell_unknown_interactions(const DeckContent& content, Remarks& remarks);
+
 class ContactReader {
  public:
   /// `nodes`: of the node set of a name, nothing if there is none.
@@ -21,6 +24,8 @@ class ContactReader {
 
   /// Takes a block if it is about contact; false if it is not.
   bool read(const files::DeckBlock& block, bool in_step);
+  /// *CLEARANCE of one of the contacts before it.
+  void clearance(const files::DeckBlock& block, bool in_step);
 
  private:
   void friction(const files::DeckBlock& block);
@@ -32,7 +37,9 @@ class ContactReader {
   DeckContent& content_;
   Remarks& remarks_;
   Nodes nodes_;
+  void change_friction(const files::DeckBlock& block, bool in_step);
   std::string interaction_;     ///< the last one, in upper case
+  bool changes_ = false;        ///< its friction is that of the step, by *CHANGE FRICTION
   std::set<std::string> laws_;  ///< keywords of its laws that have been read
 };
 

@@ -45,7 +45,9 @@ class ContentReader {
   }
 
   DeckContent read() {
-    for (const DeckBlock& block : deck_.blocks) keyword(block);
+    const std::vector<bool> left_out = blocks_left_out(deck_, remarks_);
+    for (std::size_t b = 0; b < deck_.blocks.size(); ++b)
+      if (!left_out[b]) keyword(deck_.blocks[b]);
     if (in_step_) end_step();
     for (auto* table : {&displacements_, &forces_, &pressures_}) {
       auto& to = table == &displacements_ ? content_.displacements
@@ -181,7 +183,8 @@ class ContentReader {
   /// Amplitude of a block in upper case, empty if there is none; nothing if it is not known.
   std::optional<std::string> amplitude_of(const DeckBlock& block) {
     const std::string name = upper(parameter(block, "AMPLITUDE"));
-    if (name.empty() || amplitudes_.contains(name)) return name;
+    if (name.empty()) return name;
+    if (amplitudes_.contains(name)) return delayed_amplitude(amplitudes_, name, block, remarks_);
     remarks_.essential(
         block.at, fmt::format("there is no usable *AMPLITUDE '{}', and the values of this keyword are lost; correct it",
                               files::printable(name)));
@@ -202,10 +205,17 @@ class ContentReader {
     growing.given.at = line.at;
   }
 
+  /// Whether 0 times either of two amplitudes is meant.
+  bool stays_zero(const Growing& growing, const std::string& amplitude) const {
+    const auto is_relative = [&](const std::string& name) { return name.empty() || !amplitudes_.at(name).absolute; };
+    return growing.value == 0.0 && is_relative(growing.amplitude) && is_relative(amplitude);
+  }
+
   /// Programs differ in which of two values counts.
   void tell_other_value(const Growing& growing, int component, double value, const std::string& amplitude,
                         const DeckLine& line) {
-    if (!in_step_ || !growing.touched || (growing.value == value && growing.amplitude == amplitude)) return;
+    const bool same = growing.value == value && (growing.amplitude == amplitude || stays_zero(growing, amplitude));
+    if (!in_step_ || !growing.touched || same) return;
     remarks_.essential(line.at,
                        fmt::format("in one step '{}' has the displacement {:g} along degree of freedom {}, and "
                                    "'{}', of the same node, {:g}; keep the one that is meant",
@@ -421,6 +431,8 @@ class ContentReader {
       dload(block);
     } else if (name == "INITIALCONDITIONS" && upper(parameter(block, "TYPE")) == "TEMPERATURE") {
       initial_temperatures(block);
+    } else if (name == "CLEARANCE" && deck_.solid) {
+      contacts_.clearance(block, in_step_);
     } else if (name == "TEMPERATURE" && deck_.solid) {
       temperature(block);
     } else if (name != "AMPLITUDE" && !read_material_block(deck_, block, content_, remarks_) &&
@@ -460,7 +472,7 @@ class ContentReader {
   Remarks& remarks_;
   DeckNodes nodes_{deck_, deck_.solid ? references_of(deck_, remarks_) : std::vector<DeckReference>{}};
   std::unordered_map<std::string, const files::FacetSet*> facet_sets_;
-  const std::map<std::string, Amplitude> amplitudes_ = read_amplitudes(deck_, remarks_);
+  std::map<std::string, Amplitude> amplitudes_ = read_amplitudes(deck_, remarks_);
   std::map<std::string, std::vector<const DeckBlock*>> left_out_;
   DeckContent content_;
   Table displacements_, forces_, pressures_, temperatures_;
@@ -480,6 +492,7 @@ class ContentReader {
 DeckContent read_content(const files::AbaqusDeck& deck, bool rigid_contact, Remarks& remarks) {
   DeckContent content = ContentReader(deck, remarks).read();
   for (auto& [name, interaction] : content.interactions) interaction.rigid = rigid_contact;
+  tell_unknown_interactions(content, remarks);
   return content;
 }
 

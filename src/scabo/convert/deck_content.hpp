@@ -41,6 +41,7 @@ struct DeckInteraction {
   bool tied = false;
   std::optional<double> stiffness, stick_stiffness;  ///< pressure per overlap, shear stress per slip; none: rigid
   files::DeckPlace at_stiffness, at_stick_stiffness;
+  bool linear = false;       ///< the pressure is the stiffness times the overlap
   bool exponential = false;  ///< pressure before the surfaces touch; its place is that of the stiffness
   bool rigid = false;        ///< by the wish of the user, whatever stiffness and law the deck gives
 };
@@ -53,6 +54,7 @@ struct DeckContact {
   std::optional<std::set<int>> adjusted_nodes;  ///< of a contact: or these, whatever their gap
   bool adjusts = true;                          ///< of a tie: nodes within the tolerance are moved onto the master
   std::optional<double> tolerance;              ///< of a tie
+  std::optional<double> clearance;              ///< of a contact: its gap, whatever that of the mesh; negative: overlap
 };
 
 struct DeckStep {
@@ -60,6 +62,7 @@ struct DeckStep {
   double first = 1.0, period = 1.0, smallest = 0.0, largest = 0.0;  ///< of *STATIC; 0: not given
   bool equal = false;                                               ///< DIRECT
   bool at_once = false;  ///< AMPLITUDE=STEP: loads jump at its begin, so that one increment is the whole step
+  std::map<std::string, double> friction;  ///< coefficients that change, by the interaction in upper case
   files::DeckPlace at;
 };
 

@@ -85,6 +85,23 @@ std::map<std::string, Amplitude> read_amplitudes(const files::AbaqusDeck& deck, 
   return amplitudes;
 }
 
+std::optional<std::string> delayed_amplitude(std::map<std::string, Amplitude>& amplitudes, const std::string& name,
+                                             const files::DeckBlock& block, Remarks& remarks) {
+  const std::string text = parameter(block, "TIME DELAY");
+  if (text.empty()) return name;
+  double delay = 0.0;
+  if (!files::parse_number(std::string_view(text), delay) || !std::isfinite(delay)) {
+    remarks.essential(block.at,
+                      fmt::format("'{}' is no TIME DELAY of {}; write a time", files::printable(text), block.written));
+    return std::nullopt;
+  }
+  const std::string delayed = fmt::format("{} DELAYED BY {}", name, text);
+  Amplitude later = amplitudes.at(name);
+  for (auto& [time, value] : later.points) time += delay;
+  amplitudes.emplace(delayed, std::move(later));
+  return delayed;
+}
+
 void begin_at(Leg& leg, double value, double part) {
   std::vector<std::pair<double, double>> table = {{0.0, value}};
   const auto after = std::find_if(leg.table.begin(), leg.table.end(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,11 @@ struct Amplitude {
 
 /// The tables of the deck, by name in upper case; those of other kinds become remarks.
 std::map<std::string, Amplitude> read_amplitudes(const files::AbaqusDeck& deck, Remarks& remarks);
+
+/// The name of an amplitude as a block uses it: with TIME DELAY that of another one, which is added, whose times are
+/// later; nothing, with a remark, if the delay is no number.
+std::optional<std::string> delayed_amplitude(std::map<std::string, Amplitude>& amplitudes, const std::string& name,
+                                             const files::DeckBlock& block, Remarks& remarks);
 
 /// `factor` times the amplitude over a step of length `period` from `start`. Its table holds both ends, even if nothing
 /// lies between them.

@@ -59,8 +59,9 @@ std::optional<std::pair<int, int>> DeckNodes::component_at(int node, int freedom
   if (node >= 0) return freedom < (deck_.solid ? 3 : 2) ? std::optional(std::pair(node, freedom)) : std::nullopt;
   const bool turns = -1 - node >= count();
   const int of = turns ? node + count() : node;
-  const bool bolt = references_[static_cast<std::size_t>(-1 - of)].kind == DeckReference::Kind::bolt;
-  if (freedom >= (bolt ? 1 : turns ? 3 : 6)) return std::nullopt;
+  const DeckReference::Kind kind = references_[static_cast<std::size_t>(-1 - of)].kind;
+  const bool shifts = turns || kind == DeckReference::Kind::of_equations;
+  if (freedom >= (kind == DeckReference::Kind::bolt ? 1 : shifts ? 3 : 6)) return std::nullopt;
   return std::pair(of, turns ? freedom + 3 : freedom);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scabo/convert/deck_equations.hpp"
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/files/abaqus_lines.hpp"
 #include "scabo/files/text_cursor.hpp"
@@ -30,6 +31,8 @@ class ReferenceReader {
       if (block.name == "COUPLING") coupling(block, b + 1 < deck_.blocks.size() ? &deck_.blocks[b + 1] : nullptr);
       if (block.name == "RIGIDBODY") rigid_body(block);
     }
+    for (const DeckBlock& block : deck_.blocks)
+      if (block.name == "EQUATION") nodes_of_equations(block);
     return std::move(references_);
   }
 
@@ -72,6 +75,15 @@ class ReferenceReader {
         block.at, fmt::format("node {} of {} is not there, or belongs to an element; give it a node of its own", number,
                               block.written));
     return std::nullopt;
+  }
+
+  /// Those of no element; what is wrong with the equations is told where they are written.
+  void nodes_of_equations(const DeckBlock& block) {
+    Remarks told_later;
+    for (const DeckEquation& equation : equations_of(block, told_later).value_or(std::vector<DeckEquation>{}))
+      for (const DeckTerm& term : equation.terms)
+        if (deck_.loose_nodes.contains(term.number) && !reference_at(references_, term.number))
+          references_.push_back(begun(block, Kind::of_equations, term.number));
   }
 
   DeckReference begun(const DeckBlock& block, Kind kind, std::int64_t node) const {
@@ -158,8 +170,8 @@ class ReferenceReader {
 }  // namespace
 
 bool is_of_reference(const std::string& keyword) {
-  static const std::set<std::string> known = {"PRE-TENSIONSECTION", "PRETENSIONSECTION", "COUPLING",
-                                              "KINEMATIC",          "DISTRIBUTING",      "RIGIDBODY"};
+  static const std::set<std::string> known = {"PRE-TENSIONSECTION", "PRETENSIONSECTION", "COUPLING", "KINEMATIC",
+                                              "DISTRIBUTING",       "RIGIDBODY",         "EQUATION"};
   return known.contains(keyword);
 }
 

@@ -1,4 +1,5 @@
-// Nodes of a deck of solids that stand for more than themselves: of *PRE-TENSION SECTION, *COUPLING and *RIGID BODY.
+// Nodes of a deck of solids that stand for more than themselves: of *PRE-TENSION SECTION, *COUPLING, *RIGID BODY
+// and *EQUATION.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,10 @@ namespace scabo::convert {
 
 struct DeckReference {
   enum class Kind {
-    bolt,         ///< the force or the shortening of a section
-    rigid,        ///< a face or a body that moves as one piece
-    distributing  ///< a force and a moment that are spread over a face
+    bolt,          ///< the force or the shortening of a section
+    rigid,         ///< a face or a body that moves as one piece
+    distributing,  ///< a force and a moment that are spread over a face
+    of_equations   ///< its displacements stand in equations
   };
   enum class On { surface, nodes, elements };
   Kind kind = Kind::rigid;

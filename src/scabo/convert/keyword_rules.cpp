@@ -105,6 +105,7 @@ void add_contact_rules(Rules& rules) {
                         refuses("ANISOTROPIC", "depends on the direction; give one coefficient"),
                         refuses("USER", "is a law of a program of its own; give a coefficient"),
                         refuses("DEPENDENCIES", "depends on field variables; give one coefficient")}};
+  rules["CHANGEFRICTION"] = {DataLines::optional, 0, 0, {takes("INTERACTION")}};
   rules["CONTACTPAIR"] = {DataLines::needed,
                           2,
                           0,
@@ -157,7 +158,7 @@ void add_history_rules(Rules& rules) {
                       refuses("TOTAL TIME AT START", "sets the time of amplitudes; take it out")}};
   const auto user = refuses("USER", "takes its values from a program of its own; write numbers");
   const auto load_case = refuses("LOAD CASE", "is a case of cyclic symmetry; take it out");
-  const auto delay = refuses("TIME DELAY", "shifts the *AMPLITUDE; write the times into its table");
+  const auto delay = takes("TIME DELAY");
   const auto submodel = refuses("SUBMODEL", "takes its values from another run; write numbers");
   rules["BOUNDARY"] = {DataLines::needed_unless_new,
                        4,

@@ -15,7 +15,7 @@ struct Group {
 constexpr Group groups[] = {
     {KeywordLoss::none, "",
      "PART ENDPART ASSEMBLY ENDASSEMBLY ENDINSTANCE ENDSTEP PREPRINT HEADING NODE ELEMENT NSET ELSET SURFACE "
-     "INSTANCE"},
+     "INSTANCE CHANGEFRICTION"},
     {KeywordLoss::note, "requests output and is left out; Scabo's results have files of their own",
      "NODEFILE ELFILE NODEPRINT ELPRINT OUTPUT NODEOUTPUT ELEMENTOUTPUT CONTACTFILE CONTACTPRINT CONTACTOUTPUT "
      "RESTART MONITOR PRINT SECTIONPRINT FACEPRINT SECTIONFILE FILEFORMAT ENERGYOUTPUT ENERGYPRINT ENERGYFILE "
@@ -35,7 +35,8 @@ constexpr Group groups[] = {
      "HYPERELASTIC HYPERFOAM CREEP VISCOELASTIC USERMATERIAL NOCOMPRESSION DEPVAR COMPRESSIONONLY NOTENSION "
      "FAILSTRESS DAMAGEINITIATION DAMAGEEVOLUTION SUPERELASTIC VALUESATINFINITY"},
     {KeywordLoss::essential,
-     "joins degrees of freedom, which Scabo's models cannot; use *TIE where faces stay together, and for a face of solids "
+     "joins degrees of freedom, which Scabo's models cannot; use *TIE where faces stay together, and for a face of "
+     "solids "
      "that moves as one piece *COUPLING",
      "EQUATION MPC RIGIDBODY COUPLING KINEMATIC DISTRIBUTING DISTRIBUTINGCOUPLING NETWORKMPC EMBEDDEDELEMENT "
      "CYCLICSYMMETRYMODEL"},
@@ -51,7 +52,7 @@ constexpr Group groups[] = {
      "STEADYSTATEDYNAMICS MODALDYNAMIC COMPLEXFREQUENCY GREEN GEOSTATIC SOILS RESPONSESPECTRUM SENSITIVITY "
      "ELECTROMAGNETICS"},
     {KeywordLoss::essential, "changes the contact or the elements within the analysis, which Scabo's models cannot",
-     "MODELCHANGE CHANGEFRICTION CHANGESURFACEBEHAVIOR CHANGECONTACTTYPE"},
+     "MODELCHANGE CHANGESURFACEBEHAVIOR CHANGECONTACTTYPE"},
     {KeywordLoss::essential, "is general contact, which is not taken; name the surfaces with *CONTACT PAIR",
      "CONTACT CONTACTINCLUSIONS CONTACTEXCLUSIONS CONTACTPROPERTYASSIGNMENT"},
     {KeywordLoss::essential, "sets gaps by a value, which is not taken; `gap` of a contact may replace it",

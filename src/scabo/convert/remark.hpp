@@ -22,13 +22,13 @@ class Remarks {
   std::vector<Remark> take() { return std::move(all_); }
 
  private:
-  /// The same sentence about one line counts once.
+  /// The same sentence about one line counts once, and the same warning about lines of one file too.
   void add(const files::DeckPlace& at, std::string text, bool essential) {
     constexpr std::size_t most = 500;  // more are not read; what matters is whether one is essential
     if (all_.size() >= most && (!essential || lost_)) return;
     lost_ = lost_ || essential;
     for (const Remark& known : all_)
-      if (known.at.line == at.line && known.at.file == at.file && known.text == text) return;
+      if ((known.at.line == at.line || !essential) && known.at.file == at.file && known.text == text) return;
     all_.push_back({at, std::move(text), essential});
   }
   std::vector<Remark> all_;

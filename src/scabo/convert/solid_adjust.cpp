@@ -48,6 +48,29 @@ bool is_opposite(const files::ImportedSolidMesh& mesh, int side, const MasterPla
 
 }  // namespace
 
+std::optional<std::pair<double, double>> gaps_of_mesh(const files::ImportedSolidMesh& mesh,
+                                                      const std::vector<int>& master, const std::vector<int>& slave) {
+  std::vector<MasterPlane> planes;
+  for (const int side : master) planes.push_back(master_plane(mesh, {side}));
+  std::set<int> nodes;
+  for (const int side : slave)
+    for (const int node : side_corners(mesh, side)) nodes.insert(node);
+  std::optional<std::pair<double, double>> gaps;
+  for (const int node : nodes) {
+    const Eigen::Vector3d x = mesh.nodes.col(node);
+    std::optional<double> nearest;
+    for (std::size_t k = 0; k < master.size(); ++k) {
+      const double gap = planes[k].gap(x);
+      if ((!nearest || std::abs(gap) < std::abs(*nearest)) && is_opposite(mesh, master[k], planes[k], x)) nearest = gap;
+    }
+    if (!nearest) continue;
+    if (!gaps) gaps = std::pair(*nearest, *nearest);
+    gaps->first = std::min(gaps->first, *nearest);
+    gaps->second = std::max(gaps->second, *nearest);
+  }
+  return gaps;
+}
+
 void adjust_solids(files::AbaqusDeck& deck, const DeckContact& contact, const std::vector<int>& master,
                    const std::vector<int>& slave, Remarks& remarks) {
   if (!contact.adjusted_nodes && !(contact.adjust_within.value_or(0.0) > 0.0)) return;

@@ -1,6 +1,8 @@
 // ADJUST of contacts between solids: nodes of the slave are moved onto a plane master before the analysis.
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "scabo/convert/deck_content.hpp"
@@ -11,5 +13,10 @@ namespace scabo::convert {
 /// enough, or which are in the set. A remark, and no motion, if the master is not plane.
 void adjust_solids(files::AbaqusDeck& deck, const DeckContact& contact, const std::vector<int>& master,
                    const std::vector<int>& slave, Remarks& remarks);
+
+/// The least and the largest gap between nodes of the slave and the sides of the master that they face; negative:
+/// overlap. Nothing if they face none.
+std::optional<std::pair<double, double>> gaps_of_mesh(const files::ImportedSolidMesh& mesh,
+                                                      const std::vector<int>& master, const std::vector<int>& slave);
 
 }  // namespace scabo::convert

@@ -27,30 +27,67 @@ std::array<int, 3> key_of_corners(const ImportedSolidCell& cell, int side) {
 
 namespace {
 
-/// For each cell its body, numbered by the first cells; and the sides of one cell only.
-std::vector<int> joined_cells(const ImportedSolidMesh& mesh, std::set<int>& outer) {
-  std::map<std::array<int, 3>, std::vector<int>> at;
+/// Sides of cells by their corners; a side is 4 times the cell and its number.
+using SidesAt = std::map<std::array<int, 3>, std::vector<int>>;
+
+SidesAt sides_at(const ImportedSolidMesh& mesh) {
+  SidesAt at;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (int side = 0; side < 4; ++side)
       at[key_of_corners(mesh.cells[c], side)].push_back(4 * static_cast<int>(c) + side);
-  std::vector<int> parent(mesh.cells.size());
+  return at;
+}
+
+/// For each cell its body, numbered by the first cells.
+std::vector<int> joined_cells(const SidesAt& at, const std::vector<std::string>& material_of_cell) {
+  std::vector<int> parent(material_of_cell.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int c) {
     while (parent[static_cast<std::size_t>(c)] != c) c = parent[static_cast<std::size_t>(c)];
     return c;
   };
-  for (const auto& [corners, sides] : at) {
-    if (sides.size() == 1) outer.insert(sides[0]);
+  const auto material = [&](int side) { return material_of_cell[static_cast<std::size_t>(side / 4)]; };
+  for (const auto& [corners, sides] : at)
     for (std::size_t k = 1; k < sides.size(); ++k) {
+      if (material(sides[0]) != material(sides[k])) continue;
       const int one = root(sides[0] / 4), other = root(sides[k] / 4);
       parent[static_cast<std::size_t>(std::max(one, other))] = std::min(one, other);
     }
-  }
   std::map<int, int> numbers;
   std::vector<int> bodies;
   for (int c = 0; c < static_cast<int>(parent.size()); ++c)
     bodies.push_back(numbers.try_emplace(root(c), static_cast<int>(numbers.size())).first->second);
   return bodies;
+}
+
+using Joints = std::set<std::pair<int, int>>;
+
+/// Whether joints lead from one body to another.
+bool lead(const Joints& joints, int from, int to) {
+  std::set<int> reached{from};
+  for (std::size_t before = 0; before < reached.size();) {
+    before = reached.size();
+    for (const auto& [a, b] : joints)
+      if (reached.contains(a) || reached.contains(b)) reached.insert({a, b});
+  }
+  return reached.contains(to);
+}
+
+/// The outer sides, and the joints of bodies of different materials: those at each node.
+std::map<int, Joints> find_boundaries(const ImportedSolidMesh& mesh, const SidesAt& at, SolidDeckBodies& made) {
+  std::map<int, Joints> at_node;
+  for (const auto& [corners, sides] : at) {
+    if (sides.size() == 1) made.outer.insert(sides[0]);
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+      const std::pair<int, int> joint = std::minmax(made.of_cell[static_cast<std::size_t>(sides[0] / 4)],
+                                                    made.of_cell[static_cast<std::size_t>(sides[k] / 4)]);
+      if (joint.first == joint.second) continue;
+      made.joined.insert(joint);
+      for (const int node : files::nodes_of_side(mesh.cells[static_cast<std::size_t>(sides[0] / 4)], sides[0] % 4))
+        at_node[node].insert(joint);
+    }
+  }
+  return at_node;
 }
 
 double volume_of(const ImportedSolidMesh& mesh, const ImportedSolidCell& cell) {
@@ -65,7 +102,9 @@ SolidDeckBodies solid_bodies_of(const files::AbaqusDeck& deck, const DeckContent
                                 Remarks& remarks) {
   const ImportedSolidMesh& mesh = *deck.solid;
   SolidDeckBodies made;
-  made.of_cell = joined_cells(mesh, made.outer);
+  const SidesAt at_corners = sides_at(mesh);
+  made.of_cell = joined_cells(at_corners, material_of_cell);
+  const std::map<int, Joints> joints = find_boundaries(mesh, at_corners, made);
   made.of_node.assign(static_cast<std::size_t>(mesh.nodes.cols()), -1);
   made.bodies.resize(static_cast<std::size_t>(1 + *std::max_element(made.of_cell.begin(), made.of_cell.end())));
   const files::DeckPlace at = deck.elements.front().at;
@@ -73,19 +112,19 @@ SolidDeckBodies solid_bodies_of(const files::AbaqusDeck& deck, const DeckContent
     SolidDeckBody& body = made.bodies[static_cast<std::size_t>(made.of_cell[c])];
     if (body.material.empty()) body.material = material_of_cell[c], body.young = young[c];
     body.volume += volume_of(mesh, mesh.cells[c]);
-    if (material_of_cell[c] != body.material)
-      remarks.essential(
-          at, fmt::format("element {} and others of the same body have the materials '{}' and '{}', and a body "
-                          "in space has one; part it, and tie the parts",
-                          mesh.cells[c].number, body.material, material_of_cell[c]));
     for (const int node : mesh.cells[c].nodes) {
       int& of = made.of_node[static_cast<std::size_t>(node)];
-      if (of >= 0 && of != made.of_cell[c])
+      if (of < 0) of = made.of_cell[c];
+      if (of == made.of_cell[c]) continue;
+      const auto joint = joints.find(node);
+      std::vector<int>& further = made.further_of[node];
+      if (joint == joints.end() || !lead(joint->second, of, made.of_cell[c]))
         remarks.essential(at,
                           fmt::format("element {} and others meet at node {} only, which joins bodies in the deck and "
                                       "not at all in the model; join them by a side, or part them",
                                       mesh.cells[c].number, deck.node_numbers[static_cast<std::size_t>(node)]));
-      of = made.of_cell[c];
+      else if (std::find(further.begin(), further.end(), made.of_cell[c]) == further.end())
+        further.push_back(made.of_cell[c]);
     }
   }
   UniqueNames names;

@@ -30,6 +30,14 @@ std::string yaml_quoted(const std::string& text) {
 
 std::string yaml_point(const Vec2& x) { return fmt::format("[{}, {}]", number_text(x.x()), number_text(x.y())); }
 
+void add_contact(ModelParts& parts, const std::string& name, const std::string& between, double friction,
+                 std::optional<double> modulus, const std::string& interaction, double gap) {
+  parts.contacts +=
+      fmt::format("  {}: {{{}, friction: {}{}{}}}\n", name, between, number_text(friction),
+                  modulus ? ", modulus: " + number_text(*modulus) : "", gap != 0.0 ? ", gap: " + number_text(gap) : "");
+  parts.contacts_of.emplace(interaction, name);
+}
+
 std::string head_text(const ModelParts& parts, const Remarks& remarks, const std::string& deck_name) {
   std::string text = fmt::format("# Made by `scabo convert` from {}\n", files::printable(deck_name));
   for (const Remark& remark : remarks.all())

@@ -1,6 +1,8 @@
 // The model file of a converted deck.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +31,12 @@ struct ModelParts {
   model::Plane plane = model::Plane::stress;
   std::string materials, supports, loads, contacts, ties, steps;
   std::vector<NamedCurve> curves;
+  std::multimap<std::string, std::string> contacts_of;  ///< names of contacts by their interaction
 };
+
+/// Adds a line of `contacts`. `between`: `between: [a, b]`. `interaction`: in upper case.
+void add_contact(ModelParts& parts, const std::string& name, const std::string& between, double friction,
+                 std::optional<double> modulus, const std::string& interaction, double gap = 0.0);
 
 /// Where it comes from, what is missing, and its title.
 std::string head_text(const ModelParts& parts, const Remarks& remarks, const std::string& deck_name);

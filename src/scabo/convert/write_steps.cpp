@@ -39,6 +39,17 @@ std::string increments_of(const DeckStep& step, bool counted) {
                      number_text(least), number_text(most));
 }
 
+/// `, friction: {touch: 0.2}`, if a coefficient changes.
+std::string friction_of(const DeckStep& step, const ModelParts& parts) {
+  std::vector<std::string> values;
+  for (const auto& [interaction, coefficient] : step.friction) {
+    const auto [first, end] = parts.contacts_of.equal_range(interaction);
+    for (auto contact = first; contact != end; ++contact)
+      values.push_back(fmt::format("{}: {}", contact->second, number_text(coefficient)));
+  }
+  return values.empty() ? "" : fmt::format(", friction: {{{}}}", fmt::join(values, ", "));
+}
+
 }  // namespace
 
 std::vector<std::string> names_of_steps(const std::vector<DeckStep>& steps) {
@@ -49,24 +60,25 @@ std::vector<std::string> names_of_steps(const std::vector<DeckStep>& steps) {
   return texts;
 }
 
-std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& all,
-                       std::vector<NamedCurve>& curves, bool counted) {
+std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& all, ModelParts& parts,
+                       bool counted) {
   std::string text;
   const std::vector<std::string> names = names_of_steps(steps);
   for (std::size_t s = 0; s < steps.size(); ++s) {
     std::vector<std::string> factors;
-    bool plain = steps.size() == 1;  // everything goes to 1, which needs no word
+    const std::string friction = friction_of(steps[s], parts);
+    bool plain = steps.size() == 1 && friction.empty();  // everything goes to 1, which needs no word
     for (const Driven& driven : all) {
       const Leg& leg = driven.factors[s];
       const double before = s > 0 ? driven.factors[s - 1].end : 0.0;
       plain = plain && leg.table.empty() && leg.end == 1.0;
       if (leg.table.empty() && leg.end == before) continue;
       factors.push_back(fmt::format("{}: {}", yaml_word(driven.name),
-                                    leg.table.empty() ? number_text(leg.end) : curve_for(leg.table, curves)));
+                                    leg.table.empty() ? number_text(leg.end) : curve_for(leg.table, parts.curves)));
     }
     if (factors.empty() && !plain && !all.empty())
       factors.push_back(fmt::format("{}: {}", yaml_word(all.front().name), number_text(all.front().factors[s].end)));
-    text += fmt::format("  - {{name: {}, increments: {}{}}}\n", names[s], increments_of(steps[s], counted),
+    text += fmt::format("  - {{name: {}, increments: {}{}{}}}\n", names[s], increments_of(steps[s], counted), friction,
                         plain || factors.empty() ? "" : fmt::format(", loads: {{{}}}", fmt::join(factors, ", ")));
   }
   return text;

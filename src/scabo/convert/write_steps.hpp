@@ -19,8 +19,8 @@ struct Driven {
 std::vector<std::string> names_of_steps(const std::vector<DeckStep>& steps);
 
 /// The lines of `steps`. `counted`: with a number of increments, as models in space have it, which is that of the first
-/// increment. Factors that follow a table become curves, which are added to `curves`.
-std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& driven,
-                       std::vector<NamedCurve>& curves, bool counted = false);
+/// increment. Factors that follow a table become curves, which are added to `parts`.
+std::string steps_text(const std::vector<DeckStep>& steps, const std::vector<Driven>& driven, ModelParts& parts,
+                       bool counted = false);
 
 }  // namespace scabo::convert

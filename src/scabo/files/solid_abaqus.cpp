@@ -66,6 +66,8 @@ class SolidReader {
   void add_all(AbaqusSet& target, std::vector<std::int64_t> numbers);
   void hand_over_sets();
   void hand_over_sides(const Surface& surface, const NumberIndex& cells);
+  [[noreturn]] void fail_on_other_type(const Surface& surface, const SurfaceEntry& entry,
+                                       const std::string& type) const;
 
   MeshBuilder builder_;  // knows the files
   SolidBuilder solid_;
@@ -77,8 +79,10 @@ class SolidReader {
     std::vector<std::int64_t> nodes;
     SolidBuilder::CellRange parts;
   };
-  std::map<std::int64_t, Whole> split_;                // by number
-  std::map<std::int64_t, std::size_t> nodes_of_kept_;  // of cells that are not divided, by number
+  std::map<std::int64_t, Whole> split_;                     // by number
+  std::map<std::int64_t, std::string> other_types_;         // of elements that are left out, by number
+  std::map<std::string, std::string> types_of_other_sets_;  // by the name of their set in upper case
+  std::map<std::int64_t, std::size_t> nodes_of_kept_;       // of cells that are not divided, by number
   std::vector<Surface> surfaces_;
   std::vector<std::string> remarks_;
   std::set<std::string> left_out_;  // types
@@ -142,7 +146,11 @@ void SolidReader::elements(const AbaqusKeyword& key) {
   std::vector<std::string_view> fields;
   std::vector<std::int64_t> numbers;
   while (next_data(fields)) {
-    if (wanted == 0) continue;
+    if (wanted == 0) {
+      std::int64_t other = 0;
+      if (parse_number(fields[0], other)) other_types_.try_emplace(other, type);
+      continue;
+    }
     const FilePlace at = lines_.at();
     std::vector<std::int64_t> nodes;
     const std::int64_t number = integer(fields[0], "the number of an element");
@@ -166,6 +174,7 @@ void SolidReader::elements(const AbaqusKeyword& key) {
     deck_.elements.push_back({type, {builder_.file(key.at), key.at.line}});
     for (const std::int64_t number : numbers) deck_.type_of_cell[number] = static_cast<int>(deck_.elements.size()) - 1;
   }
+  if (key.has("ELSET") && wanted == 0) types_of_other_sets_.try_emplace(upper(key.value("ELSET")), type);
   if (key.has("ELSET") && wanted > 0) add_all(element_sets_.named(key.value("ELSET")), std::move(numbers));
 }
 
@@ -273,6 +282,13 @@ void SolidReader::keyword(const AbaqusKeyword& key) {
   block(key);
 }
 
+void SolidReader::fail_on_other_type(const Surface& surface, const SurfaceEntry& entry, const std::string& type) const {
+  builder_.fail(entry.at,
+                fmt::format("surface '{}': '{}' has elements of type {}, which are no solids and have no sides "
+                            "in space; make the part of solid elements, or take the surface out",
+                            printable(surface.name), printable(entry.of), printable(type)));
+}
+
 void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cells) {
   const int set = solid_.side_set(surface.name);
   for (const SurfaceEntry& entry : surface.entries) {
@@ -282,15 +298,21 @@ void SolidReader::hand_over_sides(const Surface& surface, const NumberIndex& cel
                                           "tetrahedron, S1 to S5 of a wedge or S1 to S6 of a hexahedron",
                                           printable(surface.name), printable(entry.side)));
     };
-    if (!is_side) no_side();
     std::vector<std::int64_t> numbers(1, 0);
     if (!parse_number(std::string_view(entry.of), numbers[0])) {
       const AbaqusSet* of = element_sets_.find(entry.of);
+      const auto other = types_of_other_sets_.find(upper(entry.of));
+      if (of == nullptr && other != types_of_other_sets_.end()) fail_on_other_type(surface, entry, other->second);
       if (of == nullptr)
         builder_.fail(entry.at, fmt::format("surface '{}': there is no element set '{}'; correct its name",
                                             printable(surface.name), printable(entry.of)));
       numbers = of->numbers;
     }
+    for (const std::int64_t number : numbers)
+      if (const auto other = other_types_.find(number);
+          other != other_types_.end() && !split_.contains(number) && cells.find(number) < 0)
+        fail_on_other_type(surface, entry, other->second);
+    if (!is_side) no_side();
     for (const std::int64_t number : numbers) {
       if (const auto whole = split_.find(number); whole != split_.end()) {
         const bool wedge = whole->second.nodes.size() == 6 || whole->second.nodes.size() == 15;
