@@ -12,6 +12,7 @@
 
 #include "scabo/base/components.hpp"
 #include "scabo/element/alike_cells.hpp"
+#include "scabo/element/facet/cell_ring.hpp"
 #include "scabo/element/facet/mass.hpp"
 #include "scabo/element/plane/batch.hpp"
 #include "scabo/element/plane/conditioning.hpp"
@@ -290,7 +291,7 @@ void take_alike(std::vector<SolvedCells>& cells, const mesh::Mesh& mesh, const s
     const double rounding = rounding_of(mesh.bodies[b]);
     for (auto& cell : cells[b]) {
       if (!cell) continue;
-      const auto [found, is_new] = taken.emplace(cell.get(), cell);
+      const auto [found, is_new] = taken.try_emplace(cell.get(), cell);
       if (is_new) {
         const auto [first, last] = known.equal_range(hash_of(*cell));
         const auto alike =
@@ -310,6 +311,7 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
   std::vector<std::size_t> bodies;
   std::vector<SolvedCells> solved(model.bodies.size());
   std::vector<Diagnostic> folded;
+  std::shared_ptr<SolvedSuperElement> wanted;  // the next one, until it is found to be a distinct one
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (auto mistake = folded_elements(model.bodies[b], mesh.bodies[b])) folded.push_back(std::move(*mistake));
     const double rounding = rounding_of(mesh.bodies[b]);
@@ -318,9 +320,9 @@ std::vector<SolvedCells> solve_cells(const model::Model& model, const mesh::Mesh
         solved[b].emplace_back();
         continue;
       }
-      auto wanted = std::make_shared<SolvedSuperElement>();
-      wanted->ring = ring_of(cell, mesh.bodies[b].nodes);
-      wanted->sectors = sectors_of(model, cell);
+      if (!wanted) wanted = std::make_shared<SolvedSuperElement>();
+      set_ring(wanted->ring, cell, mesh.bodies[b].nodes);
+      if (wanted->sectors.materials != cell.materials) wanted->sectors = sectors_of(model, cell);
       wanted->domain = domain_of(model.bodies[b], wanted->ring);
       wanted->thickness = model::thickness_of(model, static_cast<int>(b));
       wanted->threads = threads;

@@ -1,8 +1,10 @@
 #include "scabo/system/stiffness.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <functional>
-#include <string_view>
 
 #include "scabo/system/ranks.hpp"
 
@@ -82,8 +84,15 @@ bool equal(const Stiffness& a, const Stiffness& b) {
 std::size_t hash_of(const Stiffness& stiffness) {
   if (stiffness.divided) return std::hash<const void*>()(stiffness.divided.get());
   if (stiffness.dense) return std::hash<const void*>()(stiffness.dense.get());
-  return std::hash<std::string_view>()({reinterpret_cast<const char*>(stiffness.sparse.valuePtr()),
-                                        static_cast<std::size_t>(stiffness.sparse.nonZeros()) * sizeof(double)});
+  constexpr Eigen::Index most = 4096;  // entries: equal() compares all of them
+  const Eigen::Index count = stiffness.sparse.nonZeros(), samples = std::min(count, most);
+  std::uint64_t hash = static_cast<std::uint64_t>(count);
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    hash =
+        (hash ^ std::bit_cast<std::uint64_t>(stiffness.sparse.valuePtr()[k * count / samples])) * 0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 32;
+  }
+  return hash;
 }
 
 }  // namespace scabo::system

@@ -55,10 +55,12 @@ State at_tips_alone(const Prepared& prepared, const Factors& factors) {
 
 }  // namespace
 
-bool is_loaded(const Factors& factors) {
-  const auto acts = [](double factor) { return factor != 0.0; };
-  return std::any_of(factors.loads.begin(), factors.loads.end(), acts) ||
-         std::any_of(factors.supports.begin(), factors.supports.end(), acts);
+bool is_at_rest(const Prepared& prepared, const Factors& factors) {
+  const auto is_zero = [](const Vector& of_part) { return of_part.isZero(0.0); };
+  const std::vector<Vector> forces = applied_forces(prepared, factors, {}),
+                            prescribed = prescribed_values(prepared, factors.supports, {});
+  return std::all_of(forces.begin(), forces.end(), is_zero) &&
+         std::all_of(prescribed.begin(), prescribed.end(), is_zero);
 }
 
 MaterialConstants material_constants(const Prepared& prepared, const Tip& tip) {
@@ -136,7 +138,7 @@ std::variant<std::vector<TipPattern>, std::string> tip_patterns(const Prepared& 
                                                                 const Options& options) {
   const model::GrowthStep& growth = *prepared.model.steps.back().growth;
   std::vector<TipFactors> constant(tips.size());
-  if (const Factors none = factors_at(prepared.model, 0.0); is_loaded(none)) {
+  if (const Factors none = factors_at(prepared.model, 0.0); !is_at_rest(prepared, none)) {
     auto found = factors_of_tips(prepared, tips, none, options);
     if (auto* reason = std::get_if<std::string>(&found)) return *reason;
     constant = std::get<std::vector<TipFactors>>(found);

@@ -16,8 +16,9 @@ namespace scabo::analysis {
 /// Tips that are critical at load factors up to so much above that of the leading one grow with it.
 constexpr double together = 1e-3;
 
-/// Whether any load or support has a factor other than 0.
-bool is_loaded(const Factors& factors);
+/// Whether no force acts at these factors, and no support prescribes a displacement: without pairs bodies are then at
+/// rest, and states are proportional to the load factor if this is so without the loads that are scaled.
+bool is_at_rest(const Prepared& prepared, const Factors& factors);
 
 /// Of loads and supports in the last step.
 Factors factors_at(const model::Model& model, double lambda);

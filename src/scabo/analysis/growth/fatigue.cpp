@@ -83,7 +83,7 @@ std::variant<Cycled, std::string> cycled_tips(const Prepared& prepared, const st
   for (const int end : has_contacts ? std::vector<int>{0, 1, 0, 1} : std::vector<int>{0, 1}) {
     const Factors factors = factors_in_cycle(prepared.model, end);
     if (!has_contacts) {
-      if (end == 0 && !is_loaded(factors)) continue;
+      if (end == 0 && is_at_rest(prepared, factors)) continue;
       cycled.highest.state = initial_state(prepared);
     }
     cycled.highest = reach_from(prepared, cycled.highest.state, factors, options);

@@ -226,7 +226,7 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
   State longer;
   if (has_contacts()) {
     longer = *from_;
-  } else if (state.p.size() == 0 && !is_loaded(factors_at(model(), 0.0))) {
+  } else if (state.p.size() == 0 && is_at_rest(prepared, factors_at(model(), 0.0))) {
     longer = times(last_->load_factor / now.at.load_factor, state);
   } else {
     Reached reached = reach_from_rest(prepared, last_->factors, options_);

@@ -82,6 +82,13 @@ std::string closed(const model::Model& model, const Tip& tip, const Vec2& K) {
       name_of(model, tip), name_of_crack(model, tip));
 }
 
+/// Whether any load or support has a factor other than 0.
+bool is_loaded(const Factors& factors) {
+  const auto acts = [](double factor) { return factor != 0.0; };
+  return std::any_of(factors.loads.begin(), factors.loads.end(), acts) ||
+         std::any_of(factors.supports.begin(), factors.supports.end(), acts);
+}
+
 /// Trial states with contacts.
 class Trials {
  public:

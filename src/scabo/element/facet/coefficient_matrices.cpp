@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "scabo/base/components.hpp"
+#include "scabo/element/facet/cell_ring.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/geometry/line_basis.hpp"
 
@@ -37,15 +38,26 @@ double Elasticity::contrast() const {
 
 Ring ring_of(const mesh::Cell& cell, const std::vector<Vec2>& nodes) {
   Ring ring;
-  for (const int node : cell.nodes()) ring.nodes.push_back(nodes[static_cast<std::size_t>(node)] - cell.centre);
-  const auto total = static_cast<int>(ring.nodes.size());
-  int next = 0;
-  for (const mesh::LineElement& element : cell.boundary) {
-    mesh::LineElement& own = ring.elements.emplace_back();
-    for (std::size_t i = 0; i < element.nodes.size(); ++i) own.nodes.push_back((next + static_cast<int>(i)) % total);
-    next += static_cast<int>(element.nodes.size()) - 1;
-  }
+  set_ring(ring, cell, nodes);
   return ring;
+}
+
+void set_ring(Ring& ring, const mesh::Cell& cell, const std::vector<Vec2>& nodes) {
+  ring.nodes.clear();
+  const auto add = [&](int node) { ring.nodes.push_back(nodes[static_cast<std::size_t>(node)] - cell.centre); };
+  for (const mesh::LineElement& element : cell.boundary)
+    for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i) add(element.nodes[i]);
+  if (cell.is_open()) add(cell.boundary.back().nodes.back());
+  const auto total = static_cast<int>(ring.nodes.size());
+  ring.elements.resize(cell.boundary.size());
+  int next = 0;
+  for (std::size_t e = 0; e < cell.boundary.size(); ++e) {
+    const std::size_t count = cell.boundary[e].nodes.size();
+    std::vector<int>& own = ring.elements[e].nodes;
+    own.resize(count);
+    for (std::size_t i = 0; i < count; ++i) own[i] = (next + static_cast<int>(i)) % total;
+    next += static_cast<int>(count) - 1;
+  }
 }
 
 StrainMatrices strain_matrices(const Ring& ring, const mesh::LineElement& element, const Vector& N,
