@@ -189,9 +189,8 @@ py::object mechanism(const SpaceResult& solved) {
   table["shift"] = vectors(of.bodies, [](const Motion& body) { return body.shift; });
   table["about"] = vectors(of.bodies, [](const Motion& body) { return body.about; });
   table["rotation"] = vectors(of.bodies, [](const Motion& body) { return body.rotation; });
-  table["centre"] = vectors(of.bodies, [](const Motion& body) -> Vector3 {
-    return body.axis().value_or(Vector3::Constant(no_number));
-  });
+  table["centre"] = vectors(
+      of.bodies, [](const Motion& body) -> Vector3 { return body.axis().value_or(Vector3::Constant(no_number)); });
   const auto bodies = static_cast<py::ssize_t>(of.bodies.size()), pairs = static_cast<py::ssize_t>(of.pairs.size());
   py::array_t<double> largest(bodies), opening(pairs);
   py::array_t<bool> moves(bodies);
