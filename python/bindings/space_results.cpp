@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "scabo/analysis/space/solid_mechanism.hpp"
 #include "scabo/result/solid/solid_cells.hpp"
 #include "scabo/result/solid/solid_outputs.hpp"
 #include "scabo/result/solid/solid_points.hpp"
@@ -163,6 +164,60 @@ py::dict values(const SpaceResult& solved, std::size_t increment, const Numbers&
   return table;
 }
 
+/// How bodies begin to move where the run ended as a mechanism or collapse; None otherwise. The largest displacement is
+/// 1. New arrays over the bodies: shift (n, 3), displacement (length) of the point about (n, 3), rotation (n, 3; about
+/// the axes, radians), centre (n, 3; of the axis of rotation the point nearest to about; not a number where a body does
+/// not turn), largest (largest displacement of the body, length), moves. Over the pairs: contact (index), pair (number
+/// from 1 in the contact), position and normal (m, 3; the latter out of A), opening (m) and slip (m, 3; length, of B
+/// relative to A). Besides: rule ('coulomb' or 'associated'), work (of the loads over the motion), text.
+py::object mechanism(const SpaceResult& solved) {
+  if (solved.increments.empty() || !solved.increments.back().mechanism) return py::none();
+  const analysis::SolidMechanism& of = *solved.increments.back().mechanism;
+  py::dict table;
+  table["rule"] = of.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated";
+  table["work"] = of.work;
+  table["text"] = analysis::describe(of, solved.posed->model);
+  const auto vectors = [](const auto& list, const auto& value) {
+    py::array_t<double> columns = rows(list.size(), 3);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Vector3 one = value(list[i]);
+      for (int k = 0; k < 3; ++k) columns.mutable_at(static_cast<py::ssize_t>(i), k) = one[k];
+    }
+    return columns;
+  };
+  using Motion = analysis::SolidBodyMotion;
+  table["shift"] = vectors(of.bodies, [](const Motion& body) { return body.shift; });
+  table["about"] = vectors(of.bodies, [](const Motion& body) { return body.about; });
+  table["rotation"] = vectors(of.bodies, [](const Motion& body) { return body.rotation; });
+  table["centre"] = vectors(
+      of.bodies, [](const Motion& body) -> Vector3 { return body.axis().value_or(Vector3::Constant(no_number)); });
+  const auto bodies = static_cast<py::ssize_t>(of.bodies.size()), pairs = static_cast<py::ssize_t>(of.pairs.size());
+  py::array_t<double> largest(bodies), opening(pairs);
+  py::array_t<bool> moves(bodies);
+  for (py::ssize_t b = 0; b < bodies; ++b) {
+    largest.mutable_at(b) = of.bodies[static_cast<std::size_t>(b)].largest;
+    moves.mutable_at(b) = of.bodies[static_cast<std::size_t>(b)].moves();
+  }
+  py::array_t<int> contact(pairs), number(pairs);
+  std::vector<int> of_contact(solved.model->contacts.size(), 0);
+  for (py::ssize_t i = 0; i < pairs; ++i) {
+    const analysis::SolidPair& pair = of.pairs[static_cast<std::size_t>(i)];
+    contact.mutable_at(i) = pair.contact;
+    number.mutable_at(i) = ++of_contact[static_cast<std::size_t>(pair.contact)];
+    opening.mutable_at(i) = pair.gap;
+  }
+  using Pair = analysis::SolidPair;
+  table["largest"] = largest;
+  table["moves"] = moves;
+  table["contact"] = contact;
+  table["pair"] = number;
+  table["position"] = vectors(of.pairs, [](const Pair& pair) { return pair.point; });
+  table["normal"] = vectors(of.pairs, [](const Pair& pair) { return pair.normal; });
+  table["opening"] = opening;
+  table["slip"] = vectors(of.pairs, [](const Pair& pair) { return pair.slip; });
+  return table;
+}
+
 /// Points, cells and fields of fields.vtu after an increment as new arrays: points (n, 3), undeformed, length;
 /// connectivity (indices of points, all cells in sequence), offsets (cells + 1: where each begins, and the end), types
 /// (cells, numbers of VTK), cell_body and body (cells and n, from 1, in the order of the model); displacement (n, 3),
@@ -236,6 +291,7 @@ void bind_space_results(py::module_& module) {
       .def("displacement", &displacement, py::arg("increment"), py::arg("body"), doc::space_results::displacement)
       .def("fields", &fields, py::arg("increment"), doc::space_results::fields)
       .def("history", &history, doc::space_results::history)
+      .def("mechanism", &mechanism, doc::space_results::mechanism)
       .def("values", &values, py::arg("increment"), py::arg("points"), py::arg("only"), py::arg("allow_outside"),
            doc::space_results::values);
 }

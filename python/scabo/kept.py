@@ -107,6 +107,7 @@ class KeptSpaceResult(KeptArrays):
     of_displacement: list[list[np.ndarray]]
     of_fields: list[dict[str, np.ndarray]]
     of_history: str
+    of_mechanism: dict[str, Any] | None
 
     @classmethod
     def of(cls, core: _core.SpaceResult | KeptSpaceResult) -> KeptSpaceResult:
@@ -119,7 +120,10 @@ class KeptSpaceResult(KeptArrays):
                    [[core.pairs(k, contact) for contact in contacts] if there else [] for k, there in enumerate(kept)],
                    [np.array(core.nodes(body)) for body in bodies],
                    [[np.array(core.displacement(k, body)) for body in bodies] if there else [] for k, there in enumerate(kept)],
-                   [core.fields(k) if there else {} for k, there in enumerate(kept)], core.history() if all(kept) else "")
+                   [core.fields(k) if there else {} for k, there in enumerate(kept)], core.history() if all(kept) else "", core.mechanism())
+
+    def mechanism(self) -> dict[str, Any] | None:
+        return self.of_mechanism
 
 
 @dataclass

@@ -32,6 +32,7 @@ __all__ = ["Contact", "Increment", "Result"]
 
 _STATES = np.array(["open", "stick", "slip"])
 _PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "envelope", "spectrum", "history", "cracks")
+_PICTURES_IN_SPACE = ("stress", "contact", "mechanism")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
 
 
@@ -244,9 +245,8 @@ class Result:
 
     @property
     def mechanism(self) -> Motion | None:
-        """How the bodies begin to move, of a run that ended as a mechanism or collapse, or beyond a limit; None otherwise,
-        and of a model in space."""
-        table = None if self._plane is None else self._plane.mechanism()
+        """How the bodies begin to move, of a run that ended as a mechanism or collapse, or beyond a limit; None otherwise."""
+        table = self._core.mechanism()
         return None if table is None else Motion(table, self.bodies, list(self._core.contacts))
 
     @property
@@ -361,7 +361,7 @@ class Result:
         (``columns="NAME"``, a velocity of the history), "history" or "cracks". ``mirrored=True`` draws both halves of bodies of
         revolution. Results that are not in a directory are first written to a temporary one."""
         of_space = self.dimension == 3
-        pictures = _PICTURES[:2] if of_space else _PICTURES
+        pictures = _PICTURES_IN_SPACE if of_space else _PICTURES
         if what not in pictures:
             raise ValueError(f"what must be {', '.join(pictures[:-1])} or {pictures[-1]}, not {what!r}")
         try:

@@ -79,7 +79,7 @@ export interface Space {
   low: [number, number, number];
   high: [number, number, number];
   bodies: string[];
-  increments: number[];
+  increments: number[]; // none where the page has a mechanism alone
   ranges: Record<string, Record<string, Range>>;
   magnification: number;
   quantities: { key: string; name: string; dimension: Dimension }[];

@@ -63,7 +63,7 @@ async function start(): Promise<void> {
   const bar = count ? new IncrementBar(state, (part) => field?.setSwing(part)) : null;
   field = content.field ? new FieldPanel(state, { step: (by) => bar!.step(by), play: () => bar!.play() }) : null;
   const contacts = content.pairs ? new ContactPanel(state) : null;
-  const space = content.space ? new SpacePanel(state, { step: (by) => bar!.step(by), play: () => bar!.play() }) : null;
+  const space = content.space ? new SpacePanel(state, { step: (by) => bar?.step(by), play: () => bar?.play() }) : null;
   const maps = content.space?.faces.length ? new MapPanel(state) : null;
   if (space && maps) space.placeOfPair = (pair) => maps.placeOf(pair);
   const [picture, beside] = [field?.root ?? space?.root, contacts?.root ?? maps?.root];

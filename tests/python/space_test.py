@@ -154,11 +154,11 @@ class ConstantStress(unittest.TestCase):
         self.assertEqual(list(frame.columns)[:8], ["pair", "x", "y", "z", "normal_x", "normal_y", "normal_z", "area"])
         self.assertIn("shear_z", frame.columns)
 
-    def test_what_only_the_plane_has(self):
+    def test_what_this_run_has_not(self):
         self.assertIsNone(self.result.mechanism)
         self.assertIsNone(self.result.limit)
         self.assertEqual((self.result.cracks, self.result.history), ({}, {}))  # it asks for no sections
-        with self.assertRaisesRegex(ValueError, "what must be stress or contact"):
+        with self.assertRaisesRegex(ValueError, "what must be stress, contact or mechanism"):
             self.result.plot("mesh")
 
     def test_notebook(self):
@@ -312,7 +312,49 @@ class Running(unittest.TestCase):
         model["steps"] = [{"name": "press", "loads": {"press": 1}}, {"name": "pull", "loads": {"pull": 1}}]
         with self.assertRaisesRegex(scabo.Mechanism, "step pull, increment 1") as caught:
             model.run()
-        self.assertEqual(len(caught.exception.result.increments), 1)
+        result = caught.exception.result
+        self.assertEqual(len(result.increments), 1)
+        motion = result.mechanism  # it is lifted; by hand: the pull less the pressure, on 0.8 m2
+        self.assertEqual((motion.text, motion.moving, motion.rule), (result.summary["mechanism"]["text"], ["upper"], result.summary["mechanism"]["rule"]))
+        np.testing.assert_allclose(motion.shift, [[0, 0, 0], [0, 0, 1]], atol=1e-8)
+        np.testing.assert_allclose(motion.displacement("upper", [[0, 0, 0.3], [1, 2, 3]]), [[0, 0, 1]] * 2, atol=1e-8)
+        self.assertTrue(np.isnan(motion.centre).all())
+        self.assertAlmostEqual(motion.work / (0.2 * 0.8 * PRESSURE), 1.0, delta=1e-8)
+        joint, pairs = motion.contact("joint"), result.contact["joint"].table()
+        np.testing.assert_array_equal(joint["pair"], pairs["pair"])
+        np.testing.assert_array_equal(joint["position"], pairs["position"])
+        np.testing.assert_allclose(joint["opening"], 1.0, atol=1e-8)
+        np.testing.assert_allclose(joint["slip"], 0.0, atol=1e-8)
+        for wrong in (lambda: motion.contact("bass"), lambda: motion.displacement("blok", [[0, 0, 0]])):
+            with self.assertRaises(KeyError):
+                wrong()
+        with self.assertRaisesRegex(ValueError, r"\(n, 3\), as in \[\[x, y, z\]"):
+            motion.displacement("upper", [[0, 0]])
+        again = pickle.loads(pickle.dumps(result)).mechanism
+        np.testing.assert_array_equal(again.contact("joint")["slip"], joint["slip"])
+
+    def test_a_body_that_turns(self):
+        """A pillar on a block without friction to speak of is pushed over its edge: u = w x (x - c)."""
+        model = {
+            "scabo": 1, "analysis": {"space": True},
+            "materials": {"stone": {"young": 10e9, "poisson": 0.2, "density": 2500}},
+            "bodies": {name: {"material": "stone", "shape": {"box": {"corner": corner, "size": size}}, "mesh": {"size": 0.5}}
+                       for name, corner, size in (("ground", [0, 0, -1], [4, 3, 1]), ("pillar", [1, 1, 0], [1, 1, 2]))},
+            "supports": [{"on": "ground.bottom", "fix": ["x", "y", "z"]}],
+            "loads": {"weight": {"gravity": [0, 0, -10]}, "push": {"on": "pillar.left", "force": [20e3, 0, 0], "at": [1, 1.5, 2]}},
+            "contacts": {"joint": {"between": ["ground.top", "pillar.bottom"], "friction": 0.8}},
+        }
+        with self.assertRaises(scabo.Mechanism) as caught:
+            scabo.Model(model).run()
+        motion = caught.exception.result.mechanism
+        body = caught.exception.result.summary["mechanism"]["bodies"]["pillar"]
+        np.testing.assert_allclose([motion.centre[1], motion.rotation[1]], [body["centre"], body["rotation"]], rtol=1e-12)
+        axis = motion.rotation[1] / np.linalg.norm(motion.rotation[1])
+        np.testing.assert_allclose(axis, [0, 1, 0], atol=1e-6)
+        np.testing.assert_allclose(motion.displacement("pillar", [motion.centre[1]]), [[0, 0, 0]], atol=1e-8)
+        top = motion.displacement("pillar", [[1, 1.5, 2]])
+        np.testing.assert_allclose(top, [np.cross(motion.rotation[1], [1, 1.5, 2] - motion.centre[1])], atol=1e-8)
+        self.assertGreater(top[0, 0], 0.9)
 
     def test_without_memory(self):
         model = scabo.Model(stack())

@@ -5,7 +5,7 @@ import { openPage } from "./open_page.mjs";
 const { file, words, tasks, context, page, errors } = await openPage();
 const [picture] = words;
 const seen = { errors, requests: [], picks: [] };
-page.on("request", (request) => { if (request.url() !== pathToFileURL(file).href && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
+page.on("request", (request) => { if (![file, ...tasks.mechanisms].some((own) => request.url() === pathToFileURL(own).href) && !request.url().startsWith("data:")) seen.requests.push(request.url().slice(0, 200)); });
 await page.goto(pathToFileURL(file).href);
 await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
 seen.text = await page.evaluate(() => document.getElementById("page").innerText);
@@ -101,5 +101,26 @@ seen.unlabelled = await page.evaluate(() => [...document.querySelectorAll("input
   const label = control.getAttribute("aria-label") || control.closest("label")?.textContent || control.textContent;
   return !label?.trim();
 }).map((control) => control.id || control.outerHTML.slice(0, 60)));
+
+// A mechanism is played in place of the fields, and leaves them as they were.
+seen.mechanisms = [];
+for (const file of tasks.mechanisms) {
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  const fields = () => page.evaluate(() => [...window.scaboReport.space.moved]), boxes = await page.locator("#show-mechanism").count(), before = await fields();
+  if (boxes) await page.check("#show-mechanism");
+  await page.waitForFunction(() => document.getElementById("field").dataset.quantity === "mechanism");
+  const mechanism = { boxes, note: await page.textContent("#field .note"), moved: await fields(), body: await page.evaluate(() => [...window.scaboReport.space.solids.body]) };
+  await page.waitForFunction(() => { (window.lengths ??= []).push(window.scaboReport.space.length); return window.lengths.length > 2 && Math.max(...window.lengths) > 1.5 * window.lengths.at(-1); });
+  mechanism.longest = await page.evaluate(() => Math.max(...window.lengths));
+  mechanism.coloured = await page.evaluate(() => { const { space } = window.scaboReport; return [...new Set([...space.solids.body].filter((_, i) => !Number.isNaN(space.value[i])))]; });
+  if (boxes) {
+    await page.uncheck("#show-mechanism");
+    await page.waitForFunction(() => document.getElementById("field").dataset.quantity !== "mechanism");
+    mechanism.fields = [before, await fields()];
+    mechanism.after = await page.getAttribute("#field", "data-quantity");
+  }
+  seen.mechanisms.push(mechanism);
+}
 await context.close();
 process.stdout.write(JSON.stringify(seen));

@@ -30,6 +30,20 @@ loads: {{press: {{on: upper.top, pressure: {PRESSURE}}}}}
 contacts: {{joint: {{between: [lower.top, upper.bottom], friction: 0.2}}}}
 steps: [{{name: press, increments: 3}}]
 """
+# It slides at 18 degrees, beyond a friction of 0.3; pushed in a second step.
+SLIDING = """scabo: 1
+analysis: {space: true}
+materials: {stone: {young: 10e9, poisson: 0.2, density: 2500}}
+bodies:
+  ground: {material: stone, shape: {box: {corner: [0, 0, -1], size: [4, 3, 1]}}, mesh: {size: 1}}
+  block: {material: stone, shape: {box: {corner: [1, 1, 0], size: [1, 1, 0.5]}}, mesh: {size: 0.5}}
+supports: [{on: ground.bottom, fix: [x, y, z]}]
+loads:
+  weight: {gravity: [0, 0, -10]}
+  push: {on: block.left, force: [4000, 0, 0]}
+contacts: {joint: {between: [ground.top, block.bottom], friction: 0.3}}
+"""
+STEPS = "steps: [{name: rest, loads: {weight: 1}}, {name: push, loads: {push: 1}}]\n"
 CENTRE = np.array([0.5, 0.4, 0.25])
 TOP, ON_CUT, BELOW = (0.63, 0.31, 0.5), (0.5, 0.3, 0.17), (0.55, 0.5, 0.3)
 MAGNIFICATION = 2e4
@@ -48,8 +62,15 @@ class Space(InBrowser):
         assert run.returncode == 0, run.stderr
         cls.picture = pathlib.Path(os.environ.get("SCABO_PICTURE", cls.folder / "space.png"))
         tasks = {"increments": (1, 3), "top": list(TOP - CENTRE), "cut": 500, "on_cut": list(ON_CUT - CENTRE), "below": list(BELOW - CENTRE), "pair": 5,
-                 "magnification": MAGNIFICATION, "moved": list(TOP - CENTRE + MAGNIFICATION * motion(TOP))}
+                 "mechanisms": [cls.mechanism_of("sliding", SLIDING), cls.mechanism_of("pushed", SLIDING + STEPS)], "magnification": MAGNIFICATION, "moved": list(TOP - CENTRE + MAGNIFICATION * motion(TOP))}
         cls.seen = cls.drive("space.mjs", cls.folder / "stack.report.html", tasks, cls.picture)
+
+    @classmethod
+    def mechanism_of(cls, name, text):
+        (cls.folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+        run = support.scabo("run", f"{name}.yaml", "-q", "--report", cwd=cls.folder, SCABO_PYTHON=sys.executable)
+        assert run.returncode == 2, run.stderr
+        return str(cls.folder / f"{name}.report.html")
 
     def near(self, pick, point, factor=1.0, pixels=0.004):
         """Values are those at the point that the page names, which lies where it was clicked."""
@@ -99,6 +120,19 @@ class Space(InBrowser):
         self.assertEqual((self.seen["pair"]["number"], self.seen["pair"]["ring"]), (5, 1))
         self.assertAlmostEqual(self.seen["pair"]["values"]["pressure"], PRESSURE, delta=2e-6 * PRESSURE)
         self.assertAlmostEqual(self.seen["pair"]["values"]["shear"], 0.0, delta=2e-6 * PRESSURE)
+
+    def test_a_mechanism_is_played(self):
+        """Also where no increment was finished. The block, whose points come last, slides along x as it is drawn, the ground stays."""
+        for seen, finished in zip(self.seen["mechanisms"], (False, True)):
+            self.assertIn("1 of 2 bodies moves, 'block'.", seen["note"])
+            moved, body = np.reshape(seen["moved"], (-1, 3)), np.array(seen["body"])
+            np.testing.assert_allclose(moved, np.where(body[:, None] == 2, [1.0, 0.0, 0.0], 0.0), atol=1e-7)
+            self.assertAlmostEqual(seen["longest"], 0.2, delta=0.02)  # of a diagonal of 5.2: 0.06 or less
+            self.assertEqual(seen["coloured"], [2])
+            self.assertEqual(seen["boxes"], int(finished))
+            if finished:
+                self.assertEqual(seen["fields"][0], seen["fields"][1])
+                self.assertEqual(seen["after"], "von_mises")
 
     def test_the_picture_has_something_in_it(self):
         picture = matplotlib.image.imread(self.picture)[..., :3]

@@ -8,7 +8,7 @@ import tempfile
 
 from .content import content_of
 from .fields import add_fields, asked_for
-from .mechanism import add_mechanism
+from .mechanism import add_mechanism, mechanism_of
 from .packing import Arrays
 from .pairs import add_pairs
 from .reading import Results, ResultsError, Units, refuse_impossible
@@ -48,9 +48,9 @@ def page_of(directory, units=None, megabytes=MEGABYTES, mirrored=False, fields=N
     content["units"] = [named.length, named.force] if named else None
     arrays = Arrays()
     room = max(0.0, megabytes * 1e6 - len(text) - len(json.dumps(content)))
-    content["space"] = add_space(results, arrays, room, fields) if results.in_space and results.count else None
+    content["space"] = add_space(results, arrays, room, fields) if results.in_space else None
     if results.in_space:
-        return filled(text, {**content, "field": None, "pairs": None, "mechanism": None}, arrays)
+        return filled(text, {**content, "field": None, "pairs": None, "mechanism": mechanism_of(results)}, arrays)
     shown = add_fields(results, arrays, 0.75 * room, quantities) if results.count else None
     centre = shown["centre"] if shown else [0.0, 0.0]
     content["field"] = shown

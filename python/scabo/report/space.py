@@ -1,4 +1,6 @@
 """Bodies in space of a page: tetrahedra, their values after the increments that have a place in it, and contact faces."""
+import dataclasses
+
 import numpy as np
 
 from .choice import in_order_of_importance, listed
@@ -13,10 +15,13 @@ def add_space(results, arrays, budget, asked=None):
     """Adds points, tetrahedra, surfaces, sharp edges and values, up to `budget` bytes beyond those of one increment. `asked`: names of
     groups of fields, as in "displacement,von_mises"; None: all. Returns what the page has to know, or None without fields."""
     numbers = [number for number in results.field_numbers() if number <= results.count]
-    if not numbers:
+    motion = motion_of_nodes(results)
+    if not numbers and motion is None:
         return None
-    keys = keys_of(asked)
-    grid = results.fields(numbers[-1])
+    keys = keys_of(asked) if numbers else []
+    grid = results.fields(numbers[-1]) if numbers else results.mechanism()
+    if not numbers:  # without the contact faces that are in the file
+        grid = of_bodies(grid)
     facets = tetrahedra.outer_facets(grid)
     triangles = tetrahedra.triangles_of(facets)
     centre = 0.5 * (grid.points.min(axis=0) + grid.points.max(axis=0))
@@ -29,12 +34,29 @@ def add_space(results, arrays, budget, asked=None):
         arrays.add(f"space_{name}", values, kind)
     chosen = add_values(results, numbers, keys, arrays, budget)
     shown = sorted(chosen)
+    if motion is not None:
+        for name, values in zip(("ux", "uy", "uz"), motion.T):
+            arrays.add(f"mechanism_{name}", values, "f4")
     what = f"This page has the fields of {len(shown)} of {results.count} increments ({listed(shown)}), which keeps its size within bounds."
     return {"centre": centre.tolist(), "low": grid.points.min(axis=0).tolist(), "high": grid.points.max(axis=0).tolist(),
             "bodies": [body["name"] for body in results.summary["model"].get("bodies", [])] or [f"body {k + 1}" for k in range(int(bodies.max()))],
-            "increments": shown, "ranges": chosen, "magnification": tetrahedra.magnification_of(results.fields(shown[-1])),
+            "increments": shown, "ranges": chosen, "magnification": tetrahedra.magnification_of(results.fields(shown[-1])) if shown else 0.0,
             "quantities": [{"key": key, "name": tetrahedra.COMPONENTS[key][0], "dimension": tetrahedra.COMPONENTS[key][1]} for key in keys],
             "note": "" if len(shown) == results.count else what, "faces": add_faces(results, arrays, shown)}
+
+
+def motion_of_nodes(results):
+    """How the nodes of the bodies begin to move, n x 3; None where the run wrote no mechanism."""
+    grid = results.mechanism()
+    return None if grid is None else grid.point_data["displacement"][grid.point_data["pair"] == 0]
+
+
+def of_bodies(grid):
+    """The cells of bodies of mechanism.vtu, whose points come first."""
+    points, cells = int((grid.point_data["pair"] == 0).sum()), int((grid.cell_data["body"] > 0).sum())
+    return dataclasses.replace(grid, points=grid.points[:points], connectivity=grid.connectivity[:grid.offsets[cells - 1]], offsets=grid.offsets[:cells],
+                               types=grid.types[:cells], point_data={name: values[:points] for name, values in grid.point_data.items()},
+                               cell_data={name: values[:cells] for name, values in grid.cell_data.items()})
 
 
 def keys_of(asked):
@@ -79,7 +101,7 @@ def add_values(results, numbers, keys, arrays, budget):
 
 def add_faces(results, arrays, increments):
     """The contact faces as maps: for each its name, the names of its two coordinates and how many pairs it has."""
-    if not results.increments[-1]["contacts"]:
+    if not increments or not results.increments[-1]["contacts"]:
         return []
     maps = tetrahedra.maps_of(results, increments[-1])
     for k, of in enumerate(maps):

@@ -14,6 +14,8 @@ import { meanOf, pickAt, type SolidPoint } from "./pick";
 import { SpaceScene, type Solids } from "./scene";
 
 const TURN = 6, CLICK = 5; // degrees; pixels
+const MOTION = 2400; // of a mechanism, there and back
+const AT_REST = 1e-4; // of the largest displacement of a mechanism, as in summary.json
 const AXES: Record<string, Vector> = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
 export class SpacePanel {
@@ -44,6 +46,8 @@ export class SpacePanel {
   private section: Cut | null = null;
   private current = 0;
   private request = 0;
+  private mechanismFrame = 0;
+  private length = 0; // as which the largest displacement of the mechanism is drawn now
   private waiting = false;
 
   constructor(private readonly state: State, private readonly actions: { step(by: number): void; play(): void }) {
@@ -59,12 +63,14 @@ export class SpacePanel {
     const [points, triangles, body, cells, cellBody, edges] = await Promise.all([floats("space_points"), whole("space_triangles"), whole("space_body"), whole("space_cells"),
       whole("space_cell_body"), whole("space_edges")]);
     this.solids = { points, triangles, body, cells, cellBody, edges };
+    this.moved = new Float32Array(points.length);
     this.scene = new SpaceScene(drawer, this.solids);
     this.listen();
     const { state } = this;
     state.on(["increment", "quantity"], () => void this.load());
     state.on(["range", "bands", "units"], () => { this.colour(); this.read(); this.draw(); });
     state.on(["magnification", "pair", "contact"], () => this.draw());
+    state.on(["mechanism"], () => void this.load());
     state.on(["hidden"], () => { this.scene.setHidden(state.shown.hidden); this.cutAgain(); this.draw(); });
     state.on(["dark"], () => { this.theme(); this.draw(); });
     new ResizeObserver(() => this.resize()).observe(this.stage);
@@ -75,7 +81,7 @@ export class SpacePanel {
   }
 
   private controls(): HTMLElement {
-    const { shown } = this.state, set = this.state.set.bind(this.state);
+    const { shown, content } = this.state, set = this.state.set.bind(this.state), hasFields = this.space.increments.length > 0;
     const scale = element("input", { id: "magnification", type: "range", min: 0, max: 100, step: 0.5, "aria-label": "Magnification of displacements" });
     const exact = element("input", { id: "magnification-number", type: "number", min: 0, step: "any", "aria-label": "Magnification of displacements as a number" });
     const most = 4 * (this.space.magnification || 1);
@@ -97,11 +103,12 @@ export class SpacePanel {
         { id: `view-${axis}`, title: `Look along ${axis}`, "aria-label": `Look along ${axis}` })),
       button("Show all", () => { this.camera.look(-60, 25); this.draw(); }, { id: "show-all", title: "Show all (0)" }),
       button("PNG", () => this.savePicture(), { id: "save-png", title: "The picture as a file" }));
-    return element("div", { class: "controls" }, labelled("Show", quantities), labelled("Colours span", ranges),
-      element("div", { class: "control" }, element("span", { class: "label" }, "Deformation ×"), element("span", { class: "pair-of" }, scale, exact)),
+    return element("div", { class: "controls" }, hasFields && labelled("Show", quantities), hasFields && labelled("Colours span", ranges),
+      hasFields && element("div", { class: "control" }, element("span", { class: "label" }, "Deformation ×"), element("span", { class: "pair-of" }, scale, exact)),
       labelled("Section", axes), element("div", { class: "control" }, element("span", { class: "label" }, "at"), element("span", { class: "pair-of" }, this.slider, this.cutText)),
       element("div", { class: "checks" }, checkbox("Other side", false, (on) => { this.turned = on; this.cutAgain(); this.draw(); }, "cut-side"),
-        checkbox("Bands", shown.bands, (bands) => set({ bands }), "show-bands")), views);
+        hasFields && checkbox("Bands", shown.bands, (bands) => set({ bands }), "show-bands"),
+        hasFields && content.mechanism && checkbox("Mechanism", shown.mechanism, (mechanism) => set({ mechanism }), "show-mechanism")), views);
   }
 
   private bodies(): HTMLElement | null {
@@ -127,6 +134,9 @@ export class SpacePanel {
   }
 
   private async load(): Promise<void> {
+    cancelAnimationFrame(this.mechanismFrame);
+    this.root.classList.toggle("of-mechanism", this.showsMechanism);
+    if (this.showsMechanism) return this.playMechanism();
     const { shown } = this.state, request = ++this.request, increment = this.state.available(this.space.increments);
     const moves = this.space.quantities.some(({ key }) => key === "ux");
     const [value, parts] = await Promise.all([this.array(shown.quantity, increment), moves ? Promise.all(["ux", "uy", "uz"].map((name) => floats(`${name}_${increment}`))) : null]);
@@ -146,7 +156,49 @@ export class SpacePanel {
     this.root.dataset.quantity = shown.quantity;
   }
 
+  /** Also where no increment was finished, so that the page has nothing else to draw. */
+  get showsMechanism(): boolean {
+    return this.state.shown.mechanism || !this.space.increments.length;
+  }
+
+  /** From where the bodies are to the motion and back, again and again; at rest for those who want no motion. */
+  private async playMechanism(): Promise<void> {
+    const { mechanism } = this.state.content, request = ++this.request;
+    const parts = await Promise.all(["ux", "uy", "uz"].map((name) => floats(`mechanism_${name}`)));
+    if (request !== this.request || !mechanism) return;
+    parts.forEach((part, k) => part.forEach((u, i) => (this.moved[3 * i + k] = u)));
+    this.value = this.withoutBodiesAtRest(parts[0].map((u, i) => Math.hypot(u, parts[1][i], parts[2][i])));
+    this.picked = null;
+    this.scene.setMoved(this.moved);
+    this.scene.setValues(this.value);
+    this.note.textContent = `${mechanism.text} Colours: displacements, of which only the direction and the ratios mean something.`;
+    this.colour();
+    this.cutAgain();
+    this.read();
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches, start = performance.now();
+    const frame = (now: number) => {
+      this.length = mechanism.length * (still ? 1 : 0.5 - 0.5 * Math.cos((2 * Math.PI * (now - start)) / MOTION));
+      this.drawNow();
+      if (!still) this.mechanismFrame = requestAnimationFrame(frame);
+    };
+    frame(start);
+    this.root.dataset.quantity = "mechanism";
+  }
+
+  /** Those have no colour. */
+  private withoutBodiesAtRest(sizes: Float32Array): Float32Array {
+    const { body } = this.solids, most = new Map<number, number>();
+    sizes.forEach((size, i) => most.set(body[i], Math.max(most.get(body[i]) ?? 0, size)));
+    return sizes.map((size, i) => (most.get(body[i])! > AT_REST ? size : NaN));
+  }
+
+  /** By which displacements are multiplied. */
+  private get magnification(): number {
+    return this.showsMechanism ? this.length : this.state.shown.magnification;
+  }
+
   private colour(): void {
+    if (this.showsMechanism) return this.scene.setLevels(levels(0, 1), false);
     const { shown } = this.state, { ranges } = this.space, quantity = this.quantities.find(({ key }) => key === shown.quantity)!;
     const numbers = shown.range === "all" ? this.space.increments : [this.current], first = shown.range === "extremes" ? 2 : 0;
     const of = (n: number) => ranges[String(n)][shown.quantity] ?? [0, 0, 0, 0];
@@ -225,11 +277,12 @@ export class SpacePanel {
   }
 
   private get magnified(): Float32Array {
-    const { magnification } = this.state.shown;
+    const { magnification } = this;
     return this.moved.map((u) => magnification * u);
   }
 
   pick(px: number, py: number): void {
+    if (this.showsMechanism) return; // it has no values
     this.picked = pickAt(px, py, this.camera, { solids: this.solids, moved: this.magnified, hidden: this.state.shown.hidden, plane: this.plane, cut: this.section });
     this.read();
     this.draw();
@@ -246,6 +299,11 @@ export class SpacePanel {
   /** Values at the picked point. */
   private async read(): Promise<void> {
     const { picked, space, quantities } = this, { units } = this.state.shown, request = ++this.reading;
+    if (this.showsMechanism) {
+      this.values.replaceChildren();
+      this.where.textContent = "Drag to turn, with Shift or the right button to move.";
+      return;
+    }
     if (!picked) {
       this.values.replaceChildren();
       this.where.textContent = "Drag to turn, with Shift or the right button to move. Click on a body, or press Enter in the picture, to read the values there.";
@@ -293,14 +351,14 @@ export class SpacePanel {
   private drawNow(): void {
     this.waiting = false;
     const { shown } = this.state;
-    this.scene.setMagnification(shown.magnification);
+    this.scene.setMagnification(this.magnification);
     this.scene.draw(this.camera, 0.75 * this.camera.size + this.reachOfMotion());
     const marks: SVGElement[] = [], ring = (at: Vector, kind: string) => {
       const [px, py] = this.camera.toPixel(...at);
       marks.push(svg("circle", { cx: px, cy: py, r: 7, class: kind }));
     };
     if (this.picked) {
-      const { magnification } = shown, picked = this.picked;
+      const { magnification } = this, picked = this.picked;
       ring([0, 1, 2].map((k) => meanOf(picked, this.solids.points, 3, k) + magnification * meanOf(picked, this.moved, 3, k)) as Vector, "probe picked");
     }
     const pair = this.placeOfPair(shown.pair);
@@ -311,7 +369,7 @@ export class SpacePanel {
   private reachOfMotion(): number {
     let most = 0;
     for (const u of this.moved) most = Math.max(most, Math.abs(u));
-    return 2 * this.state.shown.magnification * most;
+    return 2 * (this.showsMechanism ? this.state.content.mechanism?.length ?? 0 : this.magnification) * most;
   }
 
   /** The axes, in the corner. */
@@ -331,7 +389,7 @@ export class SpacePanel {
     context.fillStyle = css("--card");
     context.fillRect(0, 0, width, height + 60);
     context.drawImage(this.canvas, 0, 0);
-    this.bar.draw(context, 20, height + 6, width - 40);
-    savePng(fileName(this.state.content.directory, this.state.shown.quantity, this.current), picture);
+    if (!this.showsMechanism) this.bar.draw(context, 20, height + 6, width - 40);
+    savePng(fileName(this.state.content.directory, this.showsMechanism ? "mechanism" : this.state.shown.quantity, this.current), picture);
   }
 }

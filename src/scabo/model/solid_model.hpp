@@ -109,12 +109,37 @@ struct SpaceLoad {
   bool varies() const { return formula[0] || formula[1] || formula[2]; }
 };
 
+/// A bar as of the plane (model/bar.hpp), along the line between its ends as they are drawn.
+struct SpaceBar {
+  /// A face or a set of nodes, whose mean displacement it has; a point of a body, its node nearest to `at` or the point
+  /// itself if it is rigid; or a point of the ground.
+  struct End {
+    std::optional<SpaceFace> on;
+    int body = -1;  ///< without `on`; -1: the ground
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  };
+  std::string name;
+  std::array<End, 2> between;
+  std::optional<double> stiffness;  ///< force / length, > 0; none: that of area, young and length
+  double area = 0.0, young = 0.0;   ///< length^2, force / length^2, > 0
+  double preload = 0.0;  ///< tension at the end of the step in which it is tightened; 0: it acts from the start
+  int tightened = 0;     ///< index of that step
+  Source source;
+};
+
+/// Coefficients of friction that differ along two directions of the faces.
+struct SpaceFrictionAxes {
+  Eigen::Vector3d direction;  ///< of length 1; along its projection on the faces the coefficient is that of the law
+  double across = 0.0;        ///< at right angles to it
+};
+
 /// Also a tie: its law is a bond.
 struct SpaceContact {
   std::string name;
   SpaceFace a, b;
   bool tied = false;
-  Contact law;       ///< as of a contact of the plane; its sides, gap, step and point have no meaning
+  Contact law;  ///< as of a contact of the plane; its sides, gap, step and point have no meaning
+  std::optional<SpaceFrictionAxes> friction_axes;
   double gap = 0.0;  ///< added to that of the meshes; negative: an interference
   /// Index of the step over which interferences, negative gaps of pairs, grow from 0 to their values; -1: they are
   /// there from the start.
@@ -139,10 +164,23 @@ struct SpaceSection {
   Source source;
 };
 
+/// A face of `output: {history: ...}`: the resultant of all that acts on its body through it is wanted.
+struct SpaceFaceResultant {
+  std::string name;
+  SpaceFace on;
+  Eigen::Vector3d about = Eigen::Vector3d::Zero();  ///< point of the moment
+};
+
+/// A displacement of `output: {history: ...}`, of a point or of one relative to another one; indices of points.
+struct SpaceDisplacement {
+  std::string name;
+  int point = -1, relative_to = -1;
+};
+
 /// A number of `output: {history: ...}`.
 struct SpaceQuantity {
   /// Of a contact: its force on b and the parts of it, moment, largest pressure and gap, numbers of pairs; of a
-  /// support; of springs; of a bolt; of the model.
+  /// support; of springs; of a bolt; of a point; of the model.
   enum class Kind {
     force,
     normal_force,
@@ -159,14 +197,19 @@ struct SpaceQuantity {
     spring_force,
     tension,
     shortening,
+    bar_tension,
+    displacement,
+    stress,
+    principal,
+    von_mises,
     elastic_energy,
     external_energy,
     friction_energy
   };
   std::string name;
   Kind kind = Kind::elastic_energy;
-  int of = -1;        ///< index of the contact, support, springs or body
-  int component = 0;  ///< of a vector
+  int of = -1;        ///< index of the contact, support, springs, body, bar or point
+  int component = 0;  ///< of a vector; of a stress xx, yy, zz, xy, yz, xz
 };
 
 struct SpaceModel {
@@ -178,11 +221,14 @@ struct SpaceModel {
   std::vector<SpaceSupport> supports;
   std::vector<SpaceSpring> springs;
   std::vector<SpaceLoad> loads;
+  std::vector<SpaceBar> bars;
   std::vector<SpaceContact> contacts;
   std::vector<Curve> curves;
   std::vector<Step> steps;  ///< counted ones
   std::vector<SpacePoint> points;
   std::vector<SpaceSection> sections;
+  std::vector<SpaceFaceResultant> resultants;
+  std::vector<SpaceDisplacement> displacements;
   std::vector<SpaceQuantity> quantities;
   double tolerance = 1e-10;  ///< of the certificate
   bool uniqueness = false;   ///< whether other solutions are searched for

@@ -40,6 +40,8 @@ class Posing {
   Vector varying_load(const model::SpaceLoad& load, const std::vector<mesh::SolidFacet>& on);
   void add_contact(const model::SpaceContact& contact);
   void add_preload(std::size_t body);
+  SolidPlaceOfAction place_of_action(const model::SpaceFace& on);
+  void add_resultant(const model::SpaceFaceResultant& of);
   void add_steps();
   SolidBody& body(int index) { return posed_.model.bodies[static_cast<std::size_t>(index)]; }
 
@@ -366,6 +368,46 @@ void Posing::add_preload(std::size_t number) {
   posed_.model.preloads.push_back(std::move(preload));
 }
 
+SolidPlaceOfAction Posing::place_of_action(const model::SpaceFace& on) {
+  if (on.is_body()) return {};  // of a rigid body as a whole
+  if (on.node_set < 0) return {on.body, facets(on), {}};
+  return {on.body, mesh::facets_among(boundaries_[static_cast<std::size_t>(on.body)], set_of_nodes(on)),
+          set_of_nodes(on)};
+}
+
+void Posing::add_resultant(const model::SpaceFaceResultant& of) {
+  FaceActions on_face(of.on.body, facets(of.on), of.about);
+  const auto share_of = [&](const model::SpaceFace& on, const std::string& what) {
+    auto share = on_face.share_of(place_of_action(on));
+    if (!share)
+      mistakes_.push_back(
+          {of.on.source, fmt::format("'{}' has some of the sides of '{}', where {} acts, and not all of "
+                                     "them: name a face that has all or none",
+                                     of.on.text, on.text, what)});
+    return share.value_or(FaceActions::Share());
+  };
+  const auto b = static_cast<std::size_t>(of.on.body);
+  for (std::size_t l = 0; l < model_.loads.size(); ++l) {
+    const model::SpaceLoad& load = model_.loads[l];
+    if (load.kind != model::SpaceLoad::Kind::gravity && load.kind != model::SpaceLoad::Kind::temperature)
+      on_face.add_load(l, body(of.on.body).mesh, posed_.model.loads[l][b],
+                       share_of(load.on, fmt::format("load '{}'", load.name)));
+  }
+  for (std::size_t s = 0; s < model_.supports.size(); ++s)
+    on_face.add_reactions(body(of.on.body).supports, static_cast<int>(s),
+                          share_of(model_.supports[s].on, fmt::format("support '{}'", model_.supports[s].name)));
+  for (std::size_t s = 0; s < model_.springs.size(); ++s)
+    on_face.add_springs(s, share_of(model_.springs[s].on, fmt::format("spring '{}'", model_.springs[s].name)));
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+    for (const bool on_b : {false, true}) {
+      const model::SpaceContact& contact = model_.contacts[c];
+      const auto share = share_of(on_b ? contact.b : contact.a,
+                                  fmt::format("{} '{}'", contact.tied ? "tie" : "contact", contact.name));
+      if (share.all || !share.nodes.empty()) on_face.add_contact(c, on_b);
+    }
+  posed_.resultants.push_back(std::move(on_face));
+}
+
 void Posing::add_steps() {
   const auto vector = [](const std::vector<double>& of) {
     return Vector(Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size())));
@@ -418,6 +460,7 @@ PosedSolids Posing::posed() {
     for (const model::SpaceContact& contact : model_.contacts) add_contact(contact);
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       if (model_.bodies[b].preload) add_preload(b);
+    for (const model::SpaceFaceResultant& of : model_.resultants) add_resultant(of);
   }
   if (!mistakes_.empty()) throw InputError(model_.file, mistakes_);
   add_steps();

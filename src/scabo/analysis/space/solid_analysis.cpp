@@ -67,6 +67,25 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const SolidSt
   return pairs;
 }
 
+/// Of the forces of every contact at the nodes of its sides, about the origin.
+std::vector<std::array<Eigen::Vector3d, 2>> moments_of_sides(const PreparedSolids& prepared,
+                                                             const std::vector<SolidPair>& pairs) {
+  const SolidModel& model = prepared.model;
+  std::vector<std::array<Eigen::Vector3d, 2>> moments(model.contacts.size(),
+                                                      {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto contact = static_cast<std::size_t>(pairs[i].contact);
+    for (const auto* side : {&prepared.paired.points[i].a, &prepared.paired.points[i].b}) {
+      Eigen::Vector3d at = Eigen::Vector3d::Zero();
+      for (const system::PairSide::Node& node : side->nodes)
+        at += node.weight * model.bodies[side->part].mesh.nodes.col(node.node);
+      const bool on_b = static_cast<int>(side->part) == model.contacts[contact].b.body;
+      moments[contact][on_b ? 1 : 0] += at.cross((on_b ? 1.0 : -1.0) * pairs[i].force);
+    }
+  }
+  return moments;
+}
+
 /// Gives the pairs that supports hold on both sides their gaps, and says what no contact force can remove there: an
 /// overlap, or a tie whose sides move apart. Empty: nothing.
 std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
@@ -264,6 +283,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
                      solution.states, std::move(evolution.history),          largest,      {}};
   to.energy = reached.energy = energy_of_solids(prepared_, state_, before_, reached, moved);
   to.pairs = solid_pairs(prepared_, reached);
+  to.moments_of_sides = moments_of_sides(prepared_, to.pairs);
   if (std::string reason = add_held_gaps(prepared_, to); !reason.empty()) {
     to.status = contact::Status::not_converged;
     to.reason = std::move(reason);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -21,7 +22,7 @@
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/space/solid_cell.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
-#include "scabo/model/contact.hpp"
+#include "scabo/model/solid_model.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/solid_cut.hpp"
 #include "scabo/system/solid_springs.hpp"
@@ -51,6 +52,18 @@ struct SolidContact {
   Side a, b;
   model::Contact law;  ///< without directions of friction, and without friction that varies along the contact
   double gap = 0.0;    ///< added to that of the meshes; negative: an interference
+  std::optional<model::SpaceFrictionAxes> friction_axes = {};
+};
+
+/// A bar between two points of bodies or the ground, as system::BarSystem: a pair that pulls and pushes alike.
+struct SolidBar {
+  system::PairSide a, b;
+  Eigen::Vector3d direction;  ///< of length 1, from a to b
+  double softness = 0.0;      ///< elongation per tension
+  double preload = 0.0;       ///< tension when it is tightened; 0: it acts from the start
+
+  /// What a tension adds to the forces on the nodes of all bodies.
+  void pull(double tension, std::vector<Vector>& forces) const;
 };
 
 /// A bolt that is tightened. Supports do not hold both of its parts along the normal of the cut.
@@ -80,6 +93,7 @@ struct SolidModel {
   std::vector<std::vector<Eigen::Vector3d>> per_volume = {};
   std::vector<SolidPreload> preloads = {};
   std::vector<SolidSpringOfBody> springs = {};
+  std::vector<SolidBar> bars = {};
 };
 
 /// Factors of loads, supports and interferences at the end of an increment.
@@ -92,6 +106,9 @@ struct SolidFactors {
   /// For each preload the part of it that is there, 0 to 1. One with a force has this part of it in increments in which
   /// the factor grows; in all others its shortening stays. Empty: none of them.
   Vector tightened = Vector();
+  /// For each bar with preload the part of it that is there, 0 to 1; its stiffness acts in the increments after the one
+  /// in which that is 1. Empty: there are no bars.
+  Vector bars = Vector();
 };
 
 /// A pair in a solution; vectors along the axes.
@@ -144,7 +161,10 @@ struct SolidIncrement {
   std::vector<Vector> reactions;  ///< [body], of its constraints
   std::vector<Vector> heated;     ///< [body], change of temperature of the nodes; empty: none
   std::vector<SolidPair> pairs;
+  /// Of each contact: moments about the origin of its forces at the nodes of side a and of side b.
+  std::vector<std::array<Eigen::Vector3d, 2>> moments_of_sides;
   std::vector<SolidTension> tensions;    ///< of each preload
+  std::vector<double> bars;              ///< tension of each
   std::vector<Eigen::Vector3d> springs;  ///< of each, what they exert on their body
   contact::Certificate certificate;
   Energy energy;

@@ -66,6 +66,8 @@ constexpr SpaceWord words_of_contact[] = {{"force", NumberKind::force, true},
 constexpr SpaceWord words_of_support[] = {{"reaction", NumberKind::reaction, true},
                                           {"moment", NumberKind::support_moment, true}};
 constexpr SpaceWord words_of_springs[] = {{"reaction", NumberKind::spring_force, true}};
+constexpr const char* words_of_stress[] = {"stress_xx", "stress_yy", "stress_zz",
+                                           "stress_xy", "stress_yz", "stress_xz"};
 constexpr SpaceWord words_of_bolts[] = {{"tension", NumberKind::tension, false},
                                         {"shortening", NumberKind::shortening, false}};
 
@@ -82,7 +84,36 @@ bool find_space_word(const SpaceWord (&words)[count], const std::string& text, S
   return false;
 }
 
+/// The same for the values at a point.
+bool find_word_of_point(const std::string& text, SpaceQuantity& quantity) {
+  const auto set = [&](NumberKind kind, int component) {
+    quantity.kind = kind;
+    quantity.component = component;
+    return true;
+  };
+  for (int k = 0; k < 6; ++k)
+    if (text == words_of_stress[k]) return set(NumberKind::stress, k);
+  for (int k = 0; k < 3; ++k) {
+    if (text == fmt::format("u{}", "xyz"[k])) return set(NumberKind::displacement, k);
+    if (text == fmt::format("principal_{}", k + 1)) return set(NumberKind::principal, k);
+  }
+  return text == "von_mises" && set(NumberKind::von_mises, 0);
+}
+
 }  // namespace
+
+/// The index of a point of `output.points`; -1 if there is none of this name, which is reported.
+int SpaceReader::point_named(const Value& value) {
+  std::vector<std::string> known;
+  for (const SpacePoint& point : model_.points) known.push_back(point.name);
+  const auto text = read_text(report_, value);
+  const auto found = text ? std::find(known.begin(), known.end(), *text) : known.end();
+  if (found != known.end()) return static_cast<int>(found - known.begin());
+  if (text)
+    report_.error(
+        value, fmt::format("there is no point of 'points' named {}{}", quoted_name(*text), suggestion(*text, known)));
+  return -1;
+}
 
 /// `sliding: joint.tangential_force_x`.
 void SpaceReader::quantity(const Entry& entry) {
@@ -110,6 +141,15 @@ void SpaceReader::quantity(const Entry& entry) {
   look(words_of_support, model_.supports);
   look(words_of_springs, model_.springs);
   look(words_of_bolts, model_.bodies);
+  if (SpaceQuantity candidate = quantity; !found && !name.empty() && find_word_of_point(word, candidate)) {
+    named = true;
+    for (std::size_t i = 0; i < model_.points.size() && !found; ++i)
+      if (model_.points[i].name == name) {
+        candidate.of = static_cast<int>(i);
+        quantity = candidate;
+        found = true;
+      }
+  }
   if (found && (quantity.kind == NumberKind::tension || quantity.kind == NumberKind::shortening))
     found = body_at(quantity.of).preload.has_value();
   if (found && quantity.kind == NumberKind::broken &&
@@ -117,29 +157,65 @@ void SpaceReader::quantity(const Entry& entry) {
     return report_.error(entry.value, fmt::format("contact '{}' has no 'cohesion' that could be lost", name));
   if (found) return model_.quantities.push_back(std::move(quantity));
   if (named)
-    return report_.error(
-        entry.value,
-        fmt::format("there is no contact, support, springs or bolt called {} that has '{}'", quoted_name(name), word));
+    return report_.error(entry.value,
+                         fmt::format("there is no contact, support, springs, bolt or point called {} that has '{}'",
+                                     quoted_name(name), word));
   report_.error(
       entry.value,
       fmt::format("{} is not a number of a history in space, as joint.force_x, joint.max_pressure, joint.open, "
-                  "ground.reaction_z, bolt.tension or elastic_energy are",
+                  "ground.reaction_z, bolt.tension, tip.uz or elastic_energy are",
                   quoted_name(*text)));
 }
 
-/// `cut: {section: {point: [0, 0, 1], normal: [0, 0, 1], body: post}}`.
-void SpaceReader::section(const Entry& entry) {
-  const MapReader quantity(report_, entry.value, {"section"}, "{section: {point: [0, 0, 1], normal: [0, 0, 1]}}",
-                           only_in_the_plane({"edge", "displacement", "axes", "relative_to", "about"}));
-  const auto value = quantity.is_map() ? quantity.need("section") : std::nullopt;
-  if (!value) return;
+/// `foot: {face: wall.bottom, about: [3, 0, 0]}`.
+void SpaceReader::face_resultant(const Entry& entry) {
+  const MapReader map(report_, entry.value, {"face", "about"}, "{face: block.bottom}", only_in_the_plane({"axes"}));
   const std::size_t before = report_.count();
-  const MapReader map(report_, *value, {"point", "normal", "about", "body"}, "{point: [0, 0, 1], normal: [0, 0, 1]}",
+  SpaceFaceResultant of;
+  of.name = entry.key;
+  if (const auto on = map.need("face"))
+    if (const auto place = face(*on)) of.on = *place;
+  if (const auto about = map.get("about")) of.about = vector(*about);
+  if (report_.count() == before) model_.resultants.push_back(std::move(of));
+}
+
+/// `drift: {displacement: top, relative_to: foot}`.
+void SpaceReader::displacement_of_point(const Entry& entry) {
+  const MapReader map(report_, entry.value, {"displacement", "relative_to"}, "{displacement: tip, relative_to: foot}",
+                      only_in_the_plane({"axes"}));
+  const std::size_t before = report_.count();
+  SpaceDisplacement of;
+  of.name = entry.key;
+  if (const auto point = map.need("displacement")) of.point = point_named(*point);
+  if (const auto other = map.get("relative_to")) of.relative_to = point_named(*other);
+  if (report_.count() == before) model_.displacements.push_back(std::move(of));
+}
+
+/// A section, the resultant over a face or the displacement of a point.
+void SpaceReader::quantity_of_several(const Entry& entry) {
+  constexpr const char* example =
+      "{section: {point: [0, 0, 1], normal: [0, 0, 1]}}, {face: block.bottom} or {displacement: tip}";
+  if (entry.value.node->kind != Node::Kind::map) return (void)MapReader(report_, entry.value, {"section"}, example);
+  const auto has = [&](const char* key) { return entry.value.node->find(key) != nullptr; };
+  if (has("face")) return face_resultant(entry);
+  if (has("displacement")) return displacement_of_point(entry);
+  const MapReader map(report_, entry.value, {"section"}, example,
+                      {{"edge", "what acts on a body in space acts through its faces: write 'face'"},
+                       {"axes", "a model in space does not have it (docs/model/space.md): leave it out"},
+                       {"about", "stands within a section, or beside 'face'"},
+                       {"relative_to", "stands beside 'displacement', a point of 'points'"}});
+  if (const auto value = map.need("section")) section(entry, *value);
+}
+
+/// `cut: {section: {point: [0, 0, 1], normal: [0, 0, 1], body: post}}`.
+void SpaceReader::section(const Entry& entry, const Value& value) {
+  const std::size_t before = report_.count();
+  const MapReader map(report_, value, {"point", "normal", "about", "body"}, "{point: [0, 0, 1], normal: [0, 0, 1]}",
                       {{"from", "a section in space is a plane: give its 'point' and 'normal'"},
                        {"to", "a section in space is a plane: give its 'point' and 'normal'"}});
   SpaceSection section;
   section.name = entry.key;
-  section.source = value->source();
+  section.source = value.source();
   if (const auto point = map.need("point")) section.point = vector(*point);
   const auto normal = map.need("normal");
   if (normal) section.normal = vector(*normal);
@@ -165,7 +241,7 @@ void SpaceReader::output(const Value& value) {
   if (const auto history = map.get("history"))
     for (const Entry& entry :
          read_named(report_, *history, "quantities", "{cut: {section: {point: [0, 0, 1], normal: [0, 0, 1]}}}"))
-      entry.value.node->kind == Node::Kind::scalar ? quantity(entry) : section(entry);
+      entry.value.node->kind == Node::Kind::scalar ? quantity(entry) : quantity_of_several(entry);
 }
 
 }  // namespace scabo::input

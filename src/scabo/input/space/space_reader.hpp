@@ -63,7 +63,11 @@ class SpaceReader {
   // read_solid_output.cpp
   void output(const Value& value);
   void point(const Value& value);
-  void section(const Entry& entry);
+  void section(const Entry& entry, const Value& value);
+  void face_resultant(const Entry& entry);
+  void displacement_of_point(const Entry& entry);
+  void quantity_of_several(const Entry& entry);
+  int point_named(const Value& value);
   void quantity(const Entry& entry);
   int body_named(const Value& value);
 

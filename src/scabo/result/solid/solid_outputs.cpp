@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "scabo/result/contact_table.hpp"
@@ -9,6 +10,26 @@
 #include "scabo/result/solid/solid_stress.hpp"
 
 namespace scabo::result {
+
+namespace {
+
+using Kind = model::SpaceQuantity::Kind;
+
+bool is_of_point(const model::SpaceQuantity& quantity) {
+  return quantity.kind == Kind::displacement || quantity.kind == Kind::stress || quantity.kind == Kind::principal ||
+         quantity.kind == Kind::von_mises;
+}
+
+/// Nothing for the stress in a rigid body.
+std::optional<double> figure_of_point(const SolidPointValues& values, const model::SpaceQuantity& quantity) {
+  if (quantity.kind == Kind::displacement) return values.displacement[quantity.component];
+  if (!values.stress) return std::nullopt;
+  if (quantity.kind == Kind::stress) return (*values.stress)[quantity.component];
+  const StressInSpace measures(*values.stress);
+  return quantity.kind == Kind::principal ? measures.principal[quantity.component] : measures.von_mises;
+}
+
+}  // namespace
 
 SolidOutputs::SolidOutputs(const model::SpaceModel& model, const analysis::PosedSolids& posed)
     : model_(model), posed_(posed) {
@@ -39,7 +60,33 @@ SolidOutputs::SolidOutputs(const model::SpaceModel& model, const analysis::Posed
           {section.source,
            fmt::format("the plane of section '{}' cuts no elastic body: move its 'point'", section.name)});
   }
+  for (const model::SpaceDisplacement& displacement : model.displacements)
+    for (const int point : {displacement.point, displacement.relative_to})
+      if (point >= 0) find_place(point, displacement.name, mistakes);
+  for (const model::SpaceQuantity& quantity : model.quantities)
+    if (is_of_point(quantity)) find_place(quantity.of, quantity.name, mistakes);
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+}
+
+void SolidOutputs::find_place(int point, const std::string& of, std::vector<Diagnostic>& mistakes) {
+  history_has_points_ = true;
+  std::string bodies;
+  int count = 0;
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    if (static_cast<int>(point_of_[k]) == point) {
+      const std::string& name = model_.bodies[static_cast<std::size_t>(places_[k].body)].name;
+      bodies += (count++ > 0 ? "' and '" : "'") + name;
+    }
+  const model::SpacePoint& at = model_.points[static_cast<std::size_t>(point)];
+  if (count > 1)
+    mistakes.push_back({at.source, fmt::format("point '{}' lies in bodies {}', and '{}' of the history is that of one: "
+                                               "give the point its 'body'",
+                                               at.name, bodies, of)});
+}
+
+const SolidPointValues& SolidOutputs::values_of(int point, const std::vector<SolidPointValues>& values) const {
+  const auto place = std::find(point_of_.begin(), point_of_.end(), static_cast<std::size_t>(point));
+  return values[static_cast<std::size_t>(place - point_of_.begin())];
 }
 
 std::string SolidOutputs::header_of_points() const {
@@ -78,6 +125,11 @@ std::string SolidOutputs::header_of_history() const {
   for (const model::SpaceSection& section : model_.sections)
     for (const char* column : {"normal", "force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"})
       header += fmt::format(",{}.{}", section.name, column);
+  for (const model::SpaceFaceResultant& of : model_.resultants)
+    for (const char* column : {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"})
+      header += fmt::format(",{}.{}", of.name, column);
+  for (const model::SpaceDisplacement& of : model_.displacements)
+    for (const char axis : {'x', 'y', 'z'}) header += fmt::format(",{}.u{}", of.name, axis);
   for (const model::SpaceQuantity& quantity : model_.quantities) header += "," + csv_quoted(quantity.name);
   return header + '\n';
 }
@@ -92,8 +144,26 @@ std::string SolidOutputs::row_of_history(const analysis::SolidIncrement& increme
     for (const double value : resultant.force) row += fmt::format(",{}", value);
     for (const double value : resultant.moment) row += fmt::format(",{}", value);
   }
-  for (const model::SpaceQuantity& quantity : model_.quantities)
-    row += fmt::format(",{}", value_of(model_, posed_, increment, quantity));
+  for (const analysis::FaceActions& of : posed_.resultants) {
+    const analysis::FaceResultant resultant = of.resultant(posed_.model, increment);
+    for (const Eigen::Vector3d& vector : {resultant.force, resultant.moment})
+      for (const double value : vector) row += fmt::format(",{}", value);
+  }
+  std::vector<SolidPointValues> at_points;
+  if (history_has_points_) at_points = values_at(posed_.model, increment, places_);
+  for (const model::SpaceDisplacement& of : model_.displacements) {
+    Eigen::Vector3d u = values_of(of.point, at_points).displacement;
+    if (of.relative_to >= 0) u -= values_of(of.relative_to, at_points).displacement;
+    for (const double value : u) row += fmt::format(",{}", value);
+  }
+  for (const model::SpaceQuantity& quantity : model_.quantities) {
+    if (!is_of_point(quantity)) {
+      row += fmt::format(",{}", value_of(model_, posed_, increment, quantity));
+    } else {
+      const std::optional<double> value = figure_of_point(values_of(quantity.of, at_points), quantity);
+      row += value ? fmt::format(",{}", *value) : ",";
+    }
+  }
   return row + '\n';
 }
 

@@ -16,7 +16,10 @@ class SolidOutputs {
   SolidOutputs(const model::SpaceModel& model, const analysis::PosedSolids& posed);
 
   bool has_points() const { return !places_.empty(); }
-  bool has_history() const { return !sections_.empty() || !model_.quantities.empty(); }
+  bool has_history() const {
+    return !sections_.empty() || !model_.quantities.empty() || !model_.resultants.empty() ||
+           !model_.displacements.empty();
+  }
   std::string header_of_points() const;
   std::string header_of_history() const;
   /// Rows of an increment; `number` of all, from 0.
@@ -24,11 +27,16 @@ class SolidOutputs {
   std::string row_of_history(const analysis::SolidIncrement& increment, std::size_t number) const;
 
  private:
+  /// The one place of a point of `points`; reports a point that has several.
+  void find_place(int point, const std::string& of, std::vector<Diagnostic>& mistakes);
+  const SolidPointValues& values_of(int point, const std::vector<SolidPointValues>& values) const;
+
   const model::SpaceModel& model_;
   const analysis::PosedSolids& posed_;
   std::vector<SolidPlace> places_;
   std::vector<std::size_t> point_of_;  // of each place
   std::vector<SolidSection> sections_;
+  bool history_has_points_ = false;
 };
 
 /// Part of its step at the end of an increment.
