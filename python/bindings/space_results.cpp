@@ -146,6 +146,7 @@ py::dict values(const SpaceResult& solved, std::size_t increment, const Numbers&
     const auto row = static_cast<py::ssize_t>(i);
     body.mutable_at(row) = places[i].body;
     const result::SolidPointValues* value = places[i].body >= 0 ? &found[next++] : nullptr;
+    if (value && value->absent) value = nullptr;
     const bool stressed = value && value->stress;
     const result::StressInSpace measures(stressed ? *value->stress : element::Vec6::Zero());
     for (int k = 0; k < 3; ++k) {

@@ -4,31 +4,25 @@
 #include <algorithm>
 
 #include "scabo/model/checking.hpp"
+#include "scabo/model/stay.hpp"
 
 namespace scabo::model {
 
 namespace {
 
-/// `what`: body or support.
 template <typename Staged>
-std::string removed_too_early(const Checking& checking, const Staged& of, const char* what) {
-  const std::vector<Step>& steps = checking.model.steps;
-  if (of.removed > 0)
-    return fmt::format("must be a step after '{}', in which the {} is added",
-                       steps[static_cast<std::size_t>(of.added)].name, what);
-  if (checking.model.restart)
-    return "is the first step of a restart, which begins with what is there at the other run's end: put a step before "
-           "it in which nothing changes, as {name: rest, loads: {}}";
-  return fmt::format("is the first step, so that the {} is never there: name a later step, or leave the {} out", what,
-                     what);
+Stay stay_of(const Staged& of) {
+  return {of.added, of.removed};
 }
 
+/// `what`: body or support.
 template <typename Staged>
 void check_named_steps(Checking& checking, const std::string& path, const Staged& of, const char* what) {
   const auto steps = static_cast<int>(checking.model.steps.size());
   if (of.added < 0 || of.added >= steps) checking.error(path, "added", "is not a step of the model");
   if (of.removed < -1 || of.removed >= steps) checking.error(path, "removed", "is not a step of the model");
-  if (of.removed >= 0 && of.removed <= of.added) checking.error(path, "removed", removed_too_early(checking, of, what));
+  if (const auto wrong = wrong_removal(stay_of(of), checking.model.steps, checking.model.restart.has_value(), what))
+    checking.error(path, "removed", *wrong);
 }
 
 void check_steps_of(Checking& checking, std::size_t index) {
@@ -43,12 +37,9 @@ void check_steps_of(Checking& checking, std::size_t index) {
 
 bool same_stages(const Body& a, const Body& b) { return a.added == b.added && a.removed == b.removed; }
 
-/// Whether a load, with this factor or curve of a step, acts in it at some time.
-bool acts_in(const Model& model, std::size_t load, std::size_t step) {
-  const Step& of = model.steps[step];
-  const bool before = step > 0 ? model.steps[step - 1].load_factors[load] != 0.0
-                               : model.restart && model.restart->load_factors[load] != 0.0;
-  return before || of.load_factors[load] != 0.0 || load_curve(of, load) >= 0;
+/// Factors of loads before the first step; empty: 0.
+std::vector<double> loads_at_start(const Model& model) {
+  return model.restart ? model.restart->load_factors : std::vector<double>();
 }
 
 /// Whether a body is there from the start of a step to its end.
@@ -66,12 +57,9 @@ void check_loads_on_stages(Checking& checking) {
     checking.enter(load.source);
     if (load.on) {
       const Body& body = checking.body(load.on->body);
-      bool acts = !body.is_staged();
-      for (std::size_t s = 0; s < model.steps.size() && !acts; ++s)
-        acts = body.is_there(static_cast<int>(s)) && acts_in(model, i, s);
-      if (!acts)
-        checking.error_of_key(
-            path, "", fmt::format("load '{}' never acts: body '{}' is not there when it does", load.name, body.name));
+      if (const auto never =
+              load_never_acts(load.name, i, body.name, stay_of(body), model.steps, loads_at_start(model)))
+        checking.error_of_key(path, "", *never);
       continue;
     }
     const auto* pores = std::get_if<PorePressure>(&load.kind);
@@ -81,7 +69,7 @@ void check_loads_on_stages(Checking& checking) {
         const Contact& contact = model.contacts[static_cast<std::size_t>(c)];
         const Body& body = checking.body((contact.*side).body);
         for (std::size_t s = 0; s < model.steps.size(); ++s) {
-          if (stays(body, s) || !acts_in(model, i, s)) continue;
+          if (stays(body, s) || !acts_in(model.steps, loads_at_start(model), i, s)) continue;
           checking.error_of_key(path, "",
                                 fmt::format("the pressure in contact '{}' acts in step '{}', in which body '{}' is not "
                                             "there from beginning to end: let its factor be 0 until the next step, or "
@@ -135,15 +123,12 @@ void check_supports_of_stages(Checking& checking) {
     const int added = std::max(body.added, support.added);
     const bool moves = support.displacement[0].value_or(0.0) != 0.0 || support.displacement[1].value_or(0.0) != 0.0 ||
                        support.rotation.value_or(0.0) != 0.0;
-    if (!moves || added <= 0 || added >= static_cast<int>(model.steps.size())) continue;
-    const auto before = static_cast<std::size_t>(added - 1);
-    if (model.steps[before].support_factors[i] == 0.0) continue;
+    if (!moves) continue;
+    const std::string begins = support.added > body.added ? "it" : fmt::format("body '{}'", body.name);
+    const auto early = displaced_too_early(support.name, i, added, begins, model.steps);
+    if (!early) continue;
     checking.enter(support.source);
-    checking.error(path_of("supports", support.source, i), "",
-                   fmt::format("the displacement of support '{}' is applied before step '{}', in which {} is "
-                               "added: give the support a name, and its factor a value in that step or a later one",
-                               support.name, model.steps[before + 1].name,
-                               support.added > body.added ? "it" : fmt::format("body '{}'", body.name)));
+    checking.error(path_of("supports", support.source, i), "", *early);
   }
 }
 

@@ -16,7 +16,9 @@
 #include "scabo/files/imported_solid_mesh.hpp"
 #include "scabo/model/contact.hpp"
 #include "scabo/model/curve.hpp"
+#include "scabo/model/model.hpp"
 #include "scabo/model/solid_shape.hpp"
+#include "scabo/model/stay.hpp"
 #include "scabo/model/step.hpp"
 
 namespace scabo::model {
@@ -48,6 +50,7 @@ struct SpaceBody {
   bool rigid = false;                   ///< then without a material
   double density = 0.0;                 ///< of a rigid body, mass / length^3, >= 0
   std::optional<SpacePreload> preload;  ///< of an elastic body
+  Stay stay;
   Source source;
 };
 
@@ -224,7 +227,8 @@ struct SpaceModel {
   std::vector<SpaceBar> bars;
   std::vector<SpaceContact> contacts;
   std::vector<Curve> curves;
-  std::vector<Step> steps;  ///< counted ones
+  std::vector<Step> steps;         ///< counted ones
+  std::optional<Restart> restart;  ///< of a run at rest
   std::vector<SpacePoint> points;
   std::vector<SpaceSection> sections;
   std::vector<SpaceFaceResultant> resultants;

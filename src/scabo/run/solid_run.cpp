@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "scabo/analysis/space/solid_restart.hpp"
 #include "scabo/base/interruption.hpp"
 #include "scabo/run/checkpoint_pace.hpp"
 #include "scabo/run/failures.hpp"
@@ -120,26 +121,33 @@ bool solve_increments(const analysis::PosedSolids& posed, analysis::SolidOptions
     if (--left > 0) interruption_point();
   };
   try {
-    if (left > 0) analysis::solve_solids(posed.model, posed.increments, options);
+    analysis::solve_solids(posed.model, posed.increments, options);
   } catch (const Stopped&) {
     return true;
   }
   return false;
 }
 
-analysis::SolidOptions options_of(const model::SpaceModel& model, int threads) {
+analysis::SolidOptions options_of(const model::SpaceModel& model, const analysis::PosedSolids& posed, int threads) {
   analysis::SolidOptions options;
   options.tolerance = model.tolerance;
   options.uniqueness = model.uniqueness;
   options.threads = threads;
+  if (model.restart)
+    options.start = [&](const analysis::PreparedSolids& prepared) {
+      return analysis::state_of_restart(prepared, model, posed);
+    };
   return options;
 }
 
 result::SolidEnd solve_and_write(const SolidRun& run) {
   SolidCheckpoints checkpoints(run);
-  analysis::SolidOptions options = options_of(run.model, run.threads);
+  analysis::SolidOptions options = options_of(run.model, run.posed, run.threads);
   options.first = static_cast<std::size_t>(run.begun.results.finished);
   if (options.first > 0) options.from = &run.begun.state;
+  options.on_end = [&](const analysis::PreparedSolids& prepared, const analysis::SolidState& state) {
+    analysis::write_end_state(run.directory, analysis::end_state_of_solids(prepared, run.model, state));
+  };
   const bool interrupted = solve_increments(
       run.posed, std::move(options), [&](const analysis::SolidIncrement& increment, const analysis::SolidState& state) {
         run.results.add(increment);
@@ -166,7 +174,7 @@ result::SolidEnd solve(const SolidRun& run) {
 
 bool solve_in_memory(const model::SpaceModel& model, const analysis::PosedSolids& posed, int threads,
                      const std::function<void(const analysis::SolidIncrement&)>& on_increment) {
-  return solve_increments(posed, options_of(model, threads),
+  return solve_increments(posed, options_of(model, posed, threads),
                           [&](const analysis::SolidIncrement& increment, const analysis::SolidState&) {
                             if (on_increment) on_increment(increment);
                           });

@@ -1,8 +1,10 @@
-// What is left of a contact system where some parts are absent, and bars wait.
+#include "scabo/system/fewer_parts.hpp"
+
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "scabo/contact/pair_operator.hpp"
-#include "scabo/system/contact_system.hpp"
 
 namespace scabo::system {
 
@@ -35,14 +37,14 @@ bool is_there(const ContactSystem::Pair& pair, const Structure& structure, const
   return has_end(bar.a) && has_end(bar.b);
 }
 
-/// Which pairs have both parts, and the new number of each of their rows, -1 of the others.
+/// Which pairs are there, and the new number of each of their rows, -1 of the others.
 std::vector<int> pairs_there(const std::vector<ContactSystem::Pair>& pairs, const Components& components,
-                             const Structure& structure, const model::Model& model, const Missing& missing,
+                             const std::function<bool(const ContactSystem::Pair&)>& is_there,
                              std::vector<int>& row_place) {
   std::vector<int> there;
   row_place.assign(static_cast<std::size_t>(components.count(pairs.size())), -1);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!is_there(pairs[i], structure, model, missing)) continue;
+    if (!is_there(pairs[i])) continue;
     for (int k = 0; k < components.dimension; ++k)
       row_place[static_cast<std::size_t>(components.of(i, k))] = static_cast<int>(components.of(there.size(), k));
     there.push_back(static_cast<int>(i));
@@ -84,14 +86,13 @@ contact::Delassus block_of(const contact::Delassus& W, const std::vector<int>& p
   return Matrix(W.dense()(rows, rows));
 }
 
-ContactSystem without_parts(const ContactSystem& whole, const Structure& structure, const model::Model& model,
-                            const std::vector<char>& absent, const std::vector<char>& waiting) {
+ContactSystem with_pairs(const ContactSystem& whole, const Structure& structure, const std::vector<char>& absent,
+                         const std::function<bool(const ContactSystem::Pair&)>& is_there) {
   ContactSystem system;
-  const Missing missing{absent, waiting};
   std::vector<int> place, held_place, rigid_place(static_cast<std::size_t>(whole.rigid_motions()), -1);
   system.components = whole.components;
-  const std::vector<int> there = pairs_there(whole.pairs, whole.components, structure, model, missing, place),
-                         held = pairs_there(whole.held, whole.components, structure, model, missing, held_place);
+  const std::vector<int> there = pairs_there(whole.pairs, whole.components, is_there, place),
+                         held = pairs_there(whole.held, whole.components, is_there, held_place);
   system.pairs = kept_of(whole.pairs, there);
   system.held = kept_of(whole.held, held);
   const auto kept = whole.components.count(there.size());
@@ -114,4 +115,25 @@ ContactSystem without_parts(const ContactSystem& whole, const Structure& structu
   for (std::size_t i = 0; i < there.size(); ++i) system.gap[static_cast<Eigen::Index>(i)] = whole.gap[there[i]];
   return system;
 }
+
+std::vector<Eigen::Index> places_in(const std::vector<ContactSystem::Pair>& before,
+                                    const std::vector<ContactSystem::Pair>& pairs) {
+  std::map<std::pair<int, int>, Eigen::Index> numbers;  // by contact and index
+  for (std::size_t i = 0; i < before.size(); ++i)
+    numbers.emplace(std::pair(before[i].contact, before[i].index), static_cast<Eigen::Index>(i));
+  std::vector<Eigen::Index> places;
+  for (const ContactSystem::Pair& pair : pairs) {
+    const auto known = numbers.find({pair.contact, pair.index});
+    places.push_back(known == numbers.end() ? -1 : known->second);
+  }
+  return places;
+}
+
+ContactSystem without_parts(const ContactSystem& whole, const Structure& structure, const model::Model& model,
+                            const std::vector<char>& absent, const std::vector<char>& waiting) {
+  const Missing missing{absent, waiting};
+  return with_pairs(whole, structure, absent,
+                    [&](const ContactSystem::Pair& pair) { return is_there(pair, structure, model, missing); });
+}
+
 }  // namespace scabo::system

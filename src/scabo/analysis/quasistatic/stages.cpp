@@ -1,13 +1,13 @@
 #include "scabo/analysis/quasistatic/stages.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
+#include "scabo/system/fewer_parts.hpp"
 
 namespace scabo::analysis {
 
@@ -36,25 +36,6 @@ std::vector<char> waiting_in(const Prepared& whole, std::size_t step) {
       waiting.push_back(whole.model.supports[static_cast<std::size_t>(bar.held->support)].is_there(number) ? 0 : 1);
   if (std::none_of(waiting.begin(), waiting.end(), [](char does) { return does != 0; })) waiting.clear();
   return waiting;
-}
-
-/// Number of every pair by contact and index.
-std::map<std::pair<int, int>, Eigen::Index> numbers_of(const std::vector<Pair>& pairs) {
-  std::map<std::pair<int, int>, Eigen::Index> numbers;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    numbers.emplace(std::pair(pairs[i].contact, pairs[i].index), static_cast<Eigen::Index>(i));
-  return numbers;
-}
-
-/// Of each pair its place among those of the stage before; -1 if it is new.
-std::vector<Eigen::Index> places_before(const std::vector<Pair>& before, const std::vector<Pair>& pairs) {
-  const auto number = numbers_of(before);
-  std::vector<Eigen::Index> places;
-  for (const Pair& pair : pairs) {
-    const auto known = number.find({pair.contact, pair.index});
-    places.push_back(known == number.end() ? -1 : known->second);
-  }
-  return places;
 }
 
 /// A pair counts its motion from its placing: minus the motion so far of the new ones.
@@ -161,7 +142,7 @@ void Stages::enter(std::size_t step, State& state) {
   set(std::move(absent), std::move(waiting));
   const system::ContactSystem& contact = now().contact;
 
-  ParentMaps maps{places_before(pairs_before, contact.pairs), places_before(held_before, contact.held), {}};
+  ParentMaps maps{system::places_in(pairs_before, contact.pairs), system::places_in(held_before, contact.held), {}};
   maps.rigid_motions.assign(static_cast<std::size_t>(contact.rigid_motions()), -1);
   for (std::size_t part = 0; part < whole_.structure.parts.size(); ++part) {
     const bool was_absent = !absent_before.empty() && absent_before[part];

@@ -6,12 +6,12 @@
 #include <map>
 #include <set>
 
+#include "scabo/analysis/space/solid_factors.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/mesh/extruded_solid.hpp"
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
 #include "scabo/model/limits.hpp"
-#include "scabo/system/contact_laws.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
@@ -42,7 +42,6 @@ class Posing {
   void add_preload(std::size_t body);
   SolidPlaceOfAction place_of_action(const model::SpaceFace& on);
   void add_resultant(const model::SpaceFaceResultant& of);
-  void add_steps();
   SolidBody& body(int index) { return posed_.model.bodies[static_cast<std::size_t>(index)]; }
 
   const model::SpaceModel& model_;
@@ -107,6 +106,7 @@ void Posing::add_body(const model::SpaceBody& of) {
   }
   SolidBody body{std::move(shaped.mesh)};
   body.name = of.name;
+  body.stay = of.stay;
   if (of.rigid) {
     body.rigid_at = system::volume_of(body.mesh).centroid;
   } else {
@@ -408,49 +408,6 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
   posed_.resultants.push_back(std::move(on_face));
 }
 
-void Posing::add_steps() {
-  const auto vector = [](const std::vector<double>& of) {
-    return Vector(Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size())));
-  };
-  const auto follow = [&](const std::vector<int>& curves, double s, Vector& factors) {
-    for (std::size_t i = 0; i < curves.size(); ++i)
-      if (curves[i] >= 0)
-        factors[static_cast<Eigen::Index>(i)] = model::value_of(model_.curves[static_cast<std::size_t>(curves[i])], s);
-  };
-  std::vector<model::Contact> laws;
-  for (const model::SpaceContact& contact : model_.contacts) laws.push_back(contact.law);
-  Vector coefficients = vector(system::coefficients_of(laws));
-  Vector loads = Vector::Zero(static_cast<Eigen::Index>(model_.loads.size())),
-         supports = Vector::Zero(static_cast<Eigen::Index>(model_.supports.size()));
-  for (std::size_t s = 0; s < model_.steps.size(); ++s) {
-    const model::Step& step = model_.steps[s];
-    const Vector last_loads = vector(step.load_factors), last_supports = vector(step.support_factors),
-                 last_coefficients = vector(model::coefficients_of(step));
-    for (int k = 1; k <= step.increments; ++k) {
-      const double t =
-          step.ends.empty() ? static_cast<double>(k) / step.increments : step.ends[static_cast<std::size_t>(k - 1)];
-      SolidFactors factors{(1.0 - t) * loads + t * last_loads, (1.0 - t) * supports + t * last_supports};
-      follow(step.load_curves, t, factors.loads);
-      follow(step.support_curves, t, factors.supports);
-      if (last_coefficients.size() > 0) factors.coefficients = (1.0 - t) * coefficients + t * last_coefficients;
-      factors.fits = Vector::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
-      for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-        if (const int fit = model_.contacts[c].fit_in; fit >= static_cast<int>(s))
-          factors.fits[static_cast<Eigen::Index>(c)] = fit == static_cast<int>(s) ? t : 0.0;
-      factors.tightened = Vector::Zero(static_cast<Eigen::Index>(posed_.model.preloads.size()));
-      for (std::size_t i = 0; i < posed_.model.preloads.size(); ++i)
-        if (const int at = model_.bodies[static_cast<std::size_t>(posed_.model.preloads[i].body)].preload->step;
-            at <= static_cast<int>(s))
-          factors.tightened[static_cast<Eigen::Index>(i)] = at == static_cast<int>(s) ? t : 1.0;
-      posed_.increments.push_back(std::move(factors));
-      posed_.step_and_number.emplace_back(s, k);
-    }
-    loads = last_loads;
-    supports = last_supports;
-    if (last_coefficients.size() > 0) coefficients = last_coefficients;
-  }
-}
-
 PosedSolids Posing::posed() {
   for (const model::SpaceBody& of : model_.bodies) add_body(of);
   if (mistakes_.empty()) {
@@ -463,7 +420,7 @@ PosedSolids Posing::posed() {
     for (const model::SpaceFaceResultant& of : model_.resultants) add_resultant(of);
   }
   if (!mistakes_.empty()) throw InputError(model_.file, mistakes_);
-  add_steps();
+  add_steps(model_, posed_);
   return std::move(posed_);
 }
 

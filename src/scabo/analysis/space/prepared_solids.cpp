@@ -6,6 +6,7 @@
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/system/contact_laws.hpp"
+#include "scabo/system/fewer_parts.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
@@ -101,18 +102,31 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
         body.rigid_at ? system::rigid_solid(body.mesh.nodes, *body.rigid_at, body.supports, springs[b])
                       : std::move(*next++));
   }
-  prepared.contact = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
-  for (system::ContactSystem::Pair& pair : prepared.contact.pairs)
-    pair.contact = prepared.paired.pairs[static_cast<std::size_t>(pair.index)].contact;
+  prepared.whole = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
+  for (std::vector<system::ContactSystem::Pair>* pairs : {&prepared.whole.pairs, &prepared.whole.held})
+    for (system::ContactSystem::Pair& pair : *pairs)
+      pair.contact = prepared.paired.pairs[static_cast<std::size_t>(pair.index)].contact;
   return prepared;
 }
 
+void set_stage(PreparedSolids& prepared, std::vector<char> absent) {
+  prepared.fewer.reset();
+  prepared.absent = std::move(absent);
+  if (prepared.absent.empty()) return;
+  prepared.fewer = system::with_pairs(
+      prepared.whole, prepared.structure, prepared.absent, [&](const system::ContactSystem::Pair& pair) {
+        const system::PairPoints& points = prepared.paired.points[static_cast<std::size_t>(pair.index)];
+        return !prepared.is_absent(points.a.part) && !prepared.is_absent(points.b.part);
+      });
+}
+
 contact::JointLaws laws_of_solids(const PreparedSolids& prepared, const SolidFactors& factors) {
-  return system::with_coefficients(prepared.contact.laws, prepared.contact.pairs, prepared.given,
+  return system::with_coefficients(prepared.contact().laws, prepared.contact().pairs, prepared.given,
                                    {factors.coefficients.begin(), factors.coefficients.end()});
 }
 
-AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFactors& factors, Vector shortening) {
+AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFactors& factors, Vector shortening,
+                                  const std::vector<Vector>& released) {
   const SolidModel& model = prepared.model;
   AppliedToSolids applied;
   applied.shortening = std::move(shortening);
@@ -120,8 +134,8 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
     const SolidBody& body = model.bodies[b];
     Vector forces = Vector::Zero(in_space.count(body.mesh.nodes.cols())), heated;
     double sum = 0.0;
-    for (std::size_t load = 0; load < model.loads.size(); ++load) {
-      const double factor = factors.loads[static_cast<Eigen::Index>(load)];
+    for (std::size_t load = 0; load < model.loads.size() && !prepared.is_absent(b); ++load) {
+      const double factor = factors.presence_of(b) * factors.loads[static_cast<Eigen::Index>(load)];
       if (model.loads[load][b].size() > 0) {
         forces += factor * model.loads[load][b];
         sum += std::abs(factor) * model.loads[load][b].lpNorm<1>();
@@ -131,14 +145,18 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
       heated += factor * model.temperatures[load][b];
     }
     for (std::size_t i = 0; i < model.preloads.size(); ++i) {
-      if (model.preloads[i].body != static_cast<int>(b)) continue;
+      if (model.preloads[i].body != static_cast<int>(b) || prepared.is_absent(b)) continue;
       forces += applied.shortening[static_cast<Eigen::Index>(i)] * model.preloads[i].cut.forces;
       sum += std::abs(applied.shortening[static_cast<Eigen::Index>(i)]) * model.preloads[i].cut.forces.lpNorm<1>();
     }
+    if (!released.empty() && released[b].size() > 0) {
+      forces += factors.release * released[b];
+      sum += factors.release * released[b].lpNorm<1>();
+    }
     if (const Matrix& rigid = prepared.structure.parts[b]->rigid_motions(); rigid.cols() > 0 && !body.rigid_at)
       take_out_rounding(rigid, sum, forces);
-    Vector values(static_cast<Eigen::Index>(body.supports.size()));
-    for (std::size_t c = 0; c < body.supports.size(); ++c)
+    Vector values = Vector::Zero(static_cast<Eigen::Index>(body.supports.size()));
+    for (std::size_t c = 0; c < body.supports.size() && !prepared.is_absent(b); ++c)
       values[static_cast<Eigen::Index>(c)] = body.supports[c].value * factors.supports[body.supports[c].support];
     applied.forces.push_back(std::move(forces));
     applied.prescribed.push_back(std::move(values));
@@ -155,9 +173,9 @@ double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors
 }
 
 contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied,
-                                   const SolidFactors& factors, const Vector& slip,
+                                   const SolidFactors& factors, const SolidState& from,
                                    const std::vector<std::size_t>& tightened) {
-  const system::ContactSystem& system = prepared.contact;
+  const system::ContactSystem& system = prepared.contact();
   const Eigen::Index pairs = system.gap.size();
   contact::Problem problem;
   problem.dimension = in_space.dimension;
@@ -170,12 +188,15 @@ contact::Problem problem_of_solids(const PreparedSolids& prepared, const Applied
     const double gap = system.gap[i] < 0.0
                            ? gap_of_solids(prepared, factors, static_cast<std::size_t>(system.pairs[k].index))
                            : system.gap[i];  // that of a pair that keeps its gap is 0
-    problem.q.segment<3>(in_space.of(i)) << gap, -slip.segment<2>(2 * i);
+    problem.q.segment<3>(in_space.of(i)) << gap, -from.slip.segment<2>(2 * i);
   }
+  if (from.offset.size() > 0) problem.q += from.offset;
   std::vector<Vector> u;
   for (std::size_t p = 0; p < prepared.structure.parts.size(); ++p) {
     const system::BodySystem& part = *prepared.structure.parts[p];
-    u.push_back(part.displacement(applied.forces[p], applied.prescribed[p]));
+    u.push_back(prepared.is_absent(p) ? Vector(Vector::Zero(part.size()))
+                                      : part.displacement(applied.forces[p], applied.prescribed[p]));
+    if (prepared.is_absent(p)) continue;
     problem.q += system.motion[p] * u[p];
     problem.f.segment(system.first_rigid[p], part.rigid_motions().cols()) =
         resultants_of_loads(part, applied.forces[p], applied.sums[p]);
@@ -188,9 +209,15 @@ MovedSolids moved_solids(const PreparedSolids& prepared, AppliedToSolids applied
   MovedSolids moved{std::move(applied), {}, {}, {}, {}};
   for (std::size_t i = 0; i < prepared.structure.parts.size(); ++i) {
     const system::BodySystem& part = *prepared.structure.parts[i];
-    moved.forces.push_back(moved.applied.forces[i] + prepared.contact.motion[i].transpose() * p);
+    if (prepared.is_absent(i)) {
+      for (std::vector<Vector>* of : {&moved.forces, &moved.u, &moved.unbalanced})
+        of->push_back(Vector::Zero(part.size()));
+      moved.reactions.push_back(Vector::Zero(static_cast<Eigen::Index>(part.constraints().size())));
+      continue;
+    }
+    moved.forces.push_back(moved.applied.forces[i] + prepared.contact().motion[i].transpose() * p);
     moved.u.push_back(part.displacement(moved.forces[i], moved.applied.prescribed[i]));
-    moved.u[i] += part.rigid_motions() * a.segment(prepared.contact.first_rigid[i], part.rigid_motions().cols());
+    moved.u[i] += part.rigid_motions() * a.segment(prepared.contact().first_rigid[i], part.rigid_motions().cols());
     moved.unbalanced.push_back(part.unbalanced(moved.u[i], moved.forces[i]));
     moved.reactions.push_back(part.reactions_of(moved.unbalanced[i]));
   }
@@ -207,6 +234,20 @@ MovedSolids solids_at_rest(const PreparedSolids& prepared) {
     rest.u.push_back(rest.applied.forces.back());
     rest.reactions.push_back(rest.applied.prescribed.back());
   }
+  return rest;
+}
+
+SolidState solid_state_at_rest(const PreparedSolids& prepared) {
+  const system::ContactSystem& contact = prepared.contact();
+  const Eigen::Index pairs = contact.gap.size();
+  SolidState rest;
+  rest.slip = Vector::Zero(2 * pairs);
+  rest.gap = contact.gap;
+  rest.p = Vector::Zero(in_space.count(pairs));
+  rest.a = Vector::Zero(contact.rigid_motions());
+  rest.states.assign(static_cast<std::size_t>(pairs), contact::ContactState::open);
+  rest.history.resize(static_cast<std::size_t>(pairs));
+  rest.shortening = Vector::Zero(static_cast<Eigen::Index>(prepared.model.preloads.size()));
   return rest;
 }
 

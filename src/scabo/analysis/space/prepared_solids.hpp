@@ -1,6 +1,7 @@
 // Bodies in space condensed to the pairs of their contacts, and what acts on them in an increment.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scabo/analysis/space/solid_analysis.hpp"
@@ -27,14 +28,24 @@ struct PreparedSolids {
   const SolidModel& model;
   PairedFaces paired;
   system::Structure structure;
-  system::ContactSystem contact;
+  system::ContactSystem whole;        // of all bodies
   std::vector<model::Contact> given;  // laws of the contacts of the model
+  // Of the present stage:
+  std::vector<char> absent = {};  // per body; empty: all are there
+  std::optional<system::ContactSystem> fewer = {};
+
+  /// Of the bodies that are there.
+  const system::ContactSystem& contact() const { return fewer ? *fewer : whole; }
+  bool is_absent(std::size_t body) const { return !absent.empty() && absent[body] != 0; }
 };
 
 PreparedSolids prepared_solids(const SolidModel& model, int threads);
 
 /// Laws of the pairs that move.
 contact::JointLaws laws_of_solids(const PreparedSolids& prepared, const SolidFactors& factors);
+
+/// Goes to a stage; `absent`: per body, empty: all are there. No factor of a body changes.
+void set_stage(PreparedSolids& prepared, std::vector<char> absent);
 
 /// Loads and prescribed displacements of all bodies, and of each the sum of the sizes of all its loads.
 struct AppliedToSolids {
@@ -43,18 +54,20 @@ struct AppliedToSolids {
   Vector shortening;  // of preloads
 };
 
-AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFactors& factors, Vector shortening);
+/// `released`: what removed bodies exerted (SolidState::released).
+AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFactors& factors, Vector shortening,
+                                  const std::vector<Vector>& released);
 
 /// The gap of pair i of the model; of an interference, the part that is there.
 double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t i);
 
-/// The contact problem of the pairs that move, its laws not yet included; `slip`: (d - 1) numbers of each so far;
+/// The contact problem of the pairs that move, its laws not yet included, from the slip and the offsets of `from`;
 /// `tightened`: preloads whose shortenings are unknowns too.
 contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied,
-                                   const SolidFactors& factors, const Vector& slip,
+                                   const SolidFactors& factors, const SolidState& from,
                                    const std::vector<std::size_t>& tightened);
 
-/// What the parts do under loads, contact forces and rigid motions.
+/// What the parts do under loads, contact forces and rigid motions; nothing, if they are absent.
 struct MovedSolids {
   AppliedToSolids applied;
   std::vector<Vector> u, forces, unbalanced, reactions;
@@ -64,5 +77,6 @@ MovedSolids moved_solids(const PreparedSolids& prepared, AppliedToSolids applied
 
 /// Before the first increment.
 MovedSolids solids_at_rest(const PreparedSolids& prepared);
+SolidState solid_state_at_rest(const PreparedSolids& prepared);
 
 }  // namespace scabo::analysis

@@ -53,7 +53,7 @@ Squares squares_of(const MovingSolids& solids, const std::vector<Vector>& moved,
   Squares squares{Matrix::Zero(U.cols(), U.cols()), Vector::Zero(U.cols())};
   double volume = 0.0;
   for (std::size_t b = 0; b < moved.size(); ++b) {
-    const Matrix& rigid = solids.structure.parts[b]->rigid_motions();
+    const Matrix rigid = solids.rigid_motions(b);
     if (rigid.cols() == 0) continue;
     const Matrix R = rigid * U.middleRows(solids.contact.first_rigid[b], rigid.cols());
     const Vector weights = system::volume_of(solids.model.bodies[b].mesh).weights;

@@ -9,8 +9,9 @@
 #include "scabo/analysis/quasistatic/branch.hpp"
 #include "scabo/analysis/space/prepared_solids.hpp"
 #include "scabo/analysis/space/smallest_motions.hpp"
+#include "scabo/analysis/space/solid_energy.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
-#include "scabo/analysis/state/friction_work.hpp"
+#include "scabo/analysis/space/solid_stages.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/system/solid_part.hpp"
 
@@ -36,13 +37,15 @@ double imbalance_of(const PreparedSolids& prepared, const MovedSolids& moved, do
 }
 
 /// What every spring exerts on its body.
-std::vector<Eigen::Vector3d> spring_resultants_of_solids(const SolidModel& model, const SolidFactors& factors,
+std::vector<Eigen::Vector3d> spring_resultants_of_solids(const PreparedSolids& prepared, const SolidFactors& factors,
                                                          const std::vector<Vector>& u) {
+  const SolidModel& model = prepared.model;
   std::vector<Eigen::Vector3d> resultants;
   for (const SolidSpringOfBody& of : model.springs) {
     const auto b = static_cast<std::size_t>(of.body);
     Vector forces = -of.spring.times(u[b]);
-    if (of.load >= 0) forces += factors.loads[of.load] * model.loads[static_cast<std::size_t>(of.load)][b];
+    if (of.load >= 0 && !prepared.is_absent(b))
+      forces += factors.presence_of(b) * factors.loads[of.load] * model.loads[static_cast<std::size_t>(of.load)][b];
     resultants.emplace_back(forces.reshaped(3, forces.size() / 3).rowwise().sum());
   }
   return resultants;
@@ -53,9 +56,9 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const SolidSt
   const PairedFaces& paired = prepared.paired;
   std::vector<SolidPair> pairs = paired.pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap = paired.points[i].gap;
-  for (std::size_t k = 0; k < prepared.contact.pairs.size(); ++k) {
+  for (std::size_t k = 0; k < prepared.contact().pairs.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    const auto i = static_cast<std::size_t>(prepared.contact.pairs[k].index);
+    const auto i = static_cast<std::size_t>(prepared.contact().pairs[k].index);
     const Eigen::Matrix3d directions = paired.points[i].directions;
     const double sense = paired.turned[i] ? -1.0 : 1.0;
     pairs[i].force = sense * (directions * state.p.segment<3>(in_space.of(row)));
@@ -88,11 +91,12 @@ std::vector<std::array<Eigen::Vector3d, 2>> moments_of_sides(const PreparedSolid
 
 /// Gives the pairs that supports hold on both sides their gaps, and says what no contact force can remove there: an
 /// overlap, or a tie whose sides move apart. Empty: nothing.
-std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
-  const std::vector<system::ContactSystem::Pair>& held = prepared.contact.held;
+std::string add_held_gaps(const PreparedSolids& prepared, const Vector& offset, SolidIncrement& to) {
+  const std::vector<system::ContactSystem::Pair>& held = prepared.contact().held;
   if (held.empty()) return {};
-  const Vector motion =
-      motion_under(prepared.contact.held_motion, to.u, in_space.count(static_cast<Eigen::Index>(held.size())));
+  Vector motion =
+      motion_under(prepared.contact().held_motion, to.u, in_space.count(static_cast<Eigen::Index>(held.size())));
+  if (offset.size() > 0) motion += offset;
   std::string worst;
   double most = 0.0;
   for (std::size_t k = 0; k < held.size(); ++k) {
@@ -114,60 +118,27 @@ std::string add_held_gaps(const PreparedSolids& prepared, SolidIncrement& to) {
   return worst;
 }
 
-FrictionWork friction_work_of_solids(const PreparedSolids& prepared, const SolidState& from, const SolidState& to) {
-  FrictionWork total;
-  const contact::JointLaws before = laws_of_solids(prepared, from.factors),
-                           after = laws_of_solids(prepared, to.factors);
-  for (std::size_t k = 0; k < prepared.contact.pairs.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    const Eigen::Index at = in_space.of(row);
-    add_friction_work(
-        {*before.of_pair[k], *after.of_pair[k], after.area[row], from.history[k], to.history[k], from.p[at], to.p[at],
-         from.p.segment<2>(at + 1), to.p.segment<2>(at + 1),
-         to.slip.segment<2>(2 * row) - from.slip.segment<2>(2 * row), from.gap[row], from.states[k], to.states[k]},
-        total);
-  }
-  return total;
+/// Leaves out the pairs of bodies that are absent.
+void leave_out_pairs(const PreparedSolids& prepared, SolidIncrement& to) {
+  if (prepared.absent.empty()) return;
+  std::vector<SolidPair> there;
+  for (std::size_t i = 0; i < to.pairs.size(); ++i)
+    if (const system::PairPoints& points = prepared.paired.points[i];
+        !prepared.is_absent(points.a.part) && !prepared.is_absent(points.b.part))
+      there.push_back(to.pairs[i]);
+  to.pairs = std::move(there);
 }
 
-/// What temperatures and preloads add to 1/2 u'K u: the strain they cause in a free body takes no energy.
-double initial_energy_of_solid(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t b,
-                               const AppliedToSolids& applied, const Vector& u) {
-  double energy = 0.0;
-  for (std::size_t i = 0; i < prepared.model.preloads.size(); ++i)
-    if (const SolidPreload& preload = prepared.model.preloads[i]; preload.body == static_cast<int>(b))
-      energy += preload.cut.energy(applied.shortening[static_cast<Eigen::Index>(i)], u);
-  if (applied.heated[b].size() == 0) return energy;
-  const SolidBody& body = prepared.model.bodies[b];
-  energy += system::held_thermal_energy(body.mesh, elasticity_of(body), body.expansion, applied.heated[b], body.solved);
-  for (std::size_t load = 0; load < prepared.model.loads.size(); ++load)
-    if (prepared.model.temperatures[load][b].size() > 0)
-      energy -= factors.loads[static_cast<Eigen::Index>(load)] * u.dot(prepared.model.loads[load][b]);
-  return energy;
-}
-
-/// The energy of `from` and what an increment adds to it.
-Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, const MovedSolids& before,
-                        const SolidState& to, const MovedSolids& after) {
-  Energy energy = from.energy;
-  energy.elastic = 0.0;
-  for (std::size_t i = 0; i < after.u.size(); ++i) {
-    energy.external += 0.5 * (before.applied.forces[i] + after.applied.forces[i]).dot(after.u[i] - before.u[i]);
-    energy.external +=
-        0.5 *
-        (before.reactions[i] + after.reactions[i]).dot(after.applied.prescribed[i] - before.applied.prescribed[i]);
-    energy.elastic += prepared.structure.parts[i]->elastic_energy(after.u[i], after.forces[i], after.unbalanced[i]);
-    const double initial = initial_energy_of_solid(prepared, to.factors, i, after.applied, after.u[i]);
-    energy.elastic += initial;
-    energy.external += initial - initial_energy_of_solid(prepared, from.factors, i, before.applied, before.u[i]);
-  }
-  const Vector normal = to.p(Eigen::seqN(0, to.p.size() / in_space.dimension, in_space.dimension));
-  energy.elastic += 0.5 * prepared.contact.softness.dot(normal.cwiseAbs2());
-  const FrictionWork friction = friction_work_of_solids(prepared, from, to);
-  energy.friction += friction.work;
-  energy.external += friction.beyond_rule;
-  energy.friction_error += friction.error;
-  return energy;
+/// What the parts do in an increment.
+void describe_parts(const PreparedSolids& prepared, const SolidFactors& factors, const Vector& shortening,
+                    const MovedSolids& moved, SolidIncrement& to) {
+  to.u = moved.u;
+  to.reactions = moved.reactions;
+  to.heated = moved.applied.heated;
+  to.tensions = tensions_of(prepared.model, shortening, moved.u);
+  for (std::size_t i = 0; i < to.tensions.size(); ++i)
+    if (prepared.is_absent(static_cast<std::size_t>(prepared.model.preloads[i].body))) to.tensions[i] = {};
+  to.springs = spring_resultants_of_solids(prepared, factors, moved.u);
 }
 
 /// Increments in their order, each from the state that the one before it left.
@@ -177,29 +148,24 @@ class SolidMarch {
       : prepared_(prepared_solids(model, options.threads)), before_(solids_at_rest(prepared_)) {
     solver_.tolerance = options.tolerance;
     uniqueness_ = options.uniqueness;
-    if (options.from == nullptr) {
-      const Eigen::Index pairs = prepared_.contact.gap.size();
-      state_.slip = Vector::Zero(2 * pairs);
-      state_.gap = prepared_.contact.gap;
-      state_.p = Vector::Zero(in_space.count(pairs));
-      state_.a = Vector::Zero(prepared_.contact.rigid_motions());
-      state_.states.assign(static_cast<std::size_t>(pairs), contact::ContactState::open);
-      state_.history.resize(static_cast<std::size_t>(pairs));
-      state_.shortening = before_.applied.shortening;
+    set_stage(prepared_, absent_in(model, options.from == nullptr ? 0 : options.from->factors.step));
+    if (options.from == nullptr && !options.start) {
+      state_ = solid_state_at_rest(prepared_);
       return;
     }
-    state_ = *options.from;
-    before_ =
-        moved_solids(prepared_, applied_to_solids(prepared_, state_.factors, state_.shortening), state_.p, state_.a);
+    state_ = options.from == nullptr ? options.start(prepared_) : *options.from;
+    before_ = moved_solids(prepared_, applied_to_solids(prepared_, state_.factors, state_.shortening, state_.released),
+                           state_.p, state_.a);
   }
 
   SolidIncrement next(const SolidFactors& factors);
   const SolidState& state() const { return state_; }
+  const PreparedSolids& prepared() const { return prepared_; }
 
  private:
   MovingSolids moving(const std::vector<std::size_t>& tightened) const {
-    return {prepared_.model,        prepared_.structure,     prepared_.contact,      tightened,
-            prepared_.paired.pairs, prepared_.paired.points, prepared_.paired.turned};
+    return {prepared_.model,        prepared_.structure,     prepared_.contact(),     tightened,
+            prepared_.paired.pairs, prepared_.paired.points, prepared_.paired.turned, prepared_.absent};
   }
   /// Of motions that nothing determines the smallest one, of increments without preloads that are tightened.
   void give_smallest_motions(const AppliedToSolids& applied, const contact::Problem& problem,
@@ -234,10 +200,10 @@ contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const Soli
   start.a.conservativeResize(motions + static_cast<Eigen::Index>(tightened.size()));
   for (std::size_t k = 0; k < tightened.size(); ++k)
     start.a[motions + static_cast<Eigen::Index>(k)] = state_.shortening[static_cast<Eigen::Index>(tightened[k])];
-  const contact::Problem problem = problem_of_solids(prepared_, applied, factors, state_.slip, tightened);
+  const contact::Problem problem = problem_of_solids(prepared_, applied, factors, state_, tightened);
   const contact::JointLaws laws = laws_of_solids(prepared_, factors);
   contact::Evolution evolution = contact::evolve(problem, laws, state_.history, start, solver_);
-  if (uniqueness_ && !prepared_.contact.pairs.empty())
+  if (uniqueness_ && !prepared_.contact().pairs.empty())
     to.uniqueness = follow_history(problem, laws, state_.history, start, solver_, evolution);
   if (tightened.empty()) give_smallest_motions(applied, evolution.problem, start, evolution.solution);
   const contact::Solution& solution = evolution.solution;
@@ -252,16 +218,18 @@ contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const Soli
 
 SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   const SolidModel& model = prepared_.model;
+  if (factors.step != state_.factors.step) enter_step(prepared_, factors.step, state_, before_);
   const std::vector<std::size_t> tightened =
       preloads_being_tightened(model, state_.factors.tightened, factors.tightened);
   Vector shortening = known_shortenings(model, tightened, state_.shortening, factors.tightened);
-  AppliedToSolids applied = applied_to_solids(prepared_, factors, shortening);
+  AppliedToSolids applied = applied_to_solids(prepared_, factors, shortening, state_.released);
   for (const Vector& forces : applied.forces)
     state_.force_scale = std::max(state_.force_scale, forces.lpNorm<Eigen::Infinity>());
   for (const std::size_t i : tightened)
     state_.force_scale = std::max(state_.force_scale, std::abs(*model.preloads[i].force));
   solver_.force_scale = state_.force_scale;
   SolidIncrement to;
+  to.absent = prepared_.absent;
   contact::Evolution evolution = solved(applied, factors, tightened, to);
   const contact::Solution& solution = evolution.solution;
   if (solution.status != contact::Status::solved) return to;
@@ -270,23 +238,32 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   const Vector a = solution.a.head(motions);
   for (std::size_t k = 0; k < tightened.size(); ++k)
     shortening[static_cast<Eigen::Index>(tightened[k])] = solution.a[motions + static_cast<Eigen::Index>(k)];
-  if (!tightened.empty()) applied = applied_to_solids(prepared_, factors, shortening);
+  if (!tightened.empty()) applied = applied_to_solids(prepared_, factors, shortening, state_.released);
   MovedSolids moved = moved_solids(prepared_, std::move(applied), solution.p, a);
   const double largest = std::max(state_.force_scale, largest_force_of_solids(moved, solution.p));
   to.certificate.equilibrium = imbalance_of(prepared_, moved, largest);
-  to.u = moved.u;
-  to.reactions = moved.reactions;
-  to.heated = moved.applied.heated;
-  to.tensions = tensions_of(model, shortening, moved.u);
-  to.springs = spring_resultants_of_solids(model, factors, moved.u);
-  SolidState reached{factors,         state_.slip + solution.slip_increment, solution.gap, solution.p, a, shortening,
-                     solution.states, std::move(evolution.history),          largest,      {}};
+  describe_parts(prepared_, factors, shortening, moved, to);
+  SolidState reached{factors,
+                     state_.slip + solution.slip_increment,
+                     solution.gap,
+                     solution.p,
+                     a,
+                     shortening,
+                     solution.states,
+                     std::move(evolution.history),
+                     largest,
+                     {},
+                     state_.offset,
+                     state_.held_offset,
+                     state_.released};
   to.energy = reached.energy = energy_of_solids(prepared_, state_, before_, reached, moved);
   to.pairs = solid_pairs(prepared_, reached);
   to.moments_of_sides = moments_of_sides(prepared_, to.pairs);
-  if (std::string reason = add_held_gaps(prepared_, to); !reason.empty()) {
+  std::string held = add_held_gaps(prepared_, state_.held_offset, to);
+  leave_out_pairs(prepared_, to);
+  if (!held.empty()) {
     to.status = contact::Status::not_converged;
-    to.reason = std::move(reason);
+    to.reason = std::move(held);
   } else if (to.certificate.worst() > solver_.tolerance) {
     to.status = contact::Status::not_converged;
     to.reason = "the forces at some node do not balance to the tolerance of the certificate";
@@ -300,6 +277,10 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
 
 }  // namespace
 
+bool SolidModel::has_stages() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const SolidBody& body) { return body.stay.is_staged(); });
+}
+
 SolidBody with_super_elements(SolidBody body, int threads) {
   body.solved = element::solve_super_elements(body.mesh, elasticity_of(body), threads);
   return body;
@@ -311,7 +292,8 @@ element::InsideCells inside_cells_of(const SolidModel& model, const SolidIncreme
   inside.heated = increment.heated[body];
   inside.stress = model.bodies[body].expansion * D.leftCols<3>().rowwise().sum();
   for (std::size_t load = 0; load < model.per_volume.size(); ++load)
-    inside.per_volume += increment.factors.loads[static_cast<Eigen::Index>(load)] * model.per_volume[load][body];
+    inside.per_volume += increment.factors.presence_of(body) *
+                         increment.factors.loads[static_cast<Eigen::Index>(load)] * model.per_volume[load][body];
   return inside;
 }
 
@@ -326,8 +308,9 @@ void solve_solids(const SolidModel& model, const std::vector<SolidFactors>& incr
   for (std::size_t k = options.first; k < increments.size(); ++k) {
     const SolidIncrement made = march.next(increments[k]);
     if (options.on_increment) options.on_increment(made, march.state());
-    if (made.status != contact::Status::solved) break;
+    if (made.status != contact::Status::solved) return;
   }
+  if (options.on_end) options.on_end(march.prepared(), march.state());
 }
 
 }  // namespace scabo::analysis

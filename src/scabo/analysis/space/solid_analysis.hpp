@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -22,7 +23,9 @@
 #include "scabo/contact/solution.hpp"
 #include "scabo/element/space/solid_cell.hpp"
 #include "scabo/mesh/space/facet_pairs.hpp"
+#include "scabo/model/contact.hpp"
 #include "scabo/model/solid_model.hpp"
+#include "scabo/model/stay.hpp"
 #include "scabo/system/contact_system.hpp"
 #include "scabo/system/solid_cut.hpp"
 #include "scabo/system/solid_springs.hpp"
@@ -38,6 +41,7 @@ struct SolidBody {
   std::optional<Eigen::Vector3d> rigid_at = {};
   std::string name = {};               ///< in messages
   element::SuperElements solved = {};  ///< of an elastic body
+  model::Stay stay = {};
 };
 
 /// The body with its super-elements solved.
@@ -94,6 +98,9 @@ struct SolidModel {
   std::vector<SolidPreload> preloads = {};
   std::vector<SolidSpringOfBody> springs = {};
   std::vector<SolidBar> bars = {};
+
+  /// Whether bodies are put in place or taken away in steps.
+  bool has_stages() const;
 };
 
 /// Factors of loads, supports and interferences at the end of an increment.
@@ -109,6 +116,15 @@ struct SolidFactors {
   /// For each bar with preload the part of it that is there, 0 to 1; its stiffness acts in the increments after the one
   /// in which that is 1. Empty: there are no bars.
   Vector bars = Vector();
+  // Staged construction (solid_stages.hpp):
+  int step = 0;                ///< to which the increment belongs
+  Vector presence = Vector();  ///< for each body the part of its loads that acts, 0 to 1; empty: all of them
+  double release = 0.0;        ///< part of SolidState::released that acts
+
+  /// Part of its loads that acts on a body.
+  double presence_of(std::size_t body) const {
+    return presence.size() > 0 ? presence[static_cast<Eigen::Index>(body)] : 1.0;
+  }
 };
 
 /// A pair in a solution; vectors along the axes.
@@ -151,16 +167,25 @@ struct SolidMechanism {
   std::vector<SolidPair> pairs;         ///< gap and slip are the motion of the pair; without forces
   double work = 0.0;                    ///< of the loads, force times length
   Vector motion;                        ///< as amplitudes of the contact problem
+  std::vector<char> absent = {};        ///< [body], whether it is not there; empty: all are
+
+  bool is_absent(std::size_t body) const { return !absent.empty() && absent[body] != 0; }
+  /// Number of bodies that are there.
+  std::ptrdiff_t present() const {
+    return static_cast<std::ptrdiff_t>(bodies.size()) -
+           std::count_if(absent.begin(), absent.end(), [](char is) { return is != 0; });
+  }
 };
 
 struct SolidIncrement {
   SolidFactors factors;
   contact::Status status = contact::Status::not_converged;
   std::string reason;             ///< why it is not solved
-  std::vector<Vector> u;          ///< [body], three numbers for each node
+  std::vector<char> absent;       ///< [body], whether it is not there; empty: all are
+  std::vector<Vector> u;          ///< [body], three numbers for each node; 0 of one that is absent
   std::vector<Vector> reactions;  ///< [body], of its constraints
   std::vector<Vector> heated;     ///< [body], change of temperature of the nodes; empty: none
-  std::vector<SolidPair> pairs;
+  std::vector<SolidPair> pairs;   ///< between bodies that are there
   /// Of each contact: moments about the origin of its forces at the nodes of side a and of side b.
   std::vector<std::array<Eigen::Vector3d, 2>> moments_of_sides;
   std::vector<SolidTension> tensions;    ///< of each preload
@@ -172,6 +197,8 @@ struct SolidIncrement {
   std::optional<SolidMechanism> mechanism;     ///< of a mechanism or collapse
   std::optional<UniquenessResult> uniqueness;  ///< if requested
   std::vector<Warning> warnings;               ///< that no increment before it has given
+
+  bool is_absent(std::size_t body) const { return !absent.empty() && absent[body] != 0; }
 };
 
 /// All that the next increment depends on. Displacements follow from the factors, the contact forces and the motions.
@@ -184,7 +211,13 @@ struct SolidState {
   contact::History history;
   double force_scale = 0.0;  ///< largest force so far
   Energy energy;
+  // Staged construction (solid_stages.hpp); empty without stages:
+  Vector offset;                 ///< of each pair that moves, three numbers: added to its motion, from its placing on
+  Vector held_offset;            ///< the same of pairs that supports hold
+  std::vector<Vector> released;  ///< [body], what removed bodies exerted on it; empty where nothing did
 };
+
+struct PreparedSolids;  // prepared_solids.hpp
 
 struct SolidOptions {
   double tolerance = 1e-10;  ///< of the certificate
@@ -192,6 +225,10 @@ struct SolidOptions {
   bool uniqueness = false;           ///< whether other solutions are searched for
   std::size_t first = 0;             ///< of the increments, those before it are done,
   const SolidState* from = nullptr;  ///< and this is the state after them; null: nothing is done
+  /// Of an analysis that nothing is done of: the state from which it starts. Without it, that at rest.
+  std::function<SolidState(const PreparedSolids&)> start;
+  /// Told of the state after the last increment, if all are solved.
+  std::function<void(const PreparedSolids&, const SolidState&)> on_end;
   /// Told of every increment as soon as it is known, with the state after it, which an unsolved one does not change.
   std::function<void(const SolidIncrement&, const SolidState&)> on_increment;
 };

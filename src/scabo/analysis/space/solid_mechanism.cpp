@@ -21,7 +21,7 @@ constexpr double least_motion = 1e-6;  // of the largest: motions are found to a
 
 /// Of the nodes of body `b`, from amplitudes of the contact problem.
 Vector displacement_of_body(const MovingSolids& solids, std::size_t b, const Vector& motion) {
-  const Matrix& rigid = solids.structure.parts[b]->rigid_motions();
+  const Matrix rigid = solids.rigid_motions(b);
   return rigid * motion.segment(solids.contact.first_rigid[b], rigid.cols());
 }
 
@@ -94,7 +94,7 @@ Eigen::SparseMatrix<double> inverse_mass_of_solids(const MovingSolids& solids) {
     return scale * volume;
   };
   for (std::size_t b = 0; b < solids.model.bodies.size(); ++b) {
-    const Matrix& rigid = solids.structure.parts[b]->rigid_motions();
+    const Matrix rigid = solids.rigid_motions(b);
     if (rigid.cols() == 0) continue;
     const Vector weights = system::volume_of(solids.model.bodies[b].mesh).weights;
     const double unit = scaled(weights.sum()) / weights.sum();
@@ -127,7 +127,12 @@ std::vector<SolidPair> moved_pairs(const MovingSolids& solids, const Vector& u) 
     pairs[i].slip = (solids.turned[i] ? -1.0 : 1.0) *
                     (Eigen::Matrix3d(solids.points[i].directions).rightCols<2>() * of_pair.tail<2>());
   }
-  return pairs;
+  if (solids.absent.empty()) return pairs;
+  std::vector<SolidPair> there;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!solids.is_absent(solids.points[i].a.part) && !solids.is_absent(solids.points[i].b.part))
+      there.push_back(pairs[i]);
+  return there;
 }
 
 }  // namespace
@@ -164,6 +169,7 @@ SolidMechanism solid_mechanism(const MovingSolids& solids, const contact::Proble
   mechanism.rule = onset ? FlowRule::coulomb : FlowRule::associated;
   mechanism.work = problem.f.dot(mechanism.motion);
   mechanism.pairs = moved_pairs(solids, problem.G * mechanism.motion);
+  mechanism.absent = solids.absent;
   return mechanism;
 }
 
@@ -180,7 +186,7 @@ std::string describe_motion(const SolidBodyMotion& motion) {
 std::string describe(const SolidMechanism& mechanism, const SolidModel& model) {
   const std::vector<std::size_t> moving = moving_bodies(mechanism);
   if (moving.empty()) return fmt::format("bolt '{}' is shortened", name_of(model, mechanism.bolts.front()));
-  return fmt::format("{} of {} bodies {} '{}'", moving.size(), mechanism.bodies.size(),
+  return fmt::format("{} of {} bodies {} '{}'", moving.size(), mechanism.present(),
                      moving.size() == 1 ? "moves," : "move, most of all", model.bodies[moving.front()].name);
 }
 
@@ -266,7 +272,7 @@ std::optional<Warning> undetermined_motion_warning(const MovingSolids& solids, c
   std::vector<Matrix> of_bodies;
   double largest = 0.0;
   for (std::size_t b = 0; b < solids.model.bodies.size(); ++b) {
-    const Matrix& rigid = solids.structure.parts[b]->rigid_motions();
+    const Matrix rigid = solids.rigid_motions(b);
     of_bodies.push_back(rigid * undetermined.middleRows(solids.contact.first_rigid[b], rigid.cols()));
     if (rigid.cols() > 0) largest = std::max(largest, of_bodies.back().lpNorm<Eigen::Infinity>());
   }

@@ -26,6 +26,14 @@ struct MovingSolids {
   const std::vector<SolidPair>& pairs;  // at rest
   const std::vector<system::PairPoints>& points;
   const std::vector<char>& turned;  // whether the pairs are corners of side a
+  const std::vector<char>& absent;  // of all bodies; empty: all are there
+
+  bool is_absent(std::size_t body) const { return !absent.empty() && absent[body] != 0; }
+  /// Of a body that is there; none of another one.
+  Matrix rigid_motions(std::size_t body) const {
+    const Matrix& rigid = structure.parts[body]->rigid_motions();
+    return is_absent(body) ? Matrix(rigid.rows(), 0) : rigid;
+  }
 };
 
 /// The motion without deformation nearest to displacements of the nodes; `largest` is theirs.

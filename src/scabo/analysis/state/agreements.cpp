@@ -2,30 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "scabo/analysis/state/sealed_file.hpp"
+#include "scabo/analysis/state/fingerprint.hpp"
 
 namespace scabo::analysis {
 
 namespace {
-
-/// Digest of numbers and texts, one after the other.
-class Fingerprint {
- public:
-  void add(std::string_view text) { value_ = digest(text, digest(";", value_)); }
-  void add(double number) {
-    if (number == 0.0) number = 0.0;  // also -0
-    value_ = digest({reinterpret_cast<const char*>(&number), sizeof number}, value_);
-  }
-  void add(const Vec2& x) { add(x.x()), add(x.y()); }
-  void add(const Vector& values) {
-    add(static_cast<double>(values.size()));
-    for (const double value : values) add(value);
-  }
-  std::string text() const { return hexadecimal(value_); }
-
- private:
-  std::uint64_t value_ = digest_start;
-};
 
 void add_material(const model::Material& material, Fingerprint& to) {
   to.add(material.young), to.add(material.poisson);

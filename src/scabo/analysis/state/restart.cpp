@@ -3,33 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <system_error>
-#include <type_traits>
 
 #include "scabo/analysis/state/agreements.hpp"
 #include "scabo/analysis/state/fields.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
 #include "scabo/analysis/state/restart_points.hpp"
-#include "scabo/analysis/state/sealed_file.hpp"
 #include "scabo/analysis/state/step_factors.hpp"
-#include "scabo/model/restart_files.hpp"
 
 namespace scabo::analysis {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr const char* end_mark = "scabo_end\n";
-constexpr const char* end_version = "9";
-
-template <typename Io, typename T, typename Exchange>
-void exchange_list(Io& io, const std::string& path, std::vector<T>& list, const Exchange& exchange) {
-  list.resize(exchange_count(io, path + "/count", list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i) exchange(fmt::format("{}/{}", path, i), list[i]);
-}
 
 /// Whether the entries of a field are kept with a contact, with a part or with neither.
 bool is_of_contact(const Field& field) {
@@ -42,38 +26,6 @@ bool is_of_part(const Field& field) {
          (field.owner == Owner::part || field.owner == Owner::rigid_motion || field.owner == Owner::vector_of_part);
 }
 bool is_of_whole(const Field& field) { return field.lasts && field.owner == Owner::whole; }
-
-template <typename Io>
-void exchange_fields(Io& io, const std::string& path, bool (*is_one)(const Field&),
-                     std::map<std::string, std::vector<double>>& of) {
-  for (const Field& field : fields_of_state())
-    if (is_one(field)) io.numbers(path + field.name, of[field.name]);
-}
-
-template <typename Io>
-void exchange_end(Io& io, EndState& end) {
-  io.text("version", end.version);
-  exchange_list(io, "agreements", end.agreements, [&](const std::string& path, EndState::Agreement& of) {
-    io.text(path + "/what", of.what), io.text(path + "/digest", of.digest);
-  });
-  const auto exchange_named = [&](const std::string& section, std::vector<EndState::Of>& list,
-                                  bool (*is_one)(const Field&)) {
-    exchange_list(io, section, list, [&](const std::string& path, EndState::Of& of) {
-      io.text(path + "/name", of.name);
-      exchange_fields(io, path + "/", is_one, of.fields);
-    });
-  };
-  exchange_named("contacts", end.contacts, is_of_contact);
-  exchange_named("bars", end.bars, is_of_pair);
-  exchange_named("parts", end.parts, is_of_part);
-  exchange_list(io, "held", end.held, [&](const std::string& path, EndState::Held& of) {
-    io.text(path + "/name", of.name);
-    io.numbers(path + "/constraints", of.constraints);
-    io.numbers(path + "/u", of.u);
-    exchange_fields(io, path + "/", is_of_pair, of.fields);
-  });
-  exchange_fields(io, "state/", is_of_whole, end.whole);
-}
 
 /// Positions of the pairs of a contact in the list of all.
 std::vector<Eigen::Index> places_of_contact(const std::vector<system::ContactSystem::Pair>& pairs,
@@ -137,38 +89,6 @@ std::vector<double> vector_of_part(const std::vector<double>& numbers, std::size
   return {};
 }
 
-/// The entries of a field at some places; nothing if the field is empty.
-std::vector<double> selected(const std::vector<double>& from, const Places& places, int count) {
-  return from.empty() ? from : entries_at(from, count, places);
-}
-void put(const std::vector<double>& some, const Places& places, int count, std::vector<double>& to, std::size_t size) {
-  if (some.empty()) return;
-  ensure(some.size() == static_cast<std::size_t>(count) * places.size(), "a contact or part has as many as before");
-  if (to.empty()) to.resize(size, 0.0);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (int k = 0; k < count; ++k)
-      to.at(static_cast<std::size_t>(places[i] * count + k)) =
-          some[i * static_cast<std::size_t>(count) + static_cast<std::size_t>(k)];
-}
-
-/// Numbers that are kept under a name; nothing if there are none.
-const std::vector<double>& kept(const std::map<std::string, std::vector<double>>& of, const std::string& name) {
-  static const std::vector<double> none;
-  const auto found = of.find(name);
-  return found == of.end() ? none : found->second;
-}
-
-const EndState::Of* find(const std::vector<EndState::Of>& list, const std::string& name) {
-  const auto found = std::ranges::find(list, name, &EndState::Of::name);
-  return found == list.end() ? nullptr : &*found;
-}
-
-[[noreturn]] void refuse(const model::Model& model, std::vector<std::string> messages) {
-  std::vector<Diagnostic> diagnostics;
-  for (std::string& message : messages) diagnostics.push_back({model.restart->source, std::move(message)});
-  throw InputError(model.file, std::move(diagnostics));
-}
-
 /// What of the end of a run large slip cannot go on from.
 void check_large_slip(const model::Model& model, const EndState& end) {
   const std::string& directory = model.restart->directory;
@@ -187,26 +107,11 @@ void check_large_slip(const model::Model& model, const EndState& end) {
                       "in {}: make one model of both without stages",
                       contact.name, directory));
   }
-  if (!messages.empty()) refuse(model, std::move(messages));
+  refuse_restart(model.file, *model.restart, std::move(messages));
 }
 
 EndState read_end(const model::Model& model) {
-  const std::string& directory = model.restart->directory;
-  EndState end;
-  try {
-    Unsealing io(fs::path(directory) / model::state_at_end_file, end_mark);
-    if (io.first_text() != end_version)
-      refuse(model,
-             {fmt::format("the state at the end of {} was written by another version of Scabo: run that model again",
-                          directory)});
-    exchange_end(io, end);
-    io.finish();
-  } catch (const InputError& error) {
-    if (!error.diagnostics().empty() && error.diagnostics().front().at.line == model.restart->source.line) throw;
-    refuse(model, {fmt::format("the state at the end of {} is damaged: run that model again", directory)});
-  } catch (const std::logic_error&) {
-    refuse(model, {fmt::format("the state at the end of {} is damaged: run that model again", directory)});
-  }
+  EndState end = read_end_state(model.file, *model.restart, false);
   check_large_slip(model, end);
   return end;
 }
@@ -223,42 +128,6 @@ mesh::Placement placement_at_end(const model::Model& model, const EndState& end)
     }
   return placement;
 }
-
-/// What of two lists of agreements differs, in sentences.
-std::vector<std::string> disagreements(const std::vector<EndState::Agreement>& there,
-                                       const std::vector<EndState::Agreement>& here, const std::string& directory) {
-  const auto by_name = [](const std::vector<EndState::Agreement>& list) {
-    std::map<std::string, std::string> map;
-    for (const EndState::Agreement& of : list) map.emplace(of.what, of.digest);
-    return map;
-  };
-  const auto digests_there = by_name(there), digests_here = by_name(here);
-  std::vector<std::string> messages;
-  for (const EndState::Agreement& of : there) {
-    const auto found = digests_here.find(of.what);
-    if (found == digests_here.end())
-      messages.push_back(
-          fmt::format("{} is there at the end of {}, but not at the start of this model: what the state "
-                      "depends on must be in both",
-                      of.what, directory));
-    else if (found->second != of.digest)
-      messages.push_back(fmt::format(
-          "{} is not the same as in {}: what the state depends on (plane, thickness, shape, mesh, with the nodes that "
-          "other bodies need on its edges, material, place, and the value of a load that acts) must not change",
-          of.what, directory));
-  }
-  for (const EndState::Agreement& of : here)
-    if (!digests_there.contains(of.what))
-      messages.push_back(
-          fmt::format("{} is not there at the end of {}: it, or the body that it belongs to, must be 'added' in a step "
-                      "of this model, the second one or a later one",
-                      of.what, directory));
-  return messages;
-}
-
-}  // namespace
-
-namespace {
 
 std::vector<std::size_t> present_parts(const Prepared& now) {
   std::vector<std::size_t> parts;
@@ -324,7 +193,6 @@ void place_new_bars(const Prepared& now, const EndState& end, State& state) {
 
 EndState end_state(const Prepared& now, const State& state) {
   EndState end;
-  end.version = end_version;
   const bool in_motion = !state.velocity.empty();
   const std::size_t last = now.model.steps.size() - 1;
   end.agreements = agreements_of(now, state, static_cast<int>(last), in_motion);
@@ -364,44 +232,20 @@ EndState end_state(const Prepared& now, const State& state) {
   return end;
 }
 
-void write_end_state(const fs::path& directory, EndState end) {
-  const fs::path factors = directory / model::factors_at_end_file;
-  std::ofstream stream(factors, std::ios::binary);
-  stream << "# Scabo: factors at the end of this run\n";
-  for (const auto& [section, list] :
-       {std::pair("loads", &end.loads), std::pair("supports", &end.supports), std::pair("placed", &end.placed),
-        std::pair("bars", &end.tightened), std::pair("motion", &end.motion)}) {
-    if (list->empty() && list != &end.loads && list != &end.supports) continue;
-    stream << section << ":\n";
-    for (const EndState::Factor& factor : *list) {
-      std::string quoted;
-      for (const char letter : factor.name) quoted += letter == '\'' ? "''" : std::string(1, letter);
-      stream << fmt::format("  '{}': {}\n", quoted, factor.value);
-    }
-  }
-  stream.close();
-  if (!stream) throw std::runtime_error(fmt::format("cannot write {}", factors.string()));
-  const fs::path file = directory / model::state_at_end_file, part = file.string() + ".part";
-  Sealing io(end_mark);
-  exchange_end(io, end);
-  io.write(part);
-  std::error_code error;
-  fs::rename(part, file, error);
-  if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), error.message()));
-}
-
 mesh::Placement placement_of_restart(const model::Model& model) { return placement_at_end(model, read_end(model)); }
 
 State state_of_restart(const Prepared& now) {
-  const std::string& directory = now.model.restart->directory;
   const EndState end = read_end(now.model);
   State state = initial_state(now);
   state.factors.loads = now.model.restart->load_factors;
   state.factors.supports = now.model.restart->support_factors;
-  if (auto messages =
-          disagreements(end.agreements, agreements_of(now, state, 0, now.model.restart->motion.has_value()), directory);
-      !messages.empty())
-    refuse(now.model, std::move(messages));
+  refuse_restart(
+      now.model.file, *now.model.restart,
+      disagreements(
+          end.agreements, agreements_of(now, state, 0, now.model.restart->motion.has_value()),
+          now.model.restart->directory,
+          "plane, thickness, shape, mesh, with the nodes that other bodies need on its edges, material, place, "
+          "and the value of a load that acts"));
   for (const Field& field : fields_of_state())
     if (field.lasts) continue_field(now, end, field, state);
   continue_points(now, end, state);

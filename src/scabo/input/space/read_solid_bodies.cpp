@@ -75,10 +75,11 @@ std::optional<SpacePreload> SpaceReader::preload(const Value& value) {
 
 void SpaceReader::body(const Entry& entry) {
   const MapReader map(
-      report_, entry.value, {"material", "shape", "mesh", "rigid", "density", "preload"},
+      report_, entry.value, {"material", "shape", "mesh", "rigid", "density", "preload", "added", "removed"},
       "{material: steel, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.1}}",
       only_in_the_plane({"thickness", "holes", "regions", "sectors", "materials", "outside", "reference", "cracks",
-                         "crack", "copies", "repeat", "image", "added", "removed", "join", "corners"}));
+                         "crack", "copies", "repeat", "image", "join", "corners"}));
+  stages_.push_back({model_.bodies.size(), map.get("added"), map.get("removed")});
   SpaceBody body;
   body.name = entry.key;
   body.source = entry.value.source();

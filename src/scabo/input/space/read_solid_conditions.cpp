@@ -213,6 +213,7 @@ void SpaceReader::place_of_load(const MapReader& map, const Entry& entry, SpaceL
   }
   if (const auto on = map.get("on")) {
     const auto name = read_text(report_, *on);
+    load.on.source = on->source();
     for (std::size_t b = 0; name && b < model_.bodies.size(); ++b)
       if (model_.bodies[b].name == *name) load.on.body = static_cast<int>(b);
     if (name && load.on.body < 0)

@@ -49,10 +49,11 @@ void SpaceReader::material(const Entry& entry) {
 
 SpaceModel SpaceReader::read(const Value& root) {
   root_ = root;
-  const MapReader map(report_, root,
-                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs",
-                       "loads", "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output"},
-                      "'scabo: 1' and sections", only_in_the_plane({"bars", "tolerance", "restart", "initial"}));
+  const MapReader map(
+      report_, root,
+      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
+       "contact_properties", "contacts", "ties", "curves", "restart", "steps", "solver", "output"},
+      "'scabo: 1' and sections", only_in_the_plane({"bars", "tolerance", "initial"}));
   if (const auto version = map.need("scabo"); version && number(version, 1.0) != 1.0)
     report_.error(*version, fmt::format("this program reads format version 1, not {}", version->node->text));
   if (const auto title = map.get("title")) model_.title = read_text(report_, *title).value_or("");
@@ -66,8 +67,8 @@ SpaceModel SpaceReader::read(const Value& root) {
          read_named(report_, *value, "bodies", "{block: {material: steel, mesh: {file: block.inp}}}"))
       body(entry);
   if (const auto value = map.get("bodies");
-      value && (value->node->kind == Node::Kind::null ||
-                (value->node->kind == Node::Kind::map && value->node->entries.empty())))
+      value &&
+      (value->node->kind == Node::Kind::null || (value->node->kind == Node::Kind::map && value->node->entries.empty())))
     report_.error(*value, "contains no body: define at least one");
   if (const auto value = map.get("supports"))
     for (const Value& item :
@@ -86,9 +87,11 @@ SpaceModel SpaceReader::read(const Value& root) {
   tell_of_unused(properties_, model_.warnings);
   if (const auto value = map.get("output")) output(*value);
   if (const auto value = map.get("curves")) curves(*value);
+  if (const auto value = map.get("restart")) restart(*value);
   steps(map.get("steps"));
   find_fits();
   find_tightened();
+  find_stages();
   return std::move(model_);
 }
 

@@ -118,7 +118,7 @@ Step SpaceReader::step(const Value& value, const Step& before, std::size_t numbe
       if (!model_.supports[i].named) step.support_factors[i] = 1.0;
     for (const Entry& entry : read_named(report_, *loads, "factors", "{tip: 1.0}")) factor(entry, step);
     divide_at_corners(model_.curves, step);
-  } else if (number == 1 || !map.has("friction")) {  // else they stay as they are
+  } else if (number == 1 || (!map.has("friction") && !has_stage(step.name))) {  // else they stay as they are
     std::fill(step.load_factors.begin(), step.load_factors.end(), 1.0);
     std::fill(step.support_factors.begin(), step.support_factors.end(), 1.0);
   }
@@ -131,6 +131,10 @@ void SpaceReader::steps(const std::optional<Value>& value) {
   Step last;
   last.load_factors.assign(model_.loads.size(), 0.0);
   last.support_factors.assign(model_.supports.size(), 0.0);
+  if (model_.restart) {
+    last.load_factors = model_.restart->load_factors;
+    last.support_factors = model_.restart->support_factors;
+  }
   for (const Value& item : items.value_or(std::vector<Value>{})) {
     last = step(item, last, model_.steps.size() + 1);
     const bool follows =
@@ -174,9 +178,13 @@ void SpaceReader::find_fits() {
 }
 
 void SpaceReader::find_tightened() {
-  for (const auto& [body, value] : tightened_)
-    if (const int step = step_named(value); step >= 0 && model_.bodies[body].preload)
-      model_.bodies[body].preload->step = step;
+  for (const auto& [body, value] : tightened_) {
+    auto& preload = model_.bodies[body].preload;
+    if (preload && preload->step < 0)
+      report_.error(value, tightened_already("bolt", model_.bodies[body].name, *end_));
+    else if (const int step = step_named(value); step >= 0 && preload)
+      preload->step = step;
+  }
 }
 
 }  // namespace scabo::input

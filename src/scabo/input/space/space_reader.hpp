@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scabo/input/laws.hpp"
+#include "scabo/input/restart.hpp"
 #include "scabo/input/space/solid_values.hpp"
 #include "scabo/model/solid_model.hpp"
 
@@ -82,6 +83,12 @@ class SpaceReader {
   void find_tightened();
   int step_named(const Value& value) const;
 
+  // read_solid_stages.cpp
+  void restart(const Value& value);
+  bool has_stage(const std::string& step) const;
+  void find_stages();
+  void check_stages();
+
   double number(const std::optional<Value>& value, double otherwise = 0.0) const {
     return value ? read_number(report_, *value).value_or(otherwise) : otherwise;
   }
@@ -98,6 +105,13 @@ class SpaceReader {
   std::map<std::pair<std::string, bool>, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
   std::vector<std::pair<std::size_t, Value>> fits_;       ///< contacts, and the names of the steps of `fit_in`
   std::vector<std::pair<std::size_t, Value>> tightened_;  ///< bodies, and the names of the steps of their preloads
+  /// `added` and `removed`: the names of steps.
+  struct Stages {
+    std::size_t first;  ///< of the bodies of an entry, up to those of the next one
+    std::optional<Value> added, removed;
+  };
+  std::optional<EndOfRun> end_;  ///< of the run from which this one starts
+  std::vector<Stages> stages_;   ///< of every entry of the bodies
 };
 
 }  // namespace scabo::input

@@ -28,6 +28,7 @@ SolidCells solid_cells(const analysis::SolidModel& model, const analysis::SolidI
   const std::vector<Vector>& u = increment.u;
   SolidCells cells;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (increment.is_absent(b)) continue;
     const mesh::SolidMesh& mesh = model.bodies[b].mesh;
     const auto first = static_cast<std::int32_t>(cells.point_body.size()), number = static_cast<std::int32_t>(b + 1);
     cells.points.insert(cells.points.end(), mesh.nodes.data(), mesh.nodes.data() + mesh.nodes.size());

@@ -70,7 +70,8 @@ SolidMechanismCells solid_mechanism_cells(const analysis::SolidModel& model,
                                           const analysis::SolidMechanism& mechanism) {
   SolidMechanismCells cells;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    add_body(model.bodies[b].mesh, mechanism.bodies[b], static_cast<std::int32_t>(b + 1), cells);
+    if (!mechanism.is_absent(b))
+      add_body(model.bodies[b].mesh, mechanism.bodies[b], static_cast<std::int32_t>(b + 1), cells);
   add_faces(model, mechanism, cells);
   return cells;
 }

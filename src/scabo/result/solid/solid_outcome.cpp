@@ -22,7 +22,7 @@ Json content_of_mechanism(const analysis::SolidMechanism& mechanism, const analy
                {"rule", mechanism.rule == analysis::FlowRule::coulomb ? "coulomb" : "associated"},
                {"moving", std::count_if(mechanism.bodies.begin(), mechanism.bodies.end(),
                                         [](const analysis::SolidBodyMotion& body) { return body.moves(); })},
-               {"present", mechanism.bodies.size()},
+               {"present", mechanism.present()},
                {"work", mechanism.work},
                {"bodies", Json::object()}};
   for (std::size_t b = 0; b < mechanism.bodies.size(); ++b) {

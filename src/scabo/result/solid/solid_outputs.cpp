@@ -102,6 +102,7 @@ std::string SolidOutputs::rows_of_points(const analysis::SolidIncrement& increme
     for (const double value : numbers) fmt::format_to(std::back_inserter(rows), ",{}", value);
   };
   for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].absent) continue;
     const model::SpacePoint& point = model_.points[point_of_[i]];
     fmt::format_to(std::back_inserter(rows), "{},{},{},{}", step + 1, of_step, csv_quoted(point.name),
                    csv_quoted(model_.bodies[static_cast<std::size_t>(places_[i].body)].name));

@@ -103,6 +103,8 @@ std::vector<SolidPointValues> values_at(const analysis::SolidModel& model, const
     const analysis::SolidBody& body = model.bodies[b];
     const std::vector<int>& cell = body.mesh.cells[place.in.cell];
     SolidPointValues& value = values.emplace_back();
+    value.absent = increment.is_absent(b);
+    if (value.absent) continue;
     if (body.rigid_at || mesh::is_super_element(cell.size())) {
       const SolidStress stress(model, increment, b);
       const CellField field = stress.field_of(place.in.cell);

@@ -47,6 +47,7 @@ std::vector<std::vector<SolidPlace>> places_of(const analysis::SolidModel& model
 struct SolidPointValues {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
   std::optional<Eigen::Matrix<double, 6, 1>> stress;  ///< xx, yy, zz, xy, yz, zx; none in a rigid body
+  bool absent = false;                                ///< the body is not there; the values are 0
 };
 
 /// At places in bodies.

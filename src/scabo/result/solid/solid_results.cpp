@@ -77,6 +77,9 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   if (!model.springs.empty()) json["springs"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
+  if (posed.model.has_stages()) json["absent"] = Json::array();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (increment.is_absent(b)) json["absent"].push_back(model.bodies[b].name);
   if (increment.uniqueness) json["uniqueness"] = content_of_uniqueness(*increment.uniqueness);
   if (!solved) return json;
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
@@ -229,7 +232,9 @@ std::string totals_of(const Json& increment) {
     rows.push_back({name});
     for (const Json& component : force) rows.back().push_back(fmt::format("{:.6g}", component.get<double>()));
   };
+  const bool any_absent = increment.contains("absent") && !increment["absent"].empty();
   for (const auto& [name, contact] : increment["contacts"].items()) {
+    if (any_absent && contact["open"] == 0 && contact["stick"] == 0 && contact["slip"] == 0) continue;
     add(name + ", normal", contact["normal_force"]);
     add(name + ", tangential", contact["tangential_force"]);
   }

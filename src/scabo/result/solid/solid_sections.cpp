@@ -155,6 +155,7 @@ SolidResultant resultant_of(const analysis::SolidModel& model, const analysis::S
   SolidResultant sum;
   for (std::size_t i = 0; i < section.points.size(); ++i) {
     const SolidSection::Point &point = section.points[i], &before = section.points[i > 0 ? i - 1 : 0];
+    if (increment.is_absent(point.body)) continue;
     if (i == 0 || point.body != before.body) stress.emplace(model, increment, point.body);
     if (i == 0 || point.body != before.body || point.cell != before.cell) field = stress->field_of(point.cell);
     const Eigen::Vector3d force = point.area * (tensor_of(stress->at(point.cell, *field, point.at)) * section.normal);

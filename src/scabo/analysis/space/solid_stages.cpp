@@ -1,0 +1,108 @@
+#include "scabo/analysis/space/solid_stages.hpp"
+
+#include <algorithm>
+
+#include "scabo/analysis/space/solid_energy.hpp"
+#include "scabo/analysis/space/solid_fields.hpp"
+#include "scabo/analysis/state/pair_motions.hpp"
+#include "scabo/system/fewer_parts.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+using Pair = system::ContactSystem::Pair;
+
+/// A pair counts its motion from its placing: minus the motion so far of the new ones.
+void set_offsets(const std::vector<Eigen::Index>& places, const std::vector<Eigen::SparseMatrix<double>>& motion,
+                 const std::vector<Vector>& u, Vector& offset) {
+  if (motion.empty()) return;
+  const Eigen::Index rows = in_space.count(static_cast<Eigen::Index>(places.size()));
+  const Vector moved = motion_under(motion, u, rows);
+  if (offset.size() == 0) offset = Vector::Zero(rows);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (const Eigen::Index row = in_space.of(static_cast<Eigen::Index>(i)); places[i] < 0)
+      offset.segment<3>(row) = -moved.segment<3>(row);
+}
+
+/// Takes the bodies that are no longer there out of a state: what they exerted on the others is released.
+void take_away(const PreparedSolids& before, const std::vector<char>& absent, const MovedSolids& moved,
+               SolidState& state) {
+  const system::ContactSystem& contact = before.contact();
+  const auto gone = [&](std::size_t part) { return absent[part] != 0 && !before.is_absent(part); };
+  Vector vanishing = Vector::Zero(state.p.size());  // forces of the pairs of what is taken away
+  for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
+    const system::PairPoints& points = before.paired.points[static_cast<std::size_t>(contact.pairs[i].index)];
+    if (!gone(points.a.part) && !gone(points.b.part)) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    vanishing.segment<3>(in_space.of(row)) = state.p.segment<3>(in_space.of(row));
+    state.energy.external -= 0.5 * contact.softness[row] * std::pow(state.p[in_space.of(row)], 2);
+  }
+  state.released.assign(absent.size(), Vector());
+  for (std::size_t b = 0; b < absent.size(); ++b) {
+    if (gone(b)) state.energy.external -= elastic_energy_of_solid(before, state.factors, moved, b);
+    if (absent[b] != 0) continue;
+    Vector forces = contact.motion[b].transpose() * vanishing;
+    if (!forces.isZero(0.0)) state.released[b] = std::move(forces);
+  }
+  for (std::size_t i = 0; i < before.model.preloads.size(); ++i)
+    if (absent[static_cast<std::size_t>(before.model.preloads[i].body)])
+      state.shortening[static_cast<Eigen::Index>(i)] = 0.0;
+}
+
+}  // namespace
+
+std::vector<char> absent_in(const SolidModel& model, int step) {
+  std::vector<char> absent;
+  for (const SolidBody& body : model.bodies) absent.push_back(body.stay.is_there(step) ? 0 : 1);
+  if (std::none_of(absent.begin(), absent.end(), [](char is) { return is != 0; })) absent.clear();
+  return absent;
+}
+
+Vector presence_at(const SolidModel& model, int step) {
+  if (!model.has_stages()) return {};
+  Vector presence(static_cast<Eigen::Index>(model.bodies.size()));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    presence[static_cast<Eigen::Index>(b)] = model.bodies[b].stay.is_there(step) ? 1.0 : 0.0;
+  return presence;
+}
+
+bool takes_away(const SolidModel& model, int step) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [&](const SolidBody& body) { return body.stay.removed == step; });
+}
+
+void enter_step(PreparedSolids& prepared, int step, SolidState& state, MovedSolids& moved) {
+  const SolidModel& model = prepared.model;
+  if (!model.has_stages()) return;
+  const bool takes = takes_away(model, step);
+  state.factors.presence = presence_at(model, step - 1);
+  state.factors.release = takes ? 1.0 : 0.0;
+  state.released.clear();
+  std::vector<char> absent = absent_in(model, step);
+  const std::vector<char> absent_before = prepared.absent;
+  if (absent == absent_before) return;
+
+  const system::ContactSystem& before = prepared.contact();
+  const std::vector<Pair> pairs_before = before.pairs, held_before = before.held;
+  const std::vector<int> first_before = before.first_rigid;
+  if (takes) take_away(prepared, absent, moved, state);
+  set_stage(prepared, std::move(absent));
+  const system::ContactSystem& contact = prepared.contact();
+  ParentMaps maps{system::places_in(pairs_before, contact.pairs), system::places_in(held_before, contact.held), {}};
+  maps.rigid_motions.assign(static_cast<std::size_t>(contact.rigid_motions()), -1);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if ((!absent_before.empty() && absent_before[b]) || prepared.is_absent(b)) continue;
+    for (Eigen::Index k = 0; k < prepared.structure.parts[b]->rigid_motions().cols(); ++k)
+      maps.rigid_motions[static_cast<std::size_t>(contact.first_rigid[b] + k)] = first_before[b] + k;
+  }
+  state = transfer(std::move(state), maps, fields_of_solid_state());
+  for (std::size_t i = 0; i < maps.pairs.size(); ++i)
+    if (maps.pairs[i] < 0) state.gap[static_cast<Eigen::Index>(i)] = contact.gap[static_cast<Eigen::Index>(i)];
+  moved = moved_solids(prepared, applied_to_solids(prepared, state.factors, state.shortening, state.released), state.p,
+                       state.a);
+  set_offsets(maps.pairs, contact.motion, moved.u, state.offset);
+  set_offsets(maps.held_pairs, contact.held_motion, moved.u, state.held_offset);
+}
+
+}  // namespace scabo::analysis
