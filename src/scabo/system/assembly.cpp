@@ -90,6 +90,14 @@ class Assembler {
   /// `nodes_of_cell`: node numbers of each cell; a node has two degrees of freedom.
   Assembler(std::size_t nodes, Lists nodes_of_cell, int threads)
       : cells_(std::move(nodes_of_cell)), threads_(nodes < few ? 1 : threads), matrix_(columns(nodes), columns(nodes)) {
+    sorted_ = make_lists(cells_.count(), threads_, [&](std::size_t cell, std::vector<int>& numbers) {
+      const std::span<const int> of_cell = cells_.of(cell);
+      const auto before = static_cast<std::ptrdiff_t>(numbers.size());
+      for (std::size_t i = 0; i < of_cell.size(); ++i) numbers.push_back(static_cast<int>(i));
+      std::sort(numbers.begin() + before, numbers.end(), [&](int i, int j) {
+        return of_cell[static_cast<std::size_t>(i)] < of_cell[static_cast<std::size_t>(j)];
+      });
+    });
     const Lists cells_at = transposed(cells_, nodes);
     rows_ = make_lists(nodes, threads_, [&](std::size_t node, std::vector<int>& numbers) {
       const auto before = static_cast<std::ptrdiff_t>(numbers.size());
@@ -139,13 +147,13 @@ class Assembler {
           const auto n = places_of(nodes.size());
           const CellMatrix K(matrices[cell - begin], n, n);
           for (std::size_t j = 0; j < nodes.size(); ++j)
-            if (nodes[j] / together % sets == set) add_columns(nodes, j, K);
+            if (nodes[j] / together % sets == set) add_columns(nodes, sorted_.of(cell), j, K);
         }
       });
     }
   }
 
-  linalg::SparseMatrix finish() && { return std::move(matrix_); }
+  linalg::SparseMatrix finish() && { return matrix_.markAsRValue(); }  // or Eigen copies what is moved
 
  private:
   static constexpr std::size_t d = static_cast<std::size_t>(plane_components.dimension);  // cells are plane
@@ -153,16 +161,17 @@ class Assembler {
   static Eigen::Index columns(std::size_t nodes) { return places_of(nodes); }
   std::size_t first_entry(std::size_t node) const { return d * d * rows_.start[node]; }
 
-  /// The two columns of node j of a cell.
-  void add_columns(std::span<const int> nodes, std::size_t j, const CellMatrix& K) {
+  /// The two columns of node j of a cell, its rows in the order of their numbers.
+  void add_columns(std::span<const int> nodes, std::span<const int> sorted, std::size_t j, const CellMatrix& K) {
     const auto node = static_cast<std::size_t>(nodes[j]);
     const std::span<const int> rows = rows_.of(node);
     double* x = matrix_.valuePtr() + first_entry(node);
     double* y = x + d * rows.size();
     const auto column = place_of(j);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto at = place_of(std::lower_bound(rows.begin(), rows.end(), nodes[i]) - rows.begin());
-      const auto row = place_of(i);
+    std::size_t found = 0;
+    for (const int i : sorted) {
+      while (rows[found] != nodes[static_cast<std::size_t>(i)]) ++found;
+      const auto at = place_of(found), row = place_of(i);
       x[at] += K(row, column);
       x[at + 1] += K(row + 1, column);
       y[at] += K(row, column + 1);
@@ -170,8 +179,9 @@ class Assembler {
     }
   }
 
-  Lists cells_;  // nodes of every cell
-  Lists rows_;   // nodes of every node's columns
+  Lists cells_;   // nodes of every cell
+  Lists sorted_;  // the same as places in `cells_`, by their numbers
+  Lists rows_;    // nodes of every node's columns
   int threads_;
   linalg::SparseMatrix matrix_;
 };

@@ -341,8 +341,8 @@ class ClosedPart {
 
   void add(int body, const ClosedCracks& cracks, const Vector& acting);
   bool is_empty() const { return open_.size() == 0; }
-  /// Adds the part to `closed`, whose displacements are those of the open body.
-  void solve(ClosedGrowth& closed) const;
+  /// Adds the part to `closed`. `acting`: not 0 where forces act.
+  void solve(const State& open, const Vector& acting, ClosedGrowth& closed) const;
 
  private:
   struct Entry {
@@ -440,7 +440,7 @@ Matrix ClosedPart::condensed(const std::vector<int>& kept) const {
   return K - between.transpose() * linalg::SymmetricPositiveSolver(of_inner).solve(between);
 }
 
-void ClosedPart::solve(ClosedGrowth& closed) const {
+void ClosedPart::solve(const State& open, const Vector& acting, ClosedGrowth& closed) const {
   const system::BodySystem& part = *prepared_.structure.parts[part_];
   std::vector<int> kept, dofs;
   for (std::size_t i = 0; i < open_.dofs().size(); ++i)
@@ -451,23 +451,25 @@ void ClosedPart::solve(ClosedGrowth& closed) const {
   const double scale = K_p.diagonal().maxCoeff();  // forces over displacements
   Matrix system(n + m, n + m);
   system << scale * part.flexibility_by_factor(dofs), -T, T.transpose(), -less / scale;
-  Vector right = Vector::Zero(n + m);
-  const Vector u_0 = closed.u[part_](dofs);
-  right.head(n) = -u_0;
+  const Vector u_0 = open.u[part_](dofs), right = (Vector(n + m) << -u_0, Vector::Zero(m)).finished();
   const Vector found = system.partialPivLu().solve(right);  // eq. (1)
   const Vector q = scale * found.head(n), v = found.tail(m);
   closed.released -= 0.5 * q.dot(u_0);  // eq. (2)
   Vector forces = Vector::Zero(part.size());
   forces(dofs) = q;
-  closed.u[part_] += part.displacement(forces, Vector::Zero(static_cast<Eigen::Index>(part.constraints().size())));
-  closed.elastic -= 0.5 * v.dot(less * v);
+  for (int dof = 0; dof < static_cast<int>(acting.size()); ++dof)
+    if (acting[dof] != 0.0) dofs.push_back(dof);
+  Vector& w = closed.moved[part_];
+  w = part.displacement_at(forces, Vector::Zero(static_cast<Eigen::Index>(part.constraints().size())), dofs);
+  closed.elastic += open.forces[part_].dot(w) + 0.5 * forces.dot(w) - 0.5 * v.dot(less * v);  // eq. (3)
+  if (open.p.size() > 0) closed.elastic += open.p.dot(prepared_.contact.motion[part_] * w);
 }
 
-/// Forces on the degrees of freedom of a part, and something where a support or springs hold it.
+/// Not 0 where forces act on a part, and where a support or springs hold it.
 Vector acting_on(const Prepared& prepared, const State& state, std::size_t p) {
   const system::BodySystem& part = *prepared.structure.parts[p];
-  Vector acting = state.forces[p];
-  if (state.p.size() > 0) acting += prepared.contact.motion[p].transpose() * state.p;
+  Vector acting = state.forces[p].cwiseAbs();
+  if (state.p.size() > 0) acting += prepared.contact.motion[p].cwiseAbs().transpose() * state.p.cwiseAbs();
   for (const system::Constraint& constraint : part.constraints()) acting[constraint.dof] = 1.0;
   if (part.has_springs()) acting.setOnes();
   return acting;
@@ -484,13 +486,13 @@ std::optional<ClosedGrowth> closed_growth(const Prepared& prepared, const State&
     if (!cracks.close(prepared.model, tips[t], *before[t])) return {};
   }
   ClosedGrowth closed;
-  closed.u = open.u;
   for (std::size_t p = 0; p < open.u.size(); ++p) {
+    closed.moved.push_back(Vector::Zero(open.u[p].size()));
     ClosedPart part(prepared, p);
+    const Vector acting = acting_on(prepared, open, p);
     for (const auto& [body, cracks] : bodies)
-      if (prepared.structure.dofs.part_of(body) == p) part.add(body, cracks, acting_on(prepared, open, p));
-    if (!part.is_empty()) part.solve(closed);
-    closed.elastic += prepared.structure.parts[p]->elastic_energy(closed.u[p]);
+      if (prepared.structure.dofs.part_of(body) == p) part.add(body, cracks, acting);
+    if (!part.is_empty()) part.solve(open, acting, closed);
   }
   return closed;
 }

@@ -18,6 +18,12 @@
 //
 //     Pi_c - Pi_0 = 1/2 q'A q - 1/2 v'T'K_p T v + 1/2 v'K_c v = -1/2 q'u_0                                          (2)
 //
+// With the displacements w = A q of the whole body, which are 0 at supports, it stores more by
+//
+//     f'w + 1/2 q'A q - 1/2 v'T'K_p T v + 1/2 v'K_c v                                                               (3)
+//
+// where f are loads and pair forces: w is needed where these act alone.
+//
 // Nodes inside these cells are first eliminated from K_p and not among S, but for those on faces on which something
 // acts.
 #pragma once
@@ -31,9 +37,9 @@
 namespace scabo::analysis {
 
 struct ClosedGrowth {
-  std::vector<Vector> u;  ///< per part, of the open body in the shape of the closed one
-  double elastic = 0.0;   ///< stored in the closed body, force times length
-  double released = 0.0;  ///< eq. (2), force times length
+  std::vector<Vector> moved;  ///< w per part, where forces act, and anything elsewhere
+  double elastic = 0.0;       ///< eq. (3), force times length
+  double released = 0.0;      ///< eq. (2), force times length
 };
 
 /// `open`: a state with the cracks as they are. `before`: where each tip was, empty for those that have not moved.

@@ -108,8 +108,7 @@ TipFactors tip_factors(const model::GrowthStep& growth, const element::StressInt
 }
 
 FactorsOfTips factors_of_tips(const Prepared& prepared, const std::vector<Tip>& tips, const State& state) {
-  const IncrementResult described = describe(prepared, state);
-  const std::vector<CrackResult> cracks = crack_results(prepared.discretisation, described);
+  const std::vector<CrackResult> cracks = crack_results(prepared, state);
   std::vector<TipFactors> found;
   for (const Tip& tip : tips) {
     const std::string name = name_of(prepared.model, tip);

@@ -27,7 +27,7 @@ constexpr double largest_turn = 0.25, shortest_part = 0.125;
 
 /// So many states one after the other are solved by the factor of the first one's stiffness. They are counted from the
 /// first state of the step on, so that a run that resumes takes the same ones.
-constexpr int states_of_a_factor = 8;
+constexpr int states_of_a_factor = 16;
 
 /// What the next state needs of the growth that leads to it.
 struct Growth {
@@ -241,7 +241,9 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
                 std::get<std::vector<TipFactors>>(found)[t].K.squaredNorm() / now.materials[t].modulus;
   const auto closed = closed_growth(prepared, longer, tips_, last_->from);
   if (!closed) return {};
-  return energy_of_growth(prepared, last_->before, *closed, longer, state, integral);
+  const bool known = !has_contacts() && state.p.size() == 0;  // of states from rest without pairs that store any
+  const auto stored = [&](const State& of) { return known ? of.energy.elastic : elastic_energy(prepared, of); };
+  return energy_of_growth(prepared, last_->before, *closed, {longer, stored(longer)}, {state, stored(state)}, integral);
 }
 
 /// What tips are like where the cracks have gone half of a step in these directions, under the load before it.

@@ -18,27 +18,33 @@ RestEnergy rest_energy(const Prepared& prepared, const State& state) {
 State times(double by, State state) {
   for (std::vector<Vector>* values : {&state.u, &state.forces, &state.reactions, &state.prescribed})
     for (Vector& of_part : *values) of_part *= by;
+  state.energy.elastic *= by * by;
   return state;
 }
 
-GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const ClosedGrowth& C, const State& O,
-                              const State& B, double integral) {
-  const RestEnergy longer = rest_energy(prepared, O);
+double elastic_energy(const Prepared& prepared, const State& state) {
+  double energy = 0.0;
+  for (std::size_t p = 0; p < state.u.size(); ++p) energy += prepared.structure.parts[p]->elastic_energy(state.u[p]);
+  return energy;
+}
+
+GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const ClosedGrowth& C,
+                              const StoringState& longer, const StoringState& next, double integral) {
+  const State &O = longer.state, &B = next.state;
   GrowthEnergy energy;
   for (std::size_t p = 0; p < B.u.size(); ++p) {
-    const Vector opened = O.u[p] - C.u[p], moved = B.u[p] - O.u[p];
+    const Vector opened = -C.moved[p], moved = B.u[p] - O.u[p];
     energy.external += O.forces[p].dot(opened) + 0.5 * (O.forces[p] + B.forces[p]).dot(moved);
     energy.external += 0.5 * (O.reactions[p] + B.reactions[p]).dot(B.prescribed[p] - O.prescribed[p]);
     if (B.p.size() > 0) {
       const auto& motion = prepared.contact.motion[p];
       energy.contact -= O.p.dot(motion * opened) + 0.5 * (O.p + B.p).dot(motion * moved);
     }
-    energy.elastic += prepared.structure.parts[p]->elastic_energy(B.u[p]);
   }
-  energy.elastic -= C.elastic;
+  energy.elastic = next.elastic - longer.elastic - C.elastic;
   energy.released = C.released;
   energy.integral = integral;
-  energy.remeshing = A.potential() - longer.potential() - C.released;
+  energy.remeshing = A.potential() - rest_energy(prepared, O).potential() - C.released;
   return energy;
 }
 

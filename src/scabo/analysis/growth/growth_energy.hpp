@@ -35,9 +35,17 @@ RestEnergy rest_energy(const Prepared& prepared, const State& state);
 /// The state under loads and prescribed displacements that are all `by` times those of `state`, without contacts.
 State times(double by, State state);
 
+/// A state and what its bodies store, force times length.
+struct StoringState {
+  const State& state;
+  double elastic = 0.0;
+};
+/// What bodies store in a state from rest.
+double elastic_energy(const Prepared& prepared, const State& state);
+
 /// From a state A over O, the longer crack under its load and pair forces, to B.
-GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const ClosedGrowth& C, const State& O,
-                              const State& B, double integral);
+GrowthEnergy energy_of_growth(const Prepared& prepared, const RestEnergy& A, const ClosedGrowth& C,
+                              const StoringState& O, const StoringState& B, double integral);
 
 /// What the scaled loads and supports would work at factor 1 (GrowthResult::displacement, reaction).
 void add_conjugates(const Prepared& prepared, const State& state, GrowthResult& growth);

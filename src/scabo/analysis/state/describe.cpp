@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scabo/analysis/state/balance.hpp"
+#include "scabo/analysis/state/cracks.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/state.hpp"
 #include "scabo/base/components.hpp"
@@ -251,6 +252,13 @@ FieldState fields_of(const Prepared& prepared, const State& state) {
   return fields;
 }
 
+std::vector<int> absent_bodies(const Prepared& prepared) {
+  std::vector<int> absent;
+  for (int body = 0; body < static_cast<int>(prepared.model.bodies.size()); ++body)
+    if (prepared.is_absent(prepared.structure.dofs.part_of(body))) absent.push_back(body);
+  return absent;
+}
+
 }  // namespace
 
 Vec2 displacement_of(const Prepared& prepared, const State& state, int contact, const mesh::ContactPair& pair,
@@ -308,9 +316,16 @@ IncrementResult describe(const Prepared& prepared, const State& state) {
       system::spring_resultants(prepared.structure.springs, prepared.model, dofs, state.u, state.factors.loads);
   result.bars = tensions_of(prepared, state);
   result.fields = fields_of(prepared, state);
-  for (int body = 0; body < static_cast<int>(prepared.model.bodies.size()); ++body)
-    if (prepared.is_absent(dofs.part_of(body))) result.absent.push_back(body);
+  result.absent = absent_bodies(prepared);
   return result;
+}
+
+std::vector<CrackResult> crack_results(const Prepared& prepared, const State& state) {
+  IncrementResult result;
+  result.contacts = contact_results(prepared, state);
+  result.fields = fields_of(prepared, state);
+  result.absent = absent_bodies(prepared);
+  return crack_results(prepared.discretisation, result);
 }
 
 std::string describe_motions(const Prepared& prepared, const Vector& a) {

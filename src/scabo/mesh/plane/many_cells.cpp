@@ -167,9 +167,13 @@ namespace {
 /// are seen: the corner where they meet stands for it.
 Vec2 seeing_centre(const PolygonCell& polygon, const CellSides& sides, const std::vector<Vec2>& nodes, bool straight) {
   if (straight || polygon.open) return polygon.centre;
-  std::vector<Vec2> points;
   bool hollow = false;
   const std::size_t count = polygon.nodes.size();
+  bool straight_sides = true;
+  for (std::size_t i = 0; straight_sides && i < count; ++i)
+    straight_sides = !sides.arc_of(polygon.nodes[i], polygon.nodes[(i + 1) % count]);
+  if (straight_sides) return polygon.centre;
+  std::vector<Vec2> points;
   points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const int a = polygon.nodes[i], b = polygon.nodes[(i + 1) % count];

@@ -54,6 +54,7 @@ void CellSides::append(int a, int b, std::vector<LineElement>& to) {
 }
 
 std::optional<geometry::Arc> CellSides::arc_of(int a, int b) const {
+  if (!is_on_arc(a) || !is_on_arc(b)) return std::nullopt;  // of nearly all sides
   const auto found = on_arc_.find(side_number(a, b));
   return found == on_arc_.end() ? std::nullopt : domain_.lines[found->second].arc;
 }
@@ -62,7 +63,13 @@ void CellSides::find_arcs(const PolygonMesh& polygons) {
   for (std::size_t l = 0; l < domain_.lines.size(); ++l)
     for (const auto* chain : {&polygons.left[l], &polygons.right[l]})
       for (std::size_t k = 0; domain_.lines[l].arc && k + 1 < chain->size(); ++k)
-        on_arc_.emplace(side_number((*chain)[k], (*chain)[k + 1]), l);
+        put_on_arc((*chain)[k], (*chain)[k + 1], l);
+}
+
+void CellSides::put_on_arc(int a, int b, std::size_t line) {
+  on_arc_.emplace(side_number(a, b), line);
+  ends_on_arc_.resize(nodes_.size(), 0);
+  for (const int node : {a, b}) ends_on_arc_[static_cast<std::size_t>(node)] = 1;
 }
 
 /// Divides a side of the cell around a crack tip (largest_angle_at_tip).
@@ -78,10 +85,10 @@ void CellSides::divide_at_tip(const Vec2& tip, const Ends& ends) {
   int before = ends.first;
   for (int k = 1; k < count; ++k) {
     inside.push_back(add_node(point_at(static_cast<double>(k) / count, from, to, arc)));
-    if (arc) on_arc_.emplace(side_number(before, inside.back()), line);
+    if (arc) put_on_arc(before, inside.back(), line);
     before = inside.back();
   }
-  if (arc) on_arc_.emplace(side_number(before, ends.second), line);
+  if (arc) put_on_arc(before, ends.second, line);
 }
 
 LineElement CellSides::element(int a, int b) {

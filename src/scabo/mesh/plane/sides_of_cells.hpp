@@ -61,6 +61,10 @@ class CellSides {
   using Ends = std::pair<int, int>;  // lower number first
 
   void find_arcs(const PolygonMesh& polygons);
+  void put_on_arc(int a, int b, std::size_t line);
+  bool is_on_arc(int node) const {
+    return static_cast<std::size_t>(node) < ends_on_arc_.size() && ends_on_arc_[static_cast<std::size_t>(node)] != 0;
+  }
   void divide_at_tip(const Vec2& tip, const Ends& ends);
   LineElement element(int a, int b);
   int first_inside(const Ends& ends);
@@ -73,6 +77,7 @@ class CellSides {
   std::vector<Vec2>& nodes_;
   // By side_number():
   std::unordered_map<std::uint64_t, std::size_t> on_arc_;      // line of the domain
+  std::vector<char> ends_on_arc_;                              // of every node: whether such a side ends there
   std::unordered_map<std::uint64_t, std::vector<int>> parts_;  // ends of elements that divide a side, from the lower
                                                                // number on
   SideNumbers inside_;  // first node between the ends of an element, from the lower number on: the others follow it
