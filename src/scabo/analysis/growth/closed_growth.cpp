@@ -51,6 +51,8 @@ class ClosedCracks {
     const auto found = same_.find(node);
     return found == same_.end() ? node : found->second;
   }
+  /// The same for faces that end at the old tip, whose two nodes are one then.
+  int tied(int node) const { return old_tip_.count(node) > 0 ? *old_tip_.begin() : same(node); }
   const std::map<int, int>& joined() const { return same_; }
   const std::vector<Exchange>& exchanges() const { return exchanges_; }
 
@@ -350,6 +352,8 @@ class ClosedPart {
     double value;
   };
   Matrix condensed(const std::vector<int>& kept) const;
+  void add_on_faces(int body, const ClosedCracks& cracks, const Exchange& exchange,
+                    const element::PointCondensation& field);
   int dof(int body, int node, int component) const { return prepared_.structure.dofs.of(body, node, component); }
   void add_stiffness(int body, const mesh::Cell& cell, const Matrix& K, Numbered& of, std::vector<Entry>& to) const;
   static Matrix matrix_of(const std::vector<Entry>& entries, Eigen::Index rows, Eigen::Index columns) {
@@ -361,7 +365,7 @@ class ClosedPart {
   const Prepared& prepared_;
   std::size_t part_;
   std::set<int> inner_;     // degrees of freedom of S that are eliminated
-  Numbered open_, closed_;  // S, and v by the numbers of the nodes that are left
+  Numbered open_, closed_;  // S, and v by the numbers of the nodes that are left; w by -1 less those numbers
   std::vector<Entry> K_p_, K_c_, T_;
 };
 
@@ -396,26 +400,32 @@ void ClosedPart::add(int body, const ClosedCracks& cracks, const Vector& acting)
       for (const int c : {0, 1}) inner_.insert(dof(body, node, c));
     };
     for (const int node : exchange.between) follows(node);
-    const std::vector<int> boundary = exchange.closed.nodes();
-    const element::PointCondensation field(closed.ring, closed.solution());
-    for (const auto& [node, point] : exchange.on_faces) {
-      if (acting[dof(body, node, 0)] == 0.0 && acting[dof(body, node, 1)] == 0.0) {
-        follows(node);
-        continue;
-      }
-      inside.insert(node);
-      const element::PointOperator of_point = field.at(point);
-      for (const int k : {0, 1})
-        for (std::size_t i = 0; i < boundary.size(); ++i)
-          for (const int c : {0, 1})
-            T_.push_back(
-                {open_.of(dof(body, node, k)), closed_.of(dof(body, boundary[i], c)), of_point.N(k, place_of(i, c))});
-    }
+    const bool is_loaded = std::any_of(exchange.on_faces.begin(), exchange.on_faces.end(), [&](const auto& at) {
+      return acting[dof(body, at.first, 0)] != 0.0 || acting[dof(body, at.first, 1)] != 0.0;
+    });
+    for (const auto& [node, point] : exchange.on_faces) is_loaded ? void(inside.insert(node)) : follows(node);
+    if (is_loaded) add_on_faces(body, cracks, exchange, element::PointCondensation(closed.ring, closed.solution()));
   }
   for (const int node : nodes)
     for (const int c : {0, 1})
       if (inside.count(node) == 0)
         T_.push_back({open_.of(dof(body, node, c)), closed_.of(dof(body, cracks.same(node), c)), 1.0});
+}
+
+/// Faces inside a cell of the closed body: they follow from its field by v, and move by w besides.
+void ClosedPart::add_on_faces(int body, const ClosedCracks& cracks, const Exchange& exchange,
+                              const element::PointCondensation& field) {
+  const std::vector<int> boundary = exchange.closed.nodes();
+  for (const auto& [node, point] : exchange.on_faces) {
+    const element::PointOperator of_point = field.at(point);
+    for (const int k : {0, 1}) {
+      const Eigen::Index row = open_.of(dof(body, node, k));
+      for (std::size_t i = 0; i < boundary.size(); ++i)
+        for (const int c : {0, 1})
+          T_.push_back({row, closed_.of(dof(body, boundary[i], c)), of_point.N(k, place_of(i, c))});
+      T_.push_back({row, closed_.of(-1 - dof(body, cracks.tied(node), k)), 1.0});
+    }
+  }
 }
 
 /// K_p of the degrees of freedom `kept`, the others eliminated.
@@ -447,7 +457,12 @@ void ClosedPart::solve(ClosedGrowth& closed) const {
     if (inner_.count(open_.dofs()[i]) == 0) kept.push_back(static_cast<int>(i)), dofs.push_back(open_.dofs()[i]);
   const auto n = static_cast<Eigen::Index>(kept.size()), m = closed_.size();
   const Matrix K_p = condensed(kept), T = matrix_of(T_, open_.size(), m)(kept, Eigen::all);
-  const Matrix less = T.transpose() * K_p * T - matrix_of(K_c_, m, m);
+  Matrix less = T.transpose() * K_p * T;
+  std::vector<Eigen::Index> of_w;
+  for (Eigen::Index i = 0; i < m; ++i)
+    if (closed_.dofs()[static_cast<std::size_t>(i)] < 0) of_w.push_back(i);
+  less(of_w, of_w).setZero();
+  less -= matrix_of(K_c_, m, m);
   const double scale = K_p.diagonal().maxCoeff();  // forces over displacements
   Matrix system(n + m, n + m);
   system << scale * part.flexibility_by_factor(dofs), -T, T.transpose(), -less / scale;
