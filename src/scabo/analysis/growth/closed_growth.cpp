@@ -2,321 +2,17 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
+#include "scabo/analysis/growth/closed_cracks.hpp"
 #include "scabo/element/plane/point_operator.hpp"
-#include "scabo/geometry/box.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
-#include "scabo/mesh/plane/crack_faces.hpp"
 
 namespace scabo::analysis {
 
 namespace {
-
-/// Angles under which an old tip sees the sides of the cells around it: those that represent the field there well, and
-/// at most.
-constexpr double wide = std::numbers::pi / 6, widest = std::numbers::pi;
-
-/// Cells of the open body, and the one that is there in the closed body.
-struct Exchange {
-  std::vector<std::size_t> cells;
-  mesh::Cell closed;
-  // Nodes that the closed one does not have:
-  std::map<int, element::ScaledPoint> on_faces = {};
-  std::vector<int> between = {};
-};
-
-/// What growth of the cracks of a body changes.
-class ClosedCracks {
- public:
-  ClosedCracks(const Prepared& prepared, int body)
-      : body_(prepared.model.bodies[static_cast<std::size_t>(body)]),
-        mesh_(prepared.mesh.bodies[static_cast<std::size_t>(body)]),
-        tolerance_(1e-9 * geometry::outline_size(body_.outline)) {}
-
-  /// Whether it is known.
-  bool close(const model::Model& model, const Tip& tip, const Vec2& before) {
-    const std::vector<int> ringed = mesh::cracks_with_tractions(model, tip.body);
-    const bool has_rings = std::find(ringed.begin(), ringed.end(), tip.crack) != ringed.end();
-    const Vec2 now = position_of(model, tip);
-    return close_faces(tip, before) && join_at(tip, before, now) && close_at(now, has_rings);
-  }
-
-  int same(int node) const {
-    const auto found = same_.find(node);
-    return found == same_.end() ? node : found->second;
-  }
-  const std::map<int, int>& joined() const { return same_; }
-  const std::vector<Exchange>& exchanges() const { return exchanges_; }
-
- private:
-  const Vec2& at(int node) const { return mesh_.nodes[static_cast<std::size_t>(node)]; }
-  bool close_faces(const Tip& tip, const Vec2& before);
-  bool join_at(const Tip& tip, const Vec2& before, const Vec2& now);
-  bool close_at(const Vec2& tip, bool has_rings);
-  std::vector<int> same_nodes(const mesh::LineElement& element) const {
-    std::vector<int> nodes;
-    for (const int node : element.nodes) nodes.push_back(same(node));
-    return nodes;
-  }
-  bool set_boundary(Exchange& joined, const std::set<std::vector<int>>& faces, const Vec2& new_tip) const;
-  bool is_seen(const mesh::LineElement& element, const Vec2& from, double angle) const;
-  bool is_all_around(const mesh::Cell& cell) const;
-  bool add_beyond(Exchange& joined, double angle) const;
-  bool add_inside(Exchange& joined, int crack) const;
-  /// Cell and number of every side, by its nodes.
-  using Sides = std::map<std::vector<int>, std::pair<std::size_t, std::size_t>>;
-  Sides sides() const;
-  std::vector<std::size_t> ring_around(const Sides& sides, const Vec2& tip, std::vector<mesh::LineElement>& copy) const;
-  std::set<int> nodes_of(const std::vector<std::size_t>& cells) const;
-
-  const model::Body& body_;
-  const mesh::BodyMesh& mesh_;
-  double tolerance_;
-  std::map<int, int> same_;  // node of a right face to the opposite one
-  std::set<int> on_new_, old_tip_;
-  std::vector<Exchange> exchanges_;
-};
-
-/// Opposite nodes of the new part have the same displacement.
-bool ClosedCracks::close_faces(const Tip& tip, const Vec2& before) {
-  const std::vector<mesh::FacePair> pairs = mesh::face_pairs(mesh_, tip.crack);
-  const auto old = std::find_if(pairs.begin(), pairs.end(), [&](const mesh::FacePair& pair) {
-    return (at(pair.left) - before).norm() <= tolerance_;
-  });
-  if (old == pairs.end()) return false;
-  old_tip_ = {old->left, old->right};
-  for (auto pair = tip.at_end ? old + 1 : pairs.begin(); pair != (tip.at_end ? pairs.end() : old); ++pair)
-    same_[pair->right] = pair->left, on_new_.insert({pair->left, pair->right});
-  return true;
-}
-
-/// The cells at an old tip become one, with those beyond sides that it does not see.
-bool ClosedCracks::join_at(const Tip& tip, const Vec2& before, const Vec2& now) {
-  Exchange joined;
-  const auto reaches_tip = [&](const mesh::LineElement& element) {
-    return old_tip_.count(element.nodes.front()) > 0 || old_tip_.count(element.nodes.back()) > 0;
-  };
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-    if (std::any_of(mesh_.cells[c].boundary.begin(), mesh_.cells[c].boundary.end(), reaches_tip))
-      joined.cells.push_back(c);
-  std::set<std::vector<int>> faces;
-  for (const int face : {2 * tip.crack, 2 * tip.crack + 1})
-    for (const mesh::LineElement& element : mesh_.faces[static_cast<std::size_t>(face)])
-      if (std::none_of(element.nodes.begin(), element.nodes.end(), [&](int node) { return on_new_.count(node) > 0; }))
-        faces.insert(element.nodes);
-  constexpr int most_rounds = 8;
-  std::optional<Exchange> best;
-  for (int round = 0; round < most_rounds; ++round) {
-    joined.closed = {};
-    joined.closed.centre = before;
-    joined.on_faces.clear(), joined.between.clear();
-    if (!set_boundary(joined, faces, now)) break;
-    const auto& boundary = joined.closed.boundary;
-    const auto all_seen = [&](double angle) {
-      return std::all_of(boundary.begin(), boundary.end(),
-                         [&](const auto& element) { return is_seen(element, before, angle); });
-    };
-    const bool seen = all_seen(widest);
-    if (seen && is_all_around(joined.closed) && add_inside(joined, tip.crack)) best = joined;
-    if (all_seen(wide) || !add_beyond(joined, seen ? wide : widest)) break;
-  }
-  if (!best) return false;
-  exchanges_.push_back(*std::move(best));
-  return true;
-}
-
-/// Adds the cells beyond all sides that are seen under more than an angle, or not at all; whether there are any.
-bool ClosedCracks::add_beyond(Exchange& joined, double angle) const {
-  std::set<std::vector<int>> hidden;
-  std::set<int> begins;
-  for (const mesh::LineElement& element : joined.closed.boundary)
-    if (!is_seen(element, joined.closed.centre, angle))
-      hidden.emplace(element.nodes.rbegin(), element.nodes.rend()), begins.insert(element.nodes.back());
-  for (const auto& [right, left] : same_)
-    if (begins.count(left) > 0) begins.insert(right);
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-    bool beyond = false;
-    for (const mesh::LineElement& element : mesh_.cells[c].boundary)
-      if (begins.count(element.nodes.front()) > 0 && hidden.erase(same_nodes(element)) > 0) beyond = true;
-    if (beyond) joined.cells.push_back(c);
-  }
-  return hidden.empty();
-}
-
-/// Where the nodes lie that are not on the boundary: at the tip, on one of the side faces or between them.
-bool ClosedCracks::add_inside(Exchange& joined, int crack) const {
-  const std::vector<int> kept = joined.closed.nodes();
-  const std::set<int> boundary(kept.begin(), kept.end());
-  std::array<std::set<int>, 2> on_face;
-  for (const std::size_t k : {0u, 1u})
-    for (const mesh::LineElement& element : mesh_.faces[2 * static_cast<std::size_t>(crack) + k])
-      on_face[k].insert(element.nodes.begin(), element.nodes.end());
-  if (on_face[0].count(kept.front()) == 0) std::swap(on_face[0], on_face[1]);
-  if (on_face[0].count(kept.front()) == 0 || on_face[1].count(kept.back()) == 0) return false;
-  const auto last = static_cast<int>(joined.closed.boundary.size()) - 1;
-  const element::Ring ring = element::ring_of(joined.closed, mesh_.nodes);
-  for (const int node : nodes_of(joined.cells)) {
-    if (boundary.count(same(node)) > 0) continue;
-    const Vec2 arm = at(node) - joined.closed.centre;
-    const bool is_tip = old_tip_.count(node) > 0, is_new = on_new_.count(node) > 0;
-    std::optional<element::ScaledPoint> point;
-    for (const std::size_t k : {0u, 1u}) {
-      if (is_tip || is_new || on_face[k].count(node) == 0) continue;
-      const Vec2 end = at(k == 0 ? kept.front() : kept.back()) - joined.closed.centre;
-      if (std::abs(cross(arm, end)) > tolerance_ * end.norm()) return false;
-      point = element::ScaledPoint{arm.norm() / end.norm(), k == 0 ? 0 : last, k == 0 ? -1.0 : 1.0};
-    }
-    if (is_tip) point = element::ScaledPoint{0.0, 0, -1.0};
-    if (is_new) point = element::locate(ring, arm);
-    if (is_new && !point) return false;
-    if (point)
-      joined.on_faces[node] = *point;
-    else
-      joined.between.push_back(node);
-  }
-  return true;
-}
-
-/// What is left of the boundaries of all its cells: without faces, and without sides that two of them share.
-bool ClosedCracks::set_boundary(Exchange& joined, const std::set<std::vector<int>>& faces, const Vec2& new_tip) const {
-  struct Side {
-    std::vector<int> nodes;
-    int material = 0;
-  };
-  std::map<std::vector<int>, int> sides;  // to the material
-  for (const std::size_t c : joined.cells) {
-    const mesh::Cell& cell = mesh_.cells[c];
-    if (cell.is_open() && cell.centre != new_tip) return false;
-    for (std::size_t e = 0; e < cell.boundary.size(); ++e) {
-      const std::vector<int>& of_cell = cell.boundary[e].nodes;
-      if (faces.count(of_cell) > 0 || old_tip_.count(of_cell.front()) > 0 || old_tip_.count(of_cell.back()) > 0)
-        continue;
-      const std::vector<int> nodes = same_nodes(cell.boundary[e]), against(nodes.rbegin(), nodes.rend());
-      if (sides.erase(against) == 0) sides[nodes] = cell.materials[cell.materials.size() == 1 ? 0 : e];
-    }
-  }
-  std::map<int, Side> from;
-  std::set<int> ends;
-  for (const auto& [nodes, material] : sides) {
-    if (!from.emplace(nodes.front(), Side{nodes, material}).second) return false;
-    ends.insert(nodes.back());
-  }
-  const auto first =
-      std::find_if(from.begin(), from.end(), [&](const auto& side) { return ends.count(side.first) == 0; });
-  if (first == from.end()) return false;
-  for (auto side = first; side != from.end(); side = from.find(joined.closed.boundary.back().nodes.back())) {
-    joined.closed.boundary.push_back({side->second.nodes});
-    joined.closed.materials.push_back(side->second.material);
-    if (joined.closed.boundary.size() > from.size()) return false;
-  }
-  return joined.closed.boundary.size() == from.size();
-}
-
-bool ClosedCracks::is_seen(const mesh::LineElement& element, const Vec2& from, double angle) const {
-  constexpr double hardly = 1e-3;
-  for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i) {
-    const Vec2 first = at(element.nodes[i]) - from, last = at(element.nodes[i + 1]) - from, along = last - first;
-    if (cross(first, along) < hardly * along.norm() * std::max(first.norm(), last.norm())) return false;
-  }
-  const Vec2 first = at(element.nodes.front()) - from, last = at(element.nodes.back()) - from;
-  return std::atan2(cross(first, last), first.dot(last)) <= angle;
-}
-
-/// Whether the boundary of an open cell goes once around its centre.
-bool ClosedCracks::is_all_around(const mesh::Cell& cell) const {
-  double around = 0.0;
-  for (const mesh::LineElement& element : cell.boundary) {
-    const Vec2 first = at(element.nodes.front()) - cell.centre, last = at(element.nodes.back()) - cell.centre;
-    around += std::atan2(cross(first, last), first.dot(last));
-  }
-  return std::abs(around - 2.0 * std::numbers::pi) < 1e-6;
-}
-
-std::set<int> ClosedCracks::nodes_of(const std::vector<std::size_t>& cells) const {
-  std::set<int> nodes;
-  for (const std::size_t c : cells) {
-    const std::vector<int> of_cell = mesh_.cells[c].nodes();
-    nodes.insert(of_cell.begin(), of_cell.end());
-  }
-  return nodes;
-}
-
-ClosedCracks::Sides ClosedCracks::sides() const {
-  Sides sides;
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-    for (std::size_t e = 0; e < mesh_.cells[c].boundary.size(); ++e) sides[mesh_.cells[c].boundary[e].nodes] = {c, e};
-  return sides;
-}
-
-/// The cells around a copy of the boundary of a tip's cell, if they are a ring between it and the next copy
-/// (mesh/plane/tip_rings.hpp), which takes its place.
-std::vector<std::size_t> ClosedCracks::ring_around(const Sides& sides, const Vec2& tip,
-                                                   std::vector<mesh::LineElement>& copy) const {
-  const auto is_radial = [&](const mesh::LineElement& element) {
-    const Vec2 first = at(element.nodes.front()) - tip, last = at(element.nodes.back()) - tip;
-    return std::abs(cross(first, last)) <= tolerance_ * std::max(first.norm(), last.norm());
-  };
-  std::vector<std::size_t> cells;
-  std::vector<mesh::LineElement> next;
-  for (const mesh::LineElement& element : copy) {
-    const auto beyond = sides.find({element.nodes.rbegin(), element.nodes.rend()});
-    if (beyond == sides.end()) return {};
-    const auto [c, e] = beyond->second;
-    const std::vector<mesh::LineElement>& boundary = mesh_.cells[c].boundary;
-    const std::size_t count = boundary.size();
-    if (!is_radial(boundary[(e + 1) % count]) || !is_radial(boundary[(e + count - 1) % count])) return {};
-    cells.push_back(c);
-    for (std::size_t k = 2; k + 1 < count; ++k) next.push_back(boundary[(e + k) % count]);
-  }
-  copy = std::move(next);
-  return cells;
-}
-
-/// The cell around a new tip, with its rings if there are any, has no crack.
-bool ClosedCracks::close_at(const Vec2& tip, bool has_rings) {
-  const auto open = std::find_if(mesh_.cells.begin(), mesh_.cells.end(), [&](const mesh::Cell& cell) {
-    return cell.is_open() && !cell.held && cell.centre == tip;
-  });
-  if (open == mesh_.cells.end()) return false;
-  const auto number = static_cast<std::size_t>(open - mesh_.cells.begin());
-  const std::vector<std::size_t>& joined = exchanges_.back().cells;
-  if (std::find(joined.begin(), joined.end(), number) != joined.end()) return true;
-  Exchange whole{{number}, *open};
-  const Sides all = has_rings ? sides() : Sides();
-  const auto is_joined = [&](std::size_t cell) {
-    return std::find(joined.begin(), joined.end(), cell) != joined.end();
-  };
-  for (std::vector<mesh::LineElement> copy = open->boundary; has_rings;) {
-    const std::vector<std::size_t> ring = ring_around(all, tip, copy);
-    if (ring.empty() || std::any_of(ring.begin(), ring.end(), is_joined)) break;
-    whole.cells.insert(whole.cells.end(), ring.begin(), ring.end());
-    whole.closed.boundary = copy;
-  }
-  whole.closed.materials = {open->materials.front()};
-  for (mesh::LineElement& element : whole.closed.boundary) element.nodes = same_nodes(element);
-  if (whole.closed.is_open()) return false;
-  const std::vector<int> kept = whole.closed.nodes();
-  const std::set<int> boundary(kept.begin(), kept.end());
-  const element::Ring outer = element::ring_of(whole.closed, mesh_.nodes);
-  for (const int node : nodes_of(whole.cells)) {
-    if (boundary.count(same(node)) > 0) continue;
-    if (on_new_.count(node) == 0) {
-      whole.between.push_back(node);
-      continue;
-    }
-    const auto point = element::locate(outer, at(node) - tip);
-    if (!point) return false;
-    whole.on_faces[node] = *point;
-  }
-  exchanges_.push_back(std::move(whole));
-  return true;
-}
 
 /// Degrees of freedom of a part, numbered as they are asked for.
 class Numbered {
@@ -350,6 +46,8 @@ class ClosedPart {
     double value;
   };
   Matrix condensed(const std::vector<int>& kept) const;
+  void add_on_faces(int body, const ClosedCracks& cracks, const Exchange& exchange,
+                    const element::PointCondensation& field);
   int dof(int body, int node, int component) const { return prepared_.structure.dofs.of(body, node, component); }
   void add_stiffness(int body, const mesh::Cell& cell, const Matrix& K, Numbered& of, std::vector<Entry>& to) const;
   static Matrix matrix_of(const std::vector<Entry>& entries, Eigen::Index rows, Eigen::Index columns) {
@@ -361,7 +59,7 @@ class ClosedPart {
   const Prepared& prepared_;
   std::size_t part_;
   std::set<int> inner_;     // degrees of freedom of S that are eliminated
-  Numbered open_, closed_;  // S, and v by the numbers of the nodes that are left
+  Numbered open_, closed_;  // S, and v by the numbers of the nodes that are left; w by -1 less those numbers
   std::vector<Entry> K_p_, K_c_, T_;
 };
 
@@ -396,26 +94,32 @@ void ClosedPart::add(int body, const ClosedCracks& cracks, const Vector& acting)
       for (const int c : {0, 1}) inner_.insert(dof(body, node, c));
     };
     for (const int node : exchange.between) follows(node);
-    const std::vector<int> boundary = exchange.closed.nodes();
-    const element::PointCondensation field(closed.ring, closed.solution());
-    for (const auto& [node, point] : exchange.on_faces) {
-      if (acting[dof(body, node, 0)] == 0.0 && acting[dof(body, node, 1)] == 0.0) {
-        follows(node);
-        continue;
-      }
-      inside.insert(node);
-      const element::PointOperator of_point = field.at(point);
-      for (const int k : {0, 1})
-        for (std::size_t i = 0; i < boundary.size(); ++i)
-          for (const int c : {0, 1})
-            T_.push_back(
-                {open_.of(dof(body, node, k)), closed_.of(dof(body, boundary[i], c)), of_point.N(k, place_of(i, c))});
-    }
+    const bool is_loaded = std::any_of(exchange.on_faces.begin(), exchange.on_faces.end(), [&](const auto& at) {
+      return acting[dof(body, at.first, 0)] != 0.0 || acting[dof(body, at.first, 1)] != 0.0;
+    });
+    for (const auto& [node, point] : exchange.on_faces) is_loaded ? void(inside.insert(node)) : follows(node);
+    if (is_loaded) add_on_faces(body, cracks, exchange, element::PointCondensation(closed.ring, closed.solution()));
   }
   for (const int node : nodes)
     for (const int c : {0, 1})
       if (inside.count(node) == 0)
         T_.push_back({open_.of(dof(body, node, c)), closed_.of(dof(body, cracks.same(node), c)), 1.0});
+}
+
+/// Faces inside a cell of the closed body: they follow from its field by v, and move by w besides.
+void ClosedPart::add_on_faces(int body, const ClosedCracks& cracks, const Exchange& exchange,
+                              const element::PointCondensation& field) {
+  const std::vector<int> boundary = exchange.closed.nodes();
+  for (const auto& [node, point] : exchange.on_faces) {
+    const element::PointOperator of_point = field.at(point);
+    for (const int k : {0, 1}) {
+      const Eigen::Index row = open_.of(dof(body, node, k));
+      for (std::size_t i = 0; i < boundary.size(); ++i)
+        for (const int c : {0, 1})
+          T_.push_back({row, closed_.of(dof(body, boundary[i], c)), of_point.N(k, place_of(i, c))});
+      T_.push_back({row, closed_.of(-1 - dof(body, cracks.tied(node), k)), 1.0});
+    }
+  }
 }
 
 /// K_p of the degrees of freedom `kept`, the others eliminated.
@@ -447,7 +151,12 @@ void ClosedPart::solve(const State& open, const Vector& acting, ClosedGrowth& cl
     if (inner_.count(open_.dofs()[i]) == 0) kept.push_back(static_cast<int>(i)), dofs.push_back(open_.dofs()[i]);
   const auto n = static_cast<Eigen::Index>(kept.size()), m = closed_.size();
   const Matrix K_p = condensed(kept), T = matrix_of(T_, open_.size(), m)(kept, Eigen::all);
-  const Matrix less = T.transpose() * K_p * T - matrix_of(K_c_, m, m);
+  Matrix less = T.transpose() * K_p * T;
+  std::vector<Eigen::Index> of_w;
+  for (Eigen::Index i = 0; i < m; ++i)
+    if (closed_.dofs()[static_cast<std::size_t>(i)] < 0) of_w.push_back(i);
+  less(of_w, of_w).setZero();
+  less -= matrix_of(K_c_, m, m);
   const double scale = K_p.diagonal().maxCoeff();  // forces over displacements
   Matrix system(n + m, n + m);
   system << scale * part.flexibility_by_factor(dofs), -T, T.transpose(), -less / scale;
@@ -459,10 +168,10 @@ void ClosedPart::solve(const State& open, const Vector& acting, ClosedGrowth& cl
   forces(dofs) = q;
   for (int dof = 0; dof < static_cast<int>(acting.size()); ++dof)
     if (acting[dof] != 0.0) dofs.push_back(dof);
-  Vector& w = closed.moved[part_];
-  w = part.displacement_at(forces, Vector::Zero(static_cast<Eigen::Index>(part.constraints().size())), dofs);
-  closed.elastic += open.forces[part_].dot(w) + 0.5 * forces.dot(w) - 0.5 * v.dot(less * v);  // eq. (3)
-  if (open.p.size() > 0) closed.elastic += open.p.dot(prepared_.contact.motion[part_] * w);
+  Vector& d = closed.moved[part_];
+  d = part.displacement_at(forces, Vector::Zero(static_cast<Eigen::Index>(part.constraints().size())), dofs);
+  closed.elastic += open.forces[part_].dot(d) + 0.5 * forces.dot(w) - 0.5 * v.dot(less * v);  // eq. (3)
+  if (open.p.size() > 0) closed.elastic += open.p.dot(prepared_.contact.motion[part_] * d);
 }
 
 /// Not 0 where forces act on a part, and where a support or springs hold it.

@@ -13,19 +13,21 @@
 //
 //     u_0 + A q = T v,      T'q = (T'K_p T - K_c) v                                                                (1)
 //
-// Nodes inside on which nothing acts are eliminated from K_p and not among S.
+// Where something acts on faces inside these cells, their nodes move by w besides, the boundary of the cell at rest:
+// u = T v + W w, with the stiffness W'K_p W of the open body's cells. The field of v does no work with w, as it is in
+// balance. Both make one vector (v, w), with (T, W) for T, and with W'K_p W beside K_c for K_c.
+//
 // The second line is the balance of the closed body. Both under the same loads, its potential energy is larger by
 //
 //     Pi_c - Pi_0 = 1/2 q'A q - 1/2 v'T'K_p T v + 1/2 v'K_c v = -1/2 q'u_0                                          (2)
 //
-// With the displacements w = A q of the whole body, which are 0 at supports, it stores more by
+// With the displacements d = A q of the whole body, which are 0 at supports, it stores more by
 //
-//     f'w + 1/2 q'A q - 1/2 v'T'K_p T v + 1/2 v'K_c v                                                               (3)
+//     f'd + 1/2 q'A q - 1/2 v'T'K_p T v + 1/2 v'K_c v                                                               (3)
 //
-// where f are loads and pair forces: w is needed where these act alone.
+// where f are loads and pair forces: d is needed where these act alone.
 //
-// Nodes inside these cells are first eliminated from K_p and not among S, but for those on faces on which something
-// acts.
+// Nodes inside these cells on which nothing acts are first eliminated from K_p and not among S.
 #pragma once
 
 #include <optional>
@@ -37,7 +39,7 @@
 namespace scabo::analysis {
 
 struct ClosedGrowth {
-  std::vector<Vector> moved;  ///< w per part, where forces act, and anything elsewhere
+  std::vector<Vector> moved;  ///< d per part, where forces act, and anything elsewhere
   double elastic = 0.0;       ///< eq. (3), force times length
   double released = 0.0;      ///< eq. (2), force times length
 };

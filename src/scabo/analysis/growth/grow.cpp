@@ -317,7 +317,9 @@ std::variant<double, std::string> Growing::turn_at_middle(const Prepared& prepar
   }
   by.integral = 0.0;
   for (std::size_t t = 0; t < tips_.size(); ++t) {
-    const Vec2 first = factors_at_kink({now.at.tips[t].K_I, now.at.tips[t].K_II}, now.at.tips[t].kink);
+    const Vec2 before = direction_of(model(), tips_[t]);
+    const double angle = std::atan2(cross(before, directions[t]), before.dot(directions[t]));
+    const Vec2 first = factors_at_kink({now.at.tips[t].K_I, now.at.tips[t].K_II}, angle);
     by.integral += model::thickness_of(model(), tips_[t].body) * by.lengths[t] / 6.0 *
                    (first.squaredNorm() + 4.0 * at.K_alone[t].squaredNorm()) / now.materials[t].modulus;
   }

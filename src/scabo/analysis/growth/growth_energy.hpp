@@ -13,8 +13,8 @@
 // work with their means (the trapezoidal rule, exact for a linear body). What the pairs take is the work against their
 // forces.
 //
-// The same from the factors: the integral of G over the growth, by Simpson's rule from its beginning along the kink,
-// its middle and its end, all under the load of A.
+// The same from the factors: the integral of G over the growth, by Simpson's rule from its beginning (in the
+// direction in which it goes), its middle and its end, all under the load of A.
 #pragma once
 
 #include "scabo/analysis/growth/closed_growth.hpp"
