@@ -6,8 +6,8 @@
 
 namespace scabo::contact {
 
-/// 1. Newton's method on the B-differentiable equations: from the last increment, from bonded pairs where contact alone
-/// holds bodies, from a coarser problem or from zero.
+/// 1. Newton's method on the B-differentiable equations: from the last increment, from a coarser problem, from
+/// bonded pairs where contact alone holds bodies, or from zero.
 StageEnd newton_stage(Search& search);
 
 /// 2. Interior points from three starts, each with Newton's method after it.

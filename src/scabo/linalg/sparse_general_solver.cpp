@@ -9,7 +9,6 @@
 
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/elimination_order.hpp"
-#include "scabo/linalg/held_termination.hpp"
 
 namespace scabo::linalg {
 
@@ -215,15 +214,15 @@ struct SparseGeneralSolver::Factor {
   Factor() { of_any(); }
   void of_any() {
     umfpack_di_defaults(control);
-    control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-    control[UMFPACK_IRSTEP] = 0;  // who calls refines with the matrix that he means
+    control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
+    control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;  // the pattern is, whatever the entries are
+    control[UMFPACK_IRSTEP] = 0;                             // who calls refines with the matrix that he means
   }
   /// Pivots on the diagonal wherever elimination has filled it; with the usual tolerance of 1e-3 a hundredth of them
   /// lie elsewhere and cost a fifth more operations.
   void of_saddle() {
     of_any();
     control[UMFPACK_ORDERING] = UMFPACK_ORDERING_GIVEN;
-    control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     control[UMFPACK_SYM_PIVOT_TOLERANCE] = 1e-6;
   }
   Factor(const Factor&) = delete;
@@ -292,7 +291,6 @@ bool SparseGeneralSolver::factorise(const Eigen::SparseMatrix<double>& A,
                                     &factor_->symbolic, factor_->control, info);
     } else {
       factor_->of_any();
-      const HeldTermination held;  // UMFPACK calls METIS
       status = umfpack_di_symbolic(n, n, A.outerIndexPtr(), A.innerIndexPtr(), nullptr, &factor_->symbolic,
                                    factor_->control, info);
     }

@@ -1,9 +1,9 @@
-// Factorisation of a sparse square matrix without symmetry: P R A Q = L U by UMFPACK (Davis, ACM Trans. Math. Softw. 30
-// (2004) 196), ordered by METIS. Of a saddle matrix [W G; G' 0] the unknowns without a diagonal entry stand right
-// behind neighbours that fill it, and pivots stay on the diagonal. UMFPACK by itself takes such a matrix for an
-// unsymmetric one and orders A'A, which takes three times the operations (walls of 40 x 40 blocks: 4.1e9 and 1.2e10).
-// Large saddle matrices are factorised by fronts of blocks (multifrontal_lu.hpp) wherever that is accurate; where it is
-// not, UMFPACK follows, but for the largest.
+// Factorisation of a sparse square matrix whose pattern, but not its entries, is symmetric: P R A Q = L U by UMFPACK
+// (Davis, ACM Trans. Math. Softw. 30 (2004) 196), ordered by AMD. Of a saddle matrix [W G; G' 0] the unknowns without a
+// diagonal entry stand right behind neighbours that fill it, and pivots stay on the diagonal. UMFPACK by itself takes
+// such a matrix for an unsymmetric one and orders A'A, which takes three times the operations (walls of 40 x 40
+// blocks: 4.1e9 and 1.2e10). Large saddle matrices are factorised by fronts of blocks (multifrontal_lu.hpp) wherever
+// that is accurate; where it is not, UMFPACK follows, but for the largest.
 #pragma once
 
 #include <Eigen/SparseCore>

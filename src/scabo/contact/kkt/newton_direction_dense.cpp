@@ -79,7 +79,7 @@ bool NewtonDirection::solve_shortest(Eigen::Index n, double rounding) {
   shortest.compute(work_->A.topLeftCorner(n, n));
   y_.head(n) = shortest.solve(right_.head(n));
   const double exact = system_constants.exact * right_.head(n).lpNorm<Eigen::Infinity>();
-  return y_.allFinite() && residual_of(n) <= std::max(exact, rounding);
+  return y_.head(n).allFinite() && residual_of(n) <= std::max(exact, rounding);
 }
 
 bool NewtonDirection::solve_along_joints() {

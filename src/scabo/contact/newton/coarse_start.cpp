@@ -30,19 +30,20 @@ bool solve_loosely(const Problem& problem, CoarseStart& start) {
 }  // namespace
 
 std::optional<CoarseStart> coarse_start(const Problem& problem, const Vector& a) {
-  if (problem.dimension != 2 || !problem.W.is_dense() || problem.pairs() < newton_constants.least_pairs)
+  if (problem.dimension != 2 || !problem.W.is_dense() || problem.pairs() < newton_constants.least_pairs ||
+      problem.G.cols() > system_constants.motions_of_one_body)
     return std::nullopt;
   const CoarseProblem coarse = coarse_problem(problem);
   if (4 * coarse.problem.pairs() > 3 * problem.pairs()) return std::nullopt;
   std::optional<CoarseStart> start = coarse_start(coarse.problem, a);
   if (!start) {
     start.emplace();
-    std::optional<Point> bonded;
-    if (problem.G.cols() > 0) bonded = bonded_start(coarse.problem, {});
-    start->point = bonded ? *std::move(bonded) : Point{Vector::Zero(coarse.problem.q.size()), a};
+    const std::optional<Point> bonded = problem.G.cols() > 0 ? bonded_start(coarse.problem, {}) : std::nullopt;
+    start->point = bonded.value_or(Point{Vector::Zero(coarse.problem.q.size()), a});
   }
   if (!solve_loosely(coarse.problem, *start)) return std::nullopt;
-  start->point.p = coarse.prolong(start->point.p);
+  // What nothing moves may have any force: none, because it would be a tie at the bound of friction.
+  start->point.p = (problem.W.diagonal().array() > 0.0).select(coarse.prolong(start->point.p), 0.0);
   return start;
 }
 

@@ -14,8 +14,8 @@ struct CoarseStart {
   std::vector<Iteration> trace;
 };
 
-/// Nothing where the problem is not one of the plane with a dense W and some fifty pairs. `a`: rigid motions of the
-/// coarsest start.
+/// Of plane problems of one body with a dense W and some fifty pairs; of more bodies pairs may be redundant, and their
+/// forces would differ from pair to pair. `a`: rigid motions of the coarsest start.
 std::optional<CoarseStart> coarse_start(const Problem& problem, const Vector& a);
 
 }  // namespace scabo::contact

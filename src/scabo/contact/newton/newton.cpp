@@ -8,6 +8,7 @@
 #include "scabo/contact/constants.hpp"
 #include "scabo/contact/kkt/newton_direction.hpp"
 #include "scabo/contact/work.hpp"
+#include "scabo/linalg/dense.hpp"
 
 namespace scabo::contact {
 
@@ -66,18 +67,18 @@ class Newton {
   /// to where these stick, without a search.
   bool settle() {
     if (end_.iterations - progress_.halved_at != newton_constants.going_around) return false;
+    const double level = newton_constants.undecided_below * at_.largest();
+    if (!(level < linalg::largest_of(at_point_.p))) return false;  // no pair is decided yet
     trial_ = at_;
-    const int undecided = equations_.stick_below(newton_constants.undecided_below * at_.largest(), at_point_.p, trial_);
+    const int undecided = equations_.stick_below(level, at_point_.p, trial_);
     if (newton_constants.few * undecided <= equations_.problem().pairs()) return false;
     return direction_.find(trial_, 0.0, d_) && take(1.0);
   }
 
   double regularisation() const {
     if (!progress_.regularised) return 0.0;
-    const double force = at_point_.p.size() > 0 ? at_point_.p.lpNorm<Eigen::Infinity>() : 0.0;
-    return force > 0.0 ? std::clamp(newton_constants.part * at_.largest() / force, newton_constants.least,
-                                    newton_constants.most)
-                       : newton_constants.most;
+    const double part = newton_constants.part * at_.largest() / linalg::largest_of(at_point_.p);  // infinite at p = 0
+    return std::clamp(part, newton_constants.least, newton_constants.most);
   }
 
   /// The longest step 2^-k along d that passes the search; 0 where there is none.
@@ -135,10 +136,7 @@ class Newton {
            merit > newton_constants.halved * progress_.best;
   }
 
-  double aim() const {
-    const double largest = end_.p.size() > 0 ? end_.p.lpNorm<Eigen::Infinity>() : 0.0;
-    return std::max(options_.small, options_.relative * largest);
-  }
+  double aim() const { return std::max(options_.small, options_.relative * linalg::largest_of(end_.p)); }
 
   void record() {
     int changed = 0;

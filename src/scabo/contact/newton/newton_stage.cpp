@@ -69,14 +69,14 @@ StageEnd newton_stage(Search& search) {
     return end.converged || search.late();
   };
   if (search.has_history() && from_history(search, done)) return {end.converged, why_of(end, search)};
-  if (problem.G.cols() > 0 || problem.W.bodies() != nullptr)
-    if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
-      if (done(counted(search, *std::move(bonded)), "newton from bonded pairs"))
-        return {end.converged, why_of(end, search)};
   if (std::optional<CoarseStart> coarse = coarse_start(problem, search.start().a)) {
     search.add_coarse(std::move(coarse->trace), coarse->iterations);
     if (done(std::move(coarse->point), "newton from fewer pairs")) return {end.converged, why_of(end, search)};
   }
+  if (problem.G.cols() > 0 || problem.W.bodies() != nullptr)
+    if (std::optional<Point> bonded = bonded_start(problem, search.touching()))
+      if (done(counted(search, *std::move(bonded)), "newton from bonded pairs"))
+        return {end.converged, why_of(end, search)};
   done({Vector::Zero(problem.q.size()), search.start().a}, "newton from zero");
   return {end.converged, why_of(end, search)};
 }

@@ -1,5 +1,6 @@
 #include "scabo/contact/questions/smoothest_forces.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
