@@ -96,6 +96,19 @@ class Contacts(Meanings):
                                  "*CLEARANCE within a step is not taken")
 
 
+    def test_few_pairs(self):
+        """The upper block bends upwards and touches at a corner only: the run warns that the mesh is too coarse for that."""
+        deck = self.two_blocks("C3D8", lambda top: PUSHED.format(-0.01))
+        inclined = re.sub(r"(?m)^(1\d\d\d), ([^,]*), ([^,]*), ([12]\.0)$", lambda m: f"{m[1]}, {m[2]}, {m[3]}, {float(m[4]) + 0.05 * (float(m[2])**2 + float(m[3])**2)}", deck)
+        self.assertNotEqual(inclined, deck)
+        for text, few in ((deck, False), (inclined, True)):
+            increment, = increments_of_deck(self, text)
+            touch = increment["contacts"]["touch"]
+            self.assertEqual(0 < touch["stick"] + touch["slip"] < 4, few)
+            warnings = " ".join(support.summary_of(self.directory / "results")["warnings"])
+            self.assertEqual("in contact at the end, and the mesh is too coarse for the zone that touches" in warnings, few, warnings)
+
+
 @unittest.skipIf(support.SANITIZED, "numbers")
 class Steps(Meanings):
     def test_steps_of_vibrations(self):
