@@ -96,6 +96,19 @@ class Contacts(Meanings):
                                  "*CLEARANCE within a step is not taken")
 
 
+    def test_few_pairs(self):
+        """The upper block bends upwards and touches at a corner only: the run warns that the mesh is too coarse for that."""
+        deck = self.two_blocks("C3D8", lambda top: PUSHED.format(-0.01))
+        inclined = re.sub(r"(?m)^(1\d\d\d), ([^,]*), ([^,]*), ([12]\.0)$", lambda m: f"{m[1]}, {m[2]}, {m[3]}, {float(m[4]) + 0.05 * (float(m[2])**2 + float(m[3])**2)}", deck)
+        self.assertNotEqual(inclined, deck)
+        for text, few in ((deck, False), (inclined, True)):
+            increment, = increments_of_deck(self, text)
+            touch = increment["contacts"]["touch"]
+            self.assertEqual(0 < touch["stick"] + touch["slip"] < 4, few)
+            warnings = " ".join(support.summary_of(self.directory / "results")["warnings"])
+            self.assertEqual("in contact at the end, and the mesh is too coarse for the zone that touches" in warnings, few, warnings)
+
+
 @unittest.skipIf(support.SANITIZED, "numbers")
 class Steps(Meanings):
     def test_steps_of_vibrations(self):
@@ -138,6 +151,39 @@ class Bodies(Meanings):
                 tie, = increment["contacts"].values()
                 self.assertAlmostEqual(abs(tie["normal_force"][2]), expected, delta=1e-9 * expected)
                 self.assertIn("elements of two materials hang together: they become the bodies 'FOOT' and 'SHAFT', with a tie", self.convert(deck).stderr)
+
+    def test_surfaces_of_several_bodies(self):
+        """Two blocks on one, as one surface, and a third that faces nothing: a contact for each of both."""
+        lower = block("C3D8", (4, 2, 1), (4, 2, 1), 0, 1, "LOWER")[0]
+        deck, sets, loads = lower, "", ""
+        for k, x in enumerate((0.0, 2.5, 6.0)):
+            text, _, top = block("C3D8", (1, 2, 1), (1, 2, 1), 1, 1001 + 1000 * k, f"UPPER{k}", (x, 0.0))
+            deck += text
+            sets += f"UPPER{k}_BOTTOM\n"
+            loads += f"*BOUNDARY\nUPPER{k}_TOP, 1, 2\nUPPER{k}_BOTTOM, 1, 2\n" + (f"UPPER{k}_TOP, 3\n" if k == 2 else "")
+        pressure = "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in (1001, 1002, 2001, 2002))
+        deck += ("*ELSET, ELSET=ALL\nLOWER, UPPER0, UPPER1, UPPER2\n*MATERIAL, NAME=steel\n*ELASTIC\n1000., 0.25\n*SOLID SECTION, ELSET=ALL, MATERIAL=steel\n"
+                 f"*SURFACE, NAME=MASTER, TYPE=NODE\nLOWER_TOP\n*SURFACE, NAME=SLAVE, TYPE=NODE\n{sets}*SURFACE INTERACTION, NAME=touch\n*FRICTION\n0.3\n"
+                 "*CONTACT PAIR, INTERACTION=touch\nSLAVE, MASTER\n*BOUNDARY\nLOWER_BOTTOM, 1, 3\n" + loads + "*STEP\n*STATIC\n" + pressure + "*END STEP\n")
+        increment, = increments_of_deck(self, deck)
+        self.assertEqual(len(increment["contacts"]), 2)
+        for contact in increment["contacts"].values():
+            self.assertAlmostEqual(contact["normal_force"][2], 10, delta=1e-8)
+        self.assertIn("which face none of the other one and are left out of the contact", self.convert(deck).stderr)
+        (self.directory / "deck.yaml").unlink()
+        self.assert_refused(deck.replace(f"TYPE=NODE\n{sets}", "TYPE=NODE\nUPPER2_BOTTOM\nUPPER0_TOP\n"),
+                            "the two surfaces do not face each other, and the contact is lost")
+
+    def test_contact_of_a_body_with_itself(self):
+        """The two legs of a U."""
+        text, number, _ = block("C3D8", (3, 1, 3), (3, 1, 3), 0, 1, "U")
+        for element in (5, 8):
+            text = re.sub(rf"(?m)^{element}, .*, .*, .*, .*, .*, .*, .*, .*\n", "", text)
+        inner = ["".join(f"{m}\n" for (i, _, k), m in number.items() if i == at and k >= 2) for at in (2, 4)]
+        self.assert_refused(text + f"*NSET, NSET=ONE\n{inner[0]}*NSET, NSET=OTHER\n{inner[1]}*SURFACE, NAME=S, TYPE=NODE\nONE\n*SURFACE, NAME=M, TYPE=NODE\nOTHER\n"
+                            "*MATERIAL, NAME=steel\n*ELASTIC\n1000., 0.25\n*SOLID SECTION, ELSET=U, MATERIAL=steel\n*SURFACE INTERACTION, NAME=touch\n"
+                            "*CONTACT PAIR, INTERACTION=touch\nS, M\n*BOUNDARY\nU_BOTTOM, 1, 3\n*STEP\n*STATIC\n*CLOAD\n1, 3, 1.\n*END STEP\n",
+                            "sides of body 'U' face each other in both surfaces, and contact of a body with itself is not taken")
 
     def test_elements_that_are_no_solids(self):
         deck = self.two_blocks("C3D8", pressed)

@@ -153,7 +153,7 @@ class Refused(support.InTemporaryDirectory):
     def test_with_a_sentence(self):
         deck = Numbers.two_blocks(None, "C3D8", lambda top: "*CLOAD\n1001, 3, -7.\n")
         for old, new, sentence in (
-                ("SLAVE, MASTER", "MASTER, MASTER", "each of both surfaces must be of one body, and not of the same"),
+                ("SLAVE, MASTER", "MASTER, MASTER", "the two surfaces do not face each other, and the contact is lost"),
                 ("ELSET=LOWER\n1, 1,", "ELSET=LOWER\n1, -1,", "cell 1 has the node -1; numbers of nodes are positive"),
                 ("SLAVE, MASTER", "NONE, MASTER", "there is no surface 'NONE' with outer sides of solid elements"),
                 ("PRESSURE-OVERCLOSURE=HARD\n", "PRESSURE-OVERCLOSURE=EXPONENTIAL\n1e-3, 5.\n", "presses before the surfaces touch"),

@@ -277,43 +277,62 @@ class SolidConverter {
     return 0.0;
   }
 
+  using Sides = std::pair<const int, std::vector<int>>;  // of a body
+
   void write_contacts() {
     for (const DeckContact& contact : to_.content.contacts) {
-      const auto interaction = to_.content.interactions.find(contact.interaction);
-      const bool known = interaction != to_.content.interactions.end();
       const auto master = to_.surface(contact.master, contact.at), slave = to_.surface(contact.slave, contact.at);
-      if (master.empty() || slave.empty()) continue;
-      if (master.size() > 1 || slave.size() > 1 || master.begin()->first == slave.begin()->first) {
+      const bool of_two = master.size() == 1 && slave.size() == 1 && master.begin()->first != slave.begin()->first;
+      std::set<int> used;
+      for (const Sides& a : master)
+        for (const Sides& b : slave) {
+          if (!of_two && !face_each_other(*to_.deck.solid, a.second, b.second)) continue;
+          used.insert({a.first, b.first});
+          if (a.first != b.first)
+            write_contact(contact, a, b);
+          else
+            to_.remarks.essential(contact.at,
+                                  fmt::format("sides of body '{}' face each other in both surfaces, and contact "
+                                              "of a body with itself is not taken; part it, or the surfaces",
+                                              to_.name_of(a.first)));
+        }
+      if (used.empty() && !master.empty() && !slave.empty())
         to_.remarks.essential(contact.at,
-                              "each of both surfaces must be of one body, and not of the same; part them, a "
-                              "surface for each body");
-        continue;
-      }
-      const auto& [a, a_sides] = *master.begin();
-      const auto& [b, b_sides] = *slave.begin();
-      adjust_solids(to_.deck, contact, a_sides, b_sides, to_.remarks);
-      std::optional<double> modulus;
-      if (known && !contact.tie) {
-        const auto stiffness = [](const SolidDeckBody& body) {
-          return body.rigid ? HUGE_VAL : body.young / std::cbrt(body.volume);
-        };
-        modulus = modulus_of(std::min(stiffness(to_.bodies.bodies[static_cast<std::size_t>(a)]),
-                                      stiffness(to_.bodies.bodies[static_cast<std::size_t>(b)])),
-                             interaction->second, to_.remarks);
-      }
-      const std::string between =
-          fmt::format("between: [{}.{}, {}.{}]", to_.name_of(a), to_.set_of(to_.sets.sides, a_sides, contact.master),
-                      to_.name_of(b), to_.set_of(to_.sets.sides, b_sides, contact.slave));
-      const std::string name = yaml_word(to_.contact_names.take(
-          known && to_.content.contacts.size() == 1 ? interaction->second.name : contact.slave + "_" + contact.master));
-      if (contact.tie || (known && interaction->second.tied)) {
-        to_.parts.ties += fmt::format("  {}: {{{}}}\n", name, between);
-        ++to_.result.ties;
-      } else {
-        add_contact(to_.parts, name, between, known ? interaction->second.friction : 0.0, modulus, contact.interaction,
-                    gap_of(contact, a_sides, b_sides));
-        ++to_.result.contacts;
-      }
+                              "the two surfaces do not face each other, and the contact is lost; correct them");
+      for (const auto* surface : {&master, &slave})
+        for (const Sides& of : *surface)
+          if (!used.empty() && !used.contains(of.first))
+            to_.remarks.note(contact.at,
+                             fmt::format("the surface has sides of body '{}', which face none of the other one "
+                                         "and are left out of the contact",
+                                         to_.name_of(of.first)));
+    }
+  }
+
+  void write_contact(const DeckContact& contact, const Sides& a, const Sides& b) {
+    const auto interaction = to_.content.interactions.find(contact.interaction);
+    const bool known = interaction != to_.content.interactions.end();
+    adjust_solids(to_.deck, contact, a.second, b.second, to_.remarks);
+    std::optional<double> modulus;
+    if (known && !contact.tie) {
+      const auto stiffness = [&](int of) {
+        const SolidDeckBody& body = to_.bodies.bodies[static_cast<std::size_t>(of)];
+        return body.rigid ? HUGE_VAL : body.young / std::cbrt(body.volume);
+      };
+      modulus = modulus_of(std::min(stiffness(a.first), stiffness(b.first)), interaction->second, to_.remarks);
+    }
+    const std::string between = fmt::format("between: [{}.{}, {}.{}]", to_.name_of(a.first),
+                                            to_.set_of(to_.sets.sides, a.second, contact.master), to_.name_of(b.first),
+                                            to_.set_of(to_.sets.sides, b.second, contact.slave));
+    const std::string name = yaml_word(to_.contact_names.take(
+        known && to_.content.contacts.size() == 1 ? interaction->second.name : contact.slave + "_" + contact.master));
+    if (contact.tie || (known && interaction->second.tied)) {
+      to_.parts.ties += fmt::format("  {}: {{{}}}\n", name, between);
+      ++to_.result.ties;
+    } else {
+      add_contact(to_.parts, name, between, known ? interaction->second.friction : 0.0, modulus, contact.interaction,
+                  gap_of(contact, a.second, b.second));
+      ++to_.result.contacts;
     }
   }
 

@@ -71,6 +71,23 @@ std::optional<std::pair<double, double>> gaps_of_mesh(const files::ImportedSolid
   return gaps;
 }
 
+bool face_each_other(const files::ImportedSolidMesh& mesh, const std::vector<int>& a, const std::vector<int>& b) {
+  const auto planes_of = [&](const std::vector<int>& sides) {
+    std::vector<MasterPlane> planes;
+    for (const int side : sides) planes.push_back(master_plane(mesh, {side}));
+    return planes;
+  };
+  const std::vector<MasterPlane> on_a = planes_of(a), on_b = planes_of(b);
+  const auto faces = [&](int side, const MasterPlane& plane, const MasterPlane& other) {
+    return plane.normal.dot(other.normal) < -0.5 && plane.gap(other.point) > -plane.size &&
+           is_opposite(mesh, side, plane, other.point);
+  };
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < b.size(); ++k)
+      if (faces(a[i], on_a[i], on_b[k]) || faces(b[k], on_b[k], on_a[i])) return true;
+  return false;
+}
+
 void adjust_solids(files::AbaqusDeck& deck, const DeckContact& contact, const std::vector<int>& master,
                    const std::vector<int>& slave, Remarks& remarks) {
   if (!contact.adjusted_nodes && !(contact.adjust_within.value_or(0.0) > 0.0)) return;

@@ -19,4 +19,8 @@ void adjust_solids(files::AbaqusDeck& deck, const DeckContact& contact, const st
 std::optional<std::pair<double, double>> gaps_of_mesh(const files::ImportedSolidMesh& mesh,
                                                       const std::vector<int>& master, const std::vector<int>& slave);
 
+/// Whether the middle of a side of either surface lies opposite a side of the other one, their normals being opposite
+/// up to 60 degrees, and not deeper below it than its size.
+bool face_each_other(const files::ImportedSolidMesh& mesh, const std::vector<int>& a, const std::vector<int>& b);
+
 }  // namespace scabo::convert

@@ -53,4 +53,25 @@ void note_warnings(const model::SpaceModel& model, const Json& increment, const 
   }
 }
 
+void note_few_pairs(const model::SpaceModel& model, const Json& last, Json& texts, std::vector<Warning>& warnings) {
+  constexpr int fewest_pairs = 4;  // three say nothing about how the pressure is distributed
+  const auto is_rigid = [&](const model::SpaceFace& side) {
+    return model.bodies[static_cast<std::size_t>(side.body)].rigid;
+  };
+  for (const model::SpaceContact& contact : model.contacts) {
+    if (contact.tied || (is_rigid(contact.a) && is_rigid(contact.b)) || !last["contacts"].contains(contact.name))
+      continue;
+    const Json& of = last["contacts"][contact.name];
+    const int closed = of["stick"].get<int>() + of["slip"].get<int>(), all = closed + of["open"].get<int>();
+    if (closed == 0 || closed >= fewest_pairs || all < fewest_pairs) continue;
+    const std::string subject = fmt::format("contact '{}'", contact.name);
+    warnings.push_back(
+        {WarningKind::few_pairs, subject,
+         fmt::format("{}: only {} of {} pairs {} in contact at the end, and the mesh is too coarse for the zone that "
+                     "touches: pressures and displacements are not reliable; use smaller elements there",
+                     subject, closed, all, closed == 1 ? "is" : "are")});
+    texts.push_back(warnings.back().text);
+  }
+}
+
 }  // namespace scabo::result

@@ -18,4 +18,9 @@ nlohmann::ordered_json content_of_mechanism(const analysis::SolidMechanism& mech
 void note_warnings(const model::SpaceModel& model, const nlohmann::ordered_json& increment,
                    const std::vector<Warning>& given, nlohmann::ordered_json& texts, std::vector<Warning>& warnings);
 
+/// At the end of a run: contacts whose force only few pairs carry after its last increment, which the mesh is then too
+/// coarse for. Two rigid bodies have no others.
+void note_few_pairs(const model::SpaceModel& model, const nlohmann::ordered_json& last, nlohmann::ordered_json& texts,
+                    std::vector<Warning>& warnings);
+
 }  // namespace scabo::result

@@ -433,6 +433,8 @@ SolidEnd end_of(Json& json, int finished, bool interrupted) {
 SolidEnd SolidResults::finish(bool interrupted) {
   Json& json = summary_->json;
   SolidEnd end = end_of(json, finished_, interrupted);
+  if (end.status == "solved" && finished_ > 0)
+    note_few_pairs(model_, json["increments"][static_cast<std::size_t>(finished_ - 1)], json["warnings"], warnings_);
   end.warnings = warnings_;
   std::string text = end.status == "solved" ? "\nSolved: every increment converged and is certified.\n"
                      : interrupted          ? fmt::format("\nInterrupted: {}\n", end.reason)
@@ -461,6 +463,8 @@ std::pair<std::string, SolidEnd> summary_of(const model::SpaceModel& model, cons
     note_outcome(posed.model, increments[k], json);
   }
   SolidEnd end = end_of(json, finished, interrupted);
+  if (end.status == "solved" && finished > 0)
+    note_few_pairs(model, json["increments"][static_cast<std::size_t>(finished - 1)], json["warnings"], warnings);
   end.warnings = std::move(warnings);
   return {text_of(json), std::move(end)};
 }
