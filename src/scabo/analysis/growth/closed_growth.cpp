@@ -170,7 +170,7 @@ void ClosedPart::solve(const State& open, const Vector& acting, ClosedGrowth& cl
     if (acting[dof] != 0.0) dofs.push_back(dof);
   Vector& d = closed.moved[part_];
   d = part.displacement_at(forces, Vector::Zero(static_cast<Eigen::Index>(part.constraints().size())), dofs);
-  closed.elastic += open.forces[part_].dot(d) + 0.5 * forces.dot(w) - 0.5 * v.dot(less * v);  // eq. (3)
+  closed.elastic += open.forces[part_].dot(d) + 0.5 * forces.dot(d) - 0.5 * v.dot(less * v);  // eq. (3)
   if (open.p.size() > 0) closed.elastic += open.p.dot(prepared_.contact.motion[part_] * d);
 }
 
