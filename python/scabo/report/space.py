@@ -15,6 +15,9 @@ def add_space(results, arrays, budget, asked=None):
     numbers = [number for number in results.field_numbers() if number <= results.count]
     if not numbers:
         return None
+    last = results.increments[numbers[-1] - 1].get("absent")
+    with_others = [number for number in numbers if results.increments[number - 1].get("absent") != last]
+    numbers = [number for number in numbers if number not in with_others]
     keys = keys_of(asked)
     grid = results.fields(numbers[-1])
     facets = tetrahedra.outer_facets(grid)
@@ -29,7 +32,8 @@ def add_space(results, arrays, budget, asked=None):
         arrays.add(f"space_{name}", values, kind)
     chosen = add_values(results, numbers, keys, arrays, budget)
     shown = sorted(chosen)
-    what = f"This page has the fields of {len(shown)} of {results.count} increments ({listed(shown)}), which keeps its size within bounds."
+    why = "those with the bodies of the last one" if with_others and shown == numbers else "which keeps its size within bounds"
+    what = f"This page has the fields of {len(shown)} of {results.count} increments ({listed(shown)}), {why}."
     return {"centre": centre.tolist(), "low": grid.points.min(axis=0).tolist(), "high": grid.points.max(axis=0).tolist(),
             "bodies": [body["name"] for body in results.summary["model"].get("bodies", [])] or [f"body {k + 1}" for k in range(int(bodies.max()))],
             "increments": shown, "ranges": chosen, "magnification": tetrahedra.magnification_of(results.fields(shown[-1])),
@@ -79,7 +83,7 @@ def add_values(results, numbers, keys, arrays, budget):
 
 def add_faces(results, arrays, increments):
     """The contact faces as maps: for each its name, the names of its two coordinates and how many pairs it has."""
-    if not results.increments[-1]["contacts"]:
+    if not results.increments[-1]["contacts"] or len(results.faces(increments[-1]).points) == 0:
         return []
     maps = tetrahedra.maps_of(results, increments[-1])
     for k, of in enumerate(maps):
@@ -94,6 +98,7 @@ def add_faces(results, arrays, increments):
             arrays.add(f"face_{k}_state_{number}", np.select([of.states == name for name in ("open", "stick", "slip")], range(3)), "u1")
     grid = results.faces(increments[-1])
     centre = 0.5 * (results.fields(increments[-1]).points.min(axis=0) + results.fields(increments[-1]).points.max(axis=0))
-    for k in range(len(maps)):
-        arrays.add(f"face_{k}_points", grid.points[grid.point_data["contact"] == k + 1] - centre, "f4")
+    known = list(results.increments[-1]["contacts"])
+    for k, of in enumerate(maps):
+        arrays.add(f"face_{k}_points", grid.points[grid.point_data["contact"] == known.index(of.name) + 1] - centre, "f4")
     return [{"name": of.name, "axes": list(of.axes), "pairs": len(of.places)} for of in maps]

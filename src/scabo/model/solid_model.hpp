@@ -81,6 +81,7 @@ struct SpaceSupport {
   // Of a rigid body; `displacement` is then that of the point `at`.
   std::array<std::optional<double>, 3> rotation;  ///< about the axes, radians, at factor 1; none: free
   std::optional<Eigen::Vector3d> at;              ///< none: its centroid
+  Stay stay;
 };
 
 /// Springs between a body and the ground.

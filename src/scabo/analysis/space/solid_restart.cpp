@@ -81,7 +81,7 @@ std::vector<EndState::Agreement> agreements_of_solids(const PreparedSolids& now,
   for (std::size_t b = 0; b < solids.bodies.size(); ++b)
     if (!now.is_absent(b)) add("body", solids.bodies[b].name, fingerprint_of_body(solids.bodies[b]));
   for (std::size_t i = 0; i < model.supports.size(); ++i)
-    if (const int body = model.supports[i].on.body; is_there(now, body))
+    if (const int body = model.supports[i].on.body; is_there(now, body) && !model.supports[i].stay.is_staged())
       add("support", model.supports[i].name, fingerprint_of_support(solids.bodies[static_cast<std::size_t>(body)], i));
   for (std::size_t i = 0; i < solids.springs.size(); ++i)
     if (is_there(now, solids.springs[i].body))
@@ -164,6 +164,9 @@ EndState end_state_of_solids(const PreparedSolids& now, const model::SpaceModel&
     end.loads.push_back({model.loads[i].name, state.factors.loads[static_cast<Eigen::Index>(i)]});
   for (std::size_t i = 0; i < model.supports.size(); ++i)
     end.supports.push_back({model.supports[i].name, state.factors.supports[static_cast<Eigen::Index>(i)]});
+  for (const model::SpaceSupport& support : model.supports)
+    if (support.stay.is_staged() && support.stay.is_there(state.factors.step))
+      end.placed.push_back({support.name, 1.0});
   return end;
 }
 
