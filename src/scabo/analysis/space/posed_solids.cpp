@@ -180,7 +180,7 @@ std::vector<std::size_t> Posing::order_of_supports() const {
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key_of = [&](std::size_t i) {
     const model::Stay& stay = model_.supports[i].stay;
-    return std::tuple(stay.is_staged(), stay.added,
+    return std::tuple(model_.supports[i].is_staged(), stay.added,
                       stay.removed < 0 ? -std::numeric_limits<int>::max() : -stay.removed);
   };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key_of(i) < key_of(j); });
@@ -195,13 +195,13 @@ const std::pair<std::size_t, double>* Posing::hold(std::size_t number, system::C
   std::vector<std::pair<std::size_t, double>>& others = held_[{of, key}];
   for (const std::pair<std::size_t, double>& other : others) {
     const model::Stay& stay = model_.supports[other.first].stay;
-    if (!stay.is_staged() ||
+    if (!model_.supports[other.first].is_staged() ||
         (stay.meets(support.stay) && (stay.covers(support.stay) || other.second != constraint.value)))
       return &other;
   }
   constraint.support = static_cast<int>(number);
   others.emplace_back(number, constraint.value);
-  if (support.stay.is_staged())
+  if (support.is_staged())
     posed_.model.held_points.push_back({of, constraint, support.stay});
   else
     body(of).supports.push_back(constraint);

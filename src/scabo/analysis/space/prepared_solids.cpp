@@ -38,13 +38,6 @@ Vector resultants_of_loads(const system::BodySystem& part, const Vector& forces,
   return f;
 }
 
-/// Half the size of a rigid body, by which what holds its rotation is a length.
-double lever_of(const SolidModel& model, const SolidHeldPoint& point) {
-  if (!point.held.rotation) return 1.0;
-  const Matrix& nodes = model.bodies[static_cast<std::size_t>(point.body)].mesh.nodes;
-  return 0.5 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
-}
-
 /// A point of a rigid body as the least weighted mean of its nodes.
 system::PairSide side_at(const SolidModel& model, int body, const Eigen::Vector3d& at) {
   const Matrix& nodes = model.bodies[static_cast<std::size_t>(body)].mesh.nodes;
@@ -161,6 +154,12 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
                          ? at_rest[static_cast<std::size_t>(pair.index)].contact
                          : -1;
   return prepared;
+}
+
+double lever_of(const SolidModel& model, const SolidHeldPoint& point) {
+  if (!point.held.rotation) return 1.0;
+  const Matrix& nodes = model.bodies[static_cast<std::size_t>(point.body)].mesh.nodes;
+  return 0.5 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
 }
 
 std::vector<char> absent_in(const SolidModel& model, int step) {

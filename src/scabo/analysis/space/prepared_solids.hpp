@@ -67,6 +67,8 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
 /// The gap of pair i of the model; of an interference, the part that is there.
 double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t i);
 
+/// Half the size of a rigid body whose rotation is held, by which that is a length; else 1.
+double lever_of(const SolidModel& model, const SolidHeldPoint& point);
 /// What a held point prescribes, a length.
 double displacement_of_held_point(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t point);
 /// What each held point exerts, as reactions of constraints; of one that has ended the part that is not yet released.

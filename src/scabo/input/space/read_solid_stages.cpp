@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "scabo/input/space/space_reader.hpp"
-#include "scabo/input/suggestions.hpp"
 
 namespace scabo::input {
 
@@ -30,13 +29,7 @@ void SpaceReader::restart(const Value& value) {
   restart.load_factors = end_->numbers("loads", names_of(model_.loads));
   restart.support_factors = end_->numbers("supports", names_of(model_.supports));
   const std::vector<double> placed = end_->numbers("placed", names_of(model_.supports));
-  for (std::size_t i = 0; i < placed.size(); ++i)
-    if (placed[i] != 0.0)
-      report_.error(
-          value,
-          fmt::format(
-              "support '{}' has begun in a step of {}, or ends there later: it cannot go on in another run in space",
-              model_.supports[i].name, quoted_name(end_->name)));
+  for (std::size_t i = 0; i < placed.size(); ++i) model_.supports[i].placed = placed[i] != 0.0;
   const std::vector<double> tightened = end_->numbers("bars", names_of(model_.bodies));
   for (std::size_t b = 0; b < model_.bodies.size(); ++b)
     if (auto& preload = model_.bodies[b].preload; preload && tightened[b] < 0.0)
@@ -72,8 +65,6 @@ void SpaceReader::find_stages() {
       report_.error(
           support.stay.added > 0 && support.stay.added < body.stay.added ? *of.added : of.removed.value_or(*of.added),
           *wrong);
-    if (model_.restart && support.stay.removed >= 0)
-      report_.error(*of.removed, "cannot be combined with a restart in space: let the support end in the other run");
   }
   if (report_.count() == before) check_stages();
 }
