@@ -100,7 +100,7 @@ void SpaceReader::check_stages() {
                     fmt::format("is tightened in step '{}', in which body '{}' is not there: name another step by "
                                 "'tightened'",
                                 steps[static_cast<std::size_t>(body.preload->step)].name, body.name));
-  for (std::size_t s = 0; s < steps.size(); ++s)
+  for (std::size_t s = 0; s < steps.size() && !model_.bodies.empty(); ++s)
     if (std::none_of(model_.bodies.begin(), model_.bodies.end(),
                      [&](const SpaceBody& body) { return body.stay.is_there(static_cast<int>(s)); })) {
       report_.error(steps[s].source,
