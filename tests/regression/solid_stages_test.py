@@ -1,8 +1,11 @@
 """Bodies in space that are added and removed in steps."""
+import importlib.util
 import math
 import signal
 import subprocess
+import sys
 import time
+import unittest
 
 import support
 from solids import HEAD, arrays_of
@@ -44,7 +47,7 @@ def column(angle=0.0, metre=1.0, kind="tetrahedra"):
                       f"steps: [{STEPS}]", f"output: {{points: [{', '.join(points)}]}}", ""]), along
 
 
-class Stages(support.InTemporaryDirectory):
+class Running(support.InTemporaryDirectory):
     def run_model(self, text, name="model", status=0):
         (self.directory / f"{name}.yaml").write_text(HEAD + text, encoding="utf-8")
         done = scabo("run", self.directory / f"{name}.yaml", "-o", self.directory / f"{name}.results", "--quiet")
@@ -60,6 +63,8 @@ class Stages(support.InTemporaryDirectory):
         energy = increment["energy"]
         self.assertAlmostEqual(energy["external"], energy["elastic"] + energy["friction"], delta=delta * energy["elastic"] + energy["friction_error"])
 
+
+class Stages(Running):
     def test_a_column_settles_under_what_comes_later_and_rises_again(self):
         """As in the plane (tests/verification/stages_test.cpp): nu = 0, so that every stress is uniaxial, and any division is exact."""
         for angle, metre, kind in ((0.0, 1.0, "tetrahedra"), (0.0, 1.0, "hexahedra"), (0.7, 1.0, "tetrahedra"), (2.0, 1000.0, "tetrahedra")):
@@ -196,6 +201,49 @@ contacts:
                 self.assertEqual((broken / name).read_bytes(), (self.directory / "model.results" / name).read_bytes(), (after, name))
             self.assertEqual(summary_of(broken)["increments"][-1]["energy"], summary_of(self.directory / "model.results")["increments"][-1]["energy"])
 
+    def test_what_springs_in_a_joint_store_leaves_with_the_body(self):
+        """A block on a bed of springs, on another block, in the plane and in space: w^2 / 2 k and the sum of the blocks' w^2 h / E (1 + 1/3 + 1) / 2 and w^2 h / 6 E."""
+        common = """loads: {weight: {gravity: DOWN}}
+contacts: {base: {between: [floor.top, low.bottom], friction: 0.5}, joint: {between: [low.top, high.bottom], friction: 0.5, modulus: 1e8}}
+steps: [{name: on}, {name: off, increments: 2}]
+"""
+        material = f"materials: {{stuff: {{young: {YOUNG}, poisson: 0, density: {RHO}}}}}\n"
+        plane = "scabo: 1\n" + material + """bodies:
+  floor: {rigid: true, shape: {rectangle: {corner: [-1, -1], size: [3, 1]}}}
+  low: {material: stuff, shape: {rectangle: {corner: [0, 0], size: [1, 0.5]}}, mesh: {kind: fem, size: 0.5}}
+  high: {material: stuff, shape: {rectangle: {corner: [0, 0.5], size: [1, 0.5]}}, mesh: {kind: fem, size: 0.5}, removed: off}
+supports: [{on: floor, fix: [x, y]}]
+""" + common.replace("DOWN", f"[0, {-G}]")
+        (self.directory / "plane.yaml").write_text(plane, encoding="utf-8")
+        done = scabo("run", "plane.yaml", "--quiet", cwd=self.directory)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        solid = material + """bodies:
+  floor: {rigid: true, shape: {box: {corner: [-1, -1, -1], size: [3, 3, 1]}}, mesh: {size: 1}}
+  low: {material: stuff, shape: {box: {corner: [0, 0, 0], size: [1, 1, 0.5]}}, mesh: {size: 0.5}}
+  high: {material: stuff, shape: {box: {corner: [0, 0, 0.5], size: [1, 1, 0.5]}}, mesh: {size: 0.5}, removed: off}
+supports: [{on: floor, fix: [x, y, z]}]
+""" + common.replace("DOWN", f"[0, 0, {-G}]")
+        for increments in (summary_of(self.directory / "plane.results")["increments"], self.run_model(solid)):
+            for increment in increments:
+                self.assert_energies(increment)
+        unit = WEIGHT * UNIT
+        self.assertAlmostEqual(increments[0]["energy"]["elastic"], WEIGHT**2 / 2e8 + unit * (7 / 6 + 1 / 6), delta=1e-9 * unit)
+        self.assertAlmostEqual(increments[-1]["energy"]["elastic"], unit / 6, delta=1e-9 * unit)
+
+    @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "no Matplotlib")
+    def test_pictures_and_pages_have_what_is_there(self):
+        text, _ = column()
+        self.run_model(text)
+        results = self.directory / "model.results"
+        draw = lambda *words: scabo(*words, cwd=self.directory, SCABO_PYTHON=sys.executable)
+        for words in (("report", results, "-o", "page.html"), ("plot", results, "-o", "last.png"), ("plot", results, "--increment", "2", "-o", "second.png")):
+            done = draw(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("those with the bodies of the last one", (self.directory / "page.html").read_text(encoding="utf-8"))
+        done = draw("plot", results, "--what", "contact", "--contact", "joint_3", "-o", "joint.png")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the bodies of this contact are not there in increment 9", done.stderr)
+
     def test_a_body_whose_foundation_is_dug_away_is_a_mechanism(self):
         text, _ = column()
         text = text.replace("added: first}", "added: first, removed: down}")
@@ -206,6 +254,90 @@ contacts:
         self.assertEqual((summary["mechanism"]["moving"], summary["mechanism"]["present"]), (2, 3))
         self.assertEqual(summary["increments"][-1]["absent"], ["block_1", "block_4"])
         self.assertEqual(set(arrays_of(self.directory / "model.results" / "mechanism.vtu")["body"]) - {0}, {1, 3, 4})
+
+# A bar that hangs and stands between two ends, without lateral strain, under its weight; and a rigid lid beside it on a post.
+BAR_WEIGHT, LENGTH, STIFFNESS = RHO * G * 2.0, 2.0, YOUNG / 2.0
+PUSH = [300.0, -200.0, -5000.0]  # on the lid, through a corner of it
+SUPPORTED = f"""materials: {{stuff: {{young: {YOUNG}, poisson: 0, density: {RHO}}}, post: {{young: {YOUNG}, poisson: 0.2}}}}
+bodies:
+  bar: {{material: stuff, shape: {{box: {{corner: [0, 0, 0], size: [1, 1, 2]}}}}, mesh: {{size: 0.5}}}}
+  post: {{material: post, shape: {{box: {{corner: [3, 0, 0], size: [1, 1, 1]}}}}, mesh: {{size: 0.5}}}}
+  lid: {{rigid: true, shape: {{cylinder: {{from: [3.5, 0.5, 1], to: [3.5, 0.5, 1.5], radius: 1}}}}, mesh: {{size: 0.6}}}}
+supports:
+  - {{on: bar.bottom, fix: [x, y, z], name: foot}}
+  - {{on: bar.top, fix: z, name: propREMOVED}}
+  - {{on: bar.top, displacement: [null, null, -1e-5], name: jack, added: lift, removed: lower}}
+  - {{on: post.bottom, fix: [x, y, z], name: bed}}
+  - {{on: lid, fix: [x, y, z], name: hand, removed: strike}}
+loads:
+  weight: {{on: bar, gravity: [0, 0, {-G}]}}
+  push: {{on: lid, force: {PUSH}, at: [4.2, 1.2, 1.5]}}
+contacts: {{seat: {{between: [post.top, lid.bottom], bond: true}}}}
+steps: [{{name: load, loads: {{weight: 1, push: 1}}}}, {{name: strike, increments: 4}}, {{name: lift, increments: 2, loads: {{jack: 1}}}}, {{name: lower, increments: 2}}]
+output: {{points: [{{at: [0.5, 0.5, 2], body: bar, name: top}}, {{at: [3.5, 0.5, 1.5], name: lid, body: lid}}], history: {{prop: prop.reaction_z, hand: hand.moment_x}}}}
+"""
+
+
+class Supports(Running):
+    def test_supports_begin_and_end(self):
+        increments = self.run_model(SUPPORTED.replace("REMOVED", ", removed: strike"))
+        points = self.points()
+        moment = [1.2 * PUSH[2] - 1.5 * PUSH[1], 1.5 * PUSH[0] - 4.2 * PUSH[2], 4.2 * PUSH[1] - 1.2 * PUSH[0]]  # about the origin
+        free = BAR_WEIGHT / (2.0 * STIFFNESS)
+        for increment in increments:
+            step, s = increment["step"], increment["reached"]
+            self.assertLessEqual(certificate_of(increment), 1e-10)
+            self.assert_energies(increment)
+            forces, moments = increment["reactions"], increment["moments"]
+            top = points[step, increment["increment"], "top"][2]
+            left = {1: 1.0, 2: 1.0 - s}.get(step, 0.0)  # of what ends in the second step
+            jack = {3: s, 4: 1.0 - s}.get(step, 0.0) * STIFFNESS * 1e-5
+            self.assertAlmostEqual(forces["prop"][2], 0.5 * BAR_WEIGHT * left, delta=1e-9 * BAR_WEIGHT)
+            self.assertAlmostEqual(forces["jack"][2], -jack, delta=1e-9 * BAR_WEIGHT)
+            self.assertAlmostEqual(forces["foot"][2], BAR_WEIGHT * (1.0 - 0.5 * left) + jack, delta=1e-9 * BAR_WEIGHT)
+            self.assertAlmostEqual(top, -free * (1.0 - left) - jack / STIFFNESS, delta=1e-9 * free)
+            lid = points[step, increment["increment"], "lid"]
+            for k in range(3):
+                self.assertAlmostEqual(forces["hand"][k], -left * PUSH[k], delta=1e-9 * 5e3)
+                self.assertAlmostEqual(forces["bed"][k], -(1.0 - left) * PUSH[k], delta=1e-9 * 5e3)
+                self.assertAlmostEqual(moments["hand"][k], -left * moment[k], delta=1e-9 * 3e4)
+                self.assertAlmostEqual(moments["bed"][k], -(1.0 - left) * moment[k], delta=1e-9 * 3e4)
+            if step == 1:
+                self.assertLess(max(map(abs, lid)), 1e-16)
+            elif left == 0.0:
+                self.assertLess(lid[2], -1e-6)
+
+    def test_a_prop_that_alone_held_is_a_mechanism(self):
+        self.run_model(SUPPORTED.replace("REMOVED", ", removed: strike").replace("bond: true", "friction: 0.3"), status=2)
+        self.assertIn("body 'lid': rotation about the axis", summary_of(self.directory / "model.results")["reason"])
+
+    def test_a_run_with_such_supports_goes_on(self):
+        self.run_model(SUPPORTED.replace("REMOVED", ", removed: strike"))
+        broken = self.directory / "broken"
+        for after in (2, 3, 5, 7):
+            process = subprocess.Popen([support.SCABO, "run", self.directory / "model.yaml", "-o", broken, "--quiet"])
+            while process.poll() is None and not (broken / f"fields_{after:04d}.vtu").exists():
+                time.sleep(0.002)
+            process.send_signal(signal.SIGKILL)
+            process.wait(timeout=support.PATIENCE)
+            if not (broken / "checkpoint.state").exists():
+                continue
+            done = scabo("resume", broken, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for name in ("contact.csv", "points.csv", "history.csv", "fields_0009.vtu"):
+                self.assertEqual((broken / name).read_bytes(), (self.directory / "model.results" / name).read_bytes(), (after, name))
+
+    def test_a_support_that_lasts_is_one_that_ends_after_the_run(self):
+        """Its points as constraints, and as pairs."""
+        for one, other in zip(self.run_model(SUPPORTED.replace("REMOVED", "").replace("- {on: bar.top, displacement: [null, null, -1e-5], name: jack, added: lift, removed: lower}",
+                                                                                      "- {on: bar.left, fix: x, name: jack}").replace("loads: {jack: 1}", "loads: {}")),
+                              self.run_model(SUPPORTED.replace("REMOVED", ", removed: lower").replace(
+                                  "- {on: bar.top, displacement: [null, null, -1e-5], name: jack, added: lift, removed: lower}",
+                                  "- {on: bar.left, fix: x, name: jack, removed: lower}").replace("loads: {jack: 1}", "loads: {}"), "other")[:7]):
+            for name in ("prop", "jack", "foot"):
+                for a, b in zip(one["reactions"][name] + one["moments"][name], other["reactions"][name] + other["moments"][name], strict=True):
+                    self.assertAlmostEqual(a, b, delta=1e-9 * BAR_WEIGHT)
+            self.assertAlmostEqual(one["energy"]["external"], other["energy"]["external"], delta=1e-9 * one["energy"]["elastic"])
 
 
 if __name__ == "__main__":

@@ -123,7 +123,7 @@ class FaceMap:
 
 
 def maps_of(results, number, names=()):
-    """The contact faces of one increment, all or those named."""
+    """The contact faces of one increment, all or those named. Contacts of bodies that are not there have none."""
     known = list(results.increments[number - 1]["contacts"])
     if not known:
         raise NothingToDraw(f"{results.directory}: the model has no contact")
@@ -131,7 +131,10 @@ def maps_of(results, number, names=()):
         if name not in known:
             raise ResultsError(f"--contact {name}: there is no such contact; there {'is' if len(known) == 1 else 'are'} {', '.join(known[:12])}")
     grid = results.faces(number)
-    return [map_of(name, grid, known.index(name) + 1) for name in (names or known)]
+    there = [name for name in (names or known) if (grid.point_data["contact"] == known.index(name) + 1).any()]
+    if not there:
+        raise NothingToDraw(f"{results.directory}: the bodies of {'this contact' if len(names) == 1 else 'the contacts'} are not there in increment {number}")
+    return [map_of(name, grid, known.index(name) + 1) for name in there]
 
 
 def map_of(name, grid, contact):

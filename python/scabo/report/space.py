@@ -18,6 +18,9 @@ def add_space(results, arrays, budget, asked=None):
     motion = motion_of_nodes(results)
     if not numbers and motion is None:
         return None
+    last = results.increments[numbers[-1] - 1].get("absent") if numbers else None
+    with_others = [number for number in numbers if results.increments[number - 1].get("absent") != last]
+    numbers = [number for number in numbers if number not in with_others]
     keys = keys_of(asked) if numbers else []
     grid = results.fields(numbers[-1]) if numbers else results.mechanism()
     if not numbers:  # without the contact faces that are in the file
@@ -37,7 +40,8 @@ def add_space(results, arrays, budget, asked=None):
     if motion is not None:
         for name, values in zip(("ux", "uy", "uz"), motion.T):
             arrays.add(f"mechanism_{name}", values, "f4")
-    what = f"This page has the fields of {len(shown)} of {results.count} increments ({listed(shown)}), which keeps its size within bounds."
+    why = "those with the bodies of the last one" if with_others and shown == numbers else "which keeps its size within bounds"
+    what = f"This page has the fields of {len(shown)} of {results.count} increments ({listed(shown)}), {why}."
     return {"centre": centre.tolist(), "low": grid.points.min(axis=0).tolist(), "high": grid.points.max(axis=0).tolist(),
             "bodies": [body["name"] for body in results.summary["model"].get("bodies", [])] or [f"body {k + 1}" for k in range(int(bodies.max()))],
             "increments": shown, "ranges": chosen, "magnification": tetrahedra.magnification_of(results.fields(shown[-1])) if shown else 0.0,
@@ -101,7 +105,7 @@ def add_values(results, numbers, keys, arrays, budget):
 
 def add_faces(results, arrays, increments):
     """The contact faces as maps: for each its name, the names of its two coordinates and how many pairs it has."""
-    if not increments or not results.increments[-1]["contacts"]:
+    if not increments or not results.increments[-1]["contacts"] or len(results.faces(increments[-1]).points) == 0:
         return []
     maps = tetrahedra.maps_of(results, increments[-1])
     for k, of in enumerate(maps):
@@ -116,6 +120,7 @@ def add_faces(results, arrays, increments):
             arrays.add(f"face_{k}_state_{number}", np.select([of.states == name for name in ("open", "stick", "slip")], range(3)), "u1")
     grid = results.faces(increments[-1])
     centre = 0.5 * (results.fields(increments[-1]).points.min(axis=0) + results.fields(increments[-1]).points.max(axis=0))
-    for k in range(len(maps)):
-        arrays.add(f"face_{k}_points", grid.points[grid.point_data["contact"] == k + 1] - centre, "f4")
+    known = list(results.increments[-1]["contacts"])
+    for k, of in enumerate(maps):
+        arrays.add(f"face_{k}_points", grid.points[grid.point_data["contact"] == known.index(of.name) + 1] - centre, "f4")
     return [{"name": of.name, "axes": list(of.axes), "pairs": len(of.places)} for of in maps]

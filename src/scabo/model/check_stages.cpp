@@ -102,15 +102,8 @@ void check_staged_support(Checking& checking, std::size_t index) {
     checking.error(path, key, "the face of a crack is held in all steps or in none: leave the key out");
   else if (body.outside)
     checking.error(path, key, "an unbounded body is held in all steps or in none: leave the key out");
-  else if (support.added > 0 && support.added < body.added)
-    checking.error(path, "added",
-                   fmt::format("is before step '{}', in which body '{}' is added: a support without 'added' begins "
-                               "with its body",
-                               model.steps[static_cast<std::size_t>(body.added)].name, body.name));
-  else if (body.removed >= 0 && (support.removed > body.removed || support.added >= body.removed))
-    checking.error(path, key,
-                   fmt::format("is not before step '{}', in which body '{}' is removed: its supports end with it",
-                               model.steps[static_cast<std::size_t>(body.removed)].name, body.name));
+  else if (const auto wrong = wrong_stay_on_body(stay_of(support), stay_of(body), body.name, model.steps))
+    checking.error(path, support.added > 0 && support.added < body.added ? "added" : key, *wrong);
 }
 
 /// A displacement counts from where a body is placed, or its support begins.

@@ -81,6 +81,11 @@ struct SpaceSupport {
   // Of a rigid body; `displacement` is then that of the point `at`.
   std::array<std::optional<double>, 3> rotation;  ///< about the axes, radians, at factor 1; none: free
   std::optional<Eigen::Vector3d> at;              ///< none: its centroid
+  Stay stay;
+  bool placed = false;  ///< it has begun in the run of `restart`, so that it holds its place where that was then
+
+  /// Whether it does not hold its place as it is drawn from beginning to end: it is then pairs with the ground.
+  bool is_staged() const { return stay.is_staged() || placed; }
 };
 
 /// Springs between a body and the ground.

@@ -17,6 +17,20 @@ std::optional<std::string> wrong_removal(const Stay& stay, const std::vector<Ste
                      what);
 }
 
+std::optional<std::string> wrong_stay_on_body(const Stay& support, const Stay& body, const std::string& name,
+                                              const std::vector<Step>& steps) {
+  const auto name_of = [&](int step) { return steps[static_cast<std::size_t>(step)].name; };
+  if (support.added > 0 && support.added < body.added)
+    return fmt::format(
+        "is before step '{}', in which body '{}' is added: a support without 'added' begins with its "
+        "body",
+        name_of(body.added), name);
+  if (body.removed >= 0 && (support.removed > body.removed || support.added >= body.removed))
+    return fmt::format("is not before step '{}', in which body '{}' is removed: its supports end with it",
+                       name_of(body.removed), name);
+  return {};
+}
+
 bool acts_in(const std::vector<Step>& steps, const std::vector<double>& at_start, std::size_t load, std::size_t step) {
   const Step& of = steps[step];
   const bool before = step > 0 ? steps[step - 1].load_factors[load] != 0.0 : !at_start.empty() && at_start[load] != 0.0;

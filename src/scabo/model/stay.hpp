@@ -16,7 +16,19 @@ struct Stay {
   /// Step -1: before the first one.
   bool is_there(int step) const { return (added == 0 || step >= added) && (removed < 0 || step < removed); }
   bool is_staged() const { return added > 0 || removed >= 0; }
+  /// Whether it is there wherever `other` is.
+  bool covers(const Stay& other) const {
+    return added <= other.added && (removed < 0 || (other.removed >= 0 && other.removed <= removed));
+  }
+  /// Whether both are there at some time.
+  bool meets(const Stay& other) const {
+    return (removed < 0 || other.added < removed) && (other.removed < 0 || added < other.removed);
+  }
 };
+
+/// Why a support cannot begin or end in its steps, beside those of its body; as a sentence without a subject.
+std::optional<std::string> wrong_stay_on_body(const Stay& support, const Stay& body, const std::string& name,
+                                              const std::vector<Step>& steps);
 
 /// Why it cannot be taken away in its step, as a sentence without a subject; `what`: body or support.
 std::optional<std::string> wrong_removal(const Stay& stay, const std::vector<Step>& steps, bool restarts,

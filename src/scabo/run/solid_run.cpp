@@ -52,6 +52,10 @@ Plan plan_of(const analysis::PosedSolids& posed) {
     for (const int body : {contact.a.body, contact.b.body}) rows[static_cast<std::size_t>(body)] += 3.0 * pairs;
     all_rows += 3.0 * pairs;
   }
+  for (const analysis::SolidHeldPoint& point : posed.model.held_points) {
+    rows[static_cast<std::size_t>(point.body)] += 3.0;
+    all_rows += 3.0;
+  }
   plan.sizes.bodies = static_cast<int>(posed.model.bodies.size());
   for (std::size_t b = 0; b < rows.size(); ++b) {
     const mesh::SolidMesh& mesh = posed.model.bodies[b].mesh;
@@ -74,6 +78,7 @@ Plan plan_of(const analysis::PosedSolids& posed) {
   // The factors stay. Beside them there are elements and fields, or the block of one body at a time.
   const double most = rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
   plan.bytes = CostConstants().base_bytes + factors + std::max(fields, contact_bytes(most));
+  if (posed.model.has_stages()) plan.bytes += sizeof(double) * all_rows * all_rows;  // W of a stage beside the whole
   plan.contact = plan.increments * (row_seconds + solve_seconds * all_rows) * all_rows * all_rows;
   return plan;
 }

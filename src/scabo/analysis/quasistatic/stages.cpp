@@ -75,7 +75,10 @@ void take_away(const Prepared& before, const std::vector<char>& absent, const st
     const auto [a, b] = parts_of(before, pair);
     const auto row = static_cast<Eigen::Index>(2 * i);
     const bool ends = pair.is_bar() && !waiting.empty() && waiting[static_cast<std::size_t>(pair.index)];
-    if (gone(a) || gone(b) || ends) vanishing.segment<2>(row) = state.p.segment<2>(row);
+    if (!gone(a) && !gone(b) && !ends) continue;
+    vanishing.segment<2>(row) = state.p.segment<2>(row);
+    // What springs between the sides have stored leaves with them.
+    state.energy.external -= 0.5 * before.contact.softness[static_cast<Eigen::Index>(i)] * state.p[row] * state.p[row];
   }
   for (std::size_t p = 0; p < absent.size(); ++p) {
     if (!absent[p]) {

@@ -13,10 +13,10 @@
 //                   remains still act, and fall linearly to zero over the step:  f += (1 - s) B' p,  s from 0 to 1
 //
 // so that both are continuous, and increments follow them as they follow loads. The elastic energy of a body that is
-// taken away leaves with it: it is taken off the work of the loads. The stiffness of a bar with preload
-// (system/bars.hpp) is a pair that is put in place after the step in which it is tightened. A support that begins or
-// ends (system/held_points.hpp) is pairs as well: it holds its place where that is when it comes, and what it exerted
-// falls to zero over the step in which it ends.
+// taken away, and of springs in its pairs, leaves with it: it is taken off the work of the loads. The stiffness of a
+// bar with preload (system/bars.hpp) is a pair that is put in place after the step in which it is tightened. A support
+// that begins or ends (system/held_points.hpp) is pairs as well: it holds its place where that is when it comes, and
+// what it exerted falls to zero over the step in which it ends.
 #pragma once
 
 #include <optional>

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <set>
+#include <tuple>
 
 #include "scabo/analysis/space/solid_factors.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
@@ -29,6 +33,8 @@ class Posing {
   std::vector<mesh::SolidFacet> facets(const model::SpaceFace& face);
   const std::vector<int>& set_of_nodes(const model::SpaceFace& at) const;
   std::set<int> held_nodes(const model::SpaceFace& at);
+  std::vector<std::size_t> order_of_supports() const;
+  const std::pair<std::size_t, double>* hold(std::size_t number, system::Constraint constraint, int key);
   void add_support(std::size_t number);
   void add_rigid_support(std::size_t number);
   std::optional<double> displacement_at(const model::SpaceSupport& support, std::size_t axis, int node);
@@ -48,8 +54,8 @@ class Posing {
   PosedSolids posed_;
   std::vector<std::vector<mesh::SolidFacet>> boundaries_;                        // of each body
   std::vector<std::map<std::string, std::vector<mesh::SolidFacet>>> of_shapes_;  // faces of each body with a shape
-  /// By body and degree of freedom: its support, and the displacement at factor 1.
-  std::map<std::pair<int, int>, std::pair<std::size_t, double>> held_;
+  /// By body and degree of freedom: its supports, and their displacements at factor 1.
+  std::map<std::pair<int, int>, std::vector<std::pair<std::size_t, double>>> held_;
   std::map<int, std::pair<std::size_t, Eigen::Vector3d>> first_on_;  // rigid body: its first support, and its centroid
   std::vector<Diagnostic> mistakes_;
 };
@@ -170,6 +176,40 @@ std::set<int> Posing::held_nodes(const model::SpaceFace& at) {
   return nodes;
 }
 
+/// Those that last, then those that begin or end, each after all that cover it.
+std::vector<std::size_t> Posing::order_of_supports() const {
+  std::vector<std::size_t> order(model_.supports.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key_of = [&](std::size_t i) {
+    const model::Stay& stay = model_.supports[i].stay;
+    return std::tuple(model_.supports[i].is_staged(), stay.added,
+                      stay.removed < 0 ? -std::numeric_limits<int>::max() : -stay.removed);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key_of(i) < key_of(j); });
+  return order;
+}
+
+/// Holds a degree of freedom or motion of a body by a support; or gives the support and displacement of another one
+/// that holds it at its times.
+const std::pair<std::size_t, double>* Posing::hold(std::size_t number, system::Constraint constraint, int key) {
+  const model::SpaceSupport& support = model_.supports[number];
+  const int of = support.on.body;
+  std::vector<std::pair<std::size_t, double>>& others = held_[{of, key}];
+  for (const std::pair<std::size_t, double>& other : others) {
+    const model::Stay& stay = model_.supports[other.first].stay;
+    if (!model_.supports[other.first].is_staged() ||
+        (stay.meets(support.stay) && (stay.covers(support.stay) || other.second != constraint.value)))
+      return &other;
+  }
+  constraint.support = static_cast<int>(number);
+  others.emplace_back(number, constraint.value);
+  if (support.is_staged())
+    posed_.model.held_points.push_back({of, constraint, support.stay});
+  else
+    body(of).supports.push_back(constraint);
+  return nullptr;
+}
+
 void Posing::add_support(std::size_t number) {
   const model::SpaceSupport& support = model_.supports[number];
   if (support.on.is_body()) return add_rigid_support(number);
@@ -178,13 +218,11 @@ void Posing::add_support(std::size_t number) {
       if (!support.displacement[axis]) continue;
       const auto value = displacement_at(support, axis, node);
       if (!value) return;
-      const auto [held, is_new] =
-          held_.try_emplace({support.on.body, 3 * node + static_cast<int>(axis)}, number, *value);
-      if (is_new) {
-        body(support.on.body).supports.push_back(system::held_along_axis(node, static_cast<int>(axis), *value));
-        body(support.on.body).supports.back().support = static_cast<int>(number);
-      } else if (const auto& other = model_.supports[held->second.first];
-                 held->second.second != *value || (*value != 0.0 && (other.named || support.named))) {
+      const auto* held = hold(number, system::held_along_axis(node, static_cast<int>(axis), *value),
+                              3 * node + static_cast<int>(axis));
+      if (held == nullptr) continue;
+      if (const auto& other = model_.supports[held->first];
+          held->second != *value || (*value != 0.0 && (other.named || support.named))) {
         mistakes_.push_back(
             {support.on.source, fmt::format("support '{}' prescribes another displacement along {} of a node than "
                                             "support '{}': let only one of them hold it",
@@ -211,16 +249,13 @@ void Posing::add_rigid_support(std::size_t number) {
     const auto& value = motion < 3 ? support.displacement[static_cast<std::size_t>(motion)]
                                    : support.rotation[static_cast<std::size_t>(motion - 3)];
     if (!value) continue;
-    const auto [held, is_new] = held_.try_emplace({support.on.body, motion}, number, *value);
-    if (!is_new)
+    if (const auto* held = hold(number, system::held_motion(motion, *value), motion))
       return mistakes_.push_back(
           {support.on.source,
            fmt::format("support '{}' holds the {} {} of body '{}', as does support '{}': let only one "
                        "of them hold it",
                        support.name, motion < 3 ? "displacement along" : "rotation about", "xyz"[motion % 3],
-                       support.on.text, model_.supports[held->second.first].name)});
-    of.supports.push_back(system::held_motion(motion, *value));
-    of.supports.back().support = static_cast<int>(number);
+                       support.on.text, model_.supports[held->first].name)});
   }
 }
 
@@ -411,7 +446,7 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
 PosedSolids Posing::posed() {
   for (const model::SpaceBody& of : model_.bodies) add_body(of);
   if (mistakes_.empty()) {
-    for (std::size_t s = 0; s < model_.supports.size(); ++s) add_support(s);
+    for (const std::size_t s : order_of_supports()) add_support(s);
     for (const model::SpaceSpring& spring : model_.springs) add_spring(spring);
     for (const model::SpaceLoad& load : model_.loads) add_load(load);
     for (const model::SpaceContact& contact : model_.contacts) add_contact(contact);

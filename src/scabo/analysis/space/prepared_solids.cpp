@@ -1,10 +1,13 @@
 #include "scabo/analysis/space/prepared_solids.hpp"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/loads.hpp"
+#include "scabo/contact/laws/two_sided.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/fewer_parts.hpp"
 #include "scabo/system/rigid_solid.hpp"
@@ -33,6 +36,42 @@ Vector resultants_of_loads(const system::BodySystem& part, const Vector& forces,
   for (double& resultant : f)
     if (std::abs(resultant) <= rounding_of_sums * sum) resultant = 0.0;
   return f;
+}
+
+/// A point of a rigid body as the least weighted mean of its nodes.
+system::PairSide side_at(const SolidModel& model, int body, const Eigen::Vector3d& at) {
+  const Matrix& nodes = model.bodies[static_cast<std::size_t>(body)].mesh.nodes;
+  const Eigen::Vector3d middle = nodes.rowwise().mean();
+  const Eigen::Matrix3Xd arms = nodes.colwise() - middle;
+  const Eigen::Vector3d along = (arms * arms.transpose()).ldlt().solve(at - middle);
+  const Vector weights = (arms.transpose() * along).array() + 1.0 / static_cast<double>(nodes.cols());
+  system::PairSide side{static_cast<std::size_t>(body), {}, Vec2::Zero()};
+  for (Eigen::Index i = 0; i < weights.size(); ++i) side.nodes.push_back({static_cast<int>(i), weights[i]});
+  return side;
+}
+
+/// The ground and a point of a body, of which only the direction that is held counts. A rotation about axis k is held
+/// as a pair of the body with itself, whose side B is a lever along the next axis, and moves along the one after that.
+system::PairPoints points_of_held(const SolidModel& model, const SolidHeldPoint& point) {
+  system::PairPoints points;
+  points.a.part = system::PairSide::ground;
+  int axis = point.held.component;
+  if (const std::optional<Eigen::Vector3d>& at = model.bodies[static_cast<std::size_t>(point.body)].rigid_at) {
+    points.b = side_at(model, point.body, *at);
+    if (point.held.rotation) {
+      points.a = points.b;
+      const Eigen::Vector3d arm = lever_of(model, point) * Eigen::Vector3d::Unit((axis + 1) % 3);
+      points.b = side_at(model, point.body, *at + arm);
+      axis = (axis + 2) % 3;
+    }
+  } else {
+    points.b = {static_cast<std::size_t>(point.body),
+                {{static_cast<int>(in_space.node_of(point.held.dof)), 1.0}},
+                Vec2::Zero()};
+  }
+  points.directions = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) points.directions((axis + k) % 3, k) = 1.0;
+  return points;
 }
 
 }  // namespace
@@ -73,6 +112,11 @@ PairedFaces paired_faces(const SolidModel& model) {
       areas.push_back(pair.area);
     }
   }
+  for (const SolidHeldPoint& point : model.held_points) {
+    paired.points.push_back(points_of_held(model, point));
+    paired.laws.of_pair.push_back(std::make_shared<contact::TwoSided>());
+    areas.push_back(1.0);
+  }
   paired.laws.area = Eigen::Map<const Vector>(areas.data(), static_cast<Eigen::Index>(areas.size()));
   return paired;
 }
@@ -103,21 +147,65 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
                       : std::move(*next++));
   }
   prepared.whole = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
+  const std::vector<SolidPair>& at_rest = prepared.paired.pairs;
   for (std::vector<system::ContactSystem::Pair>* pairs : {&prepared.whole.pairs, &prepared.whole.held})
     for (system::ContactSystem::Pair& pair : *pairs)
-      pair.contact = prepared.paired.pairs[static_cast<std::size_t>(pair.index)].contact;
+      pair.contact = static_cast<std::size_t>(pair.index) < at_rest.size()
+                         ? at_rest[static_cast<std::size_t>(pair.index)].contact
+                         : -1;
   return prepared;
 }
 
-void set_stage(PreparedSolids& prepared, std::vector<char> absent) {
+double lever_of(const SolidModel& model, const SolidHeldPoint& point) {
+  if (!point.held.rotation) return 1.0;
+  const Matrix& nodes = model.bodies[static_cast<std::size_t>(point.body)].mesh.nodes;
+  return 0.5 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
+}
+
+std::vector<char> absent_in(const SolidModel& model, int step) {
+  std::vector<char> absent;
+  for (const SolidBody& body : model.bodies) absent.push_back(body.stay.is_there(step) ? 0 : 1);
+  if (std::none_of(absent.begin(), absent.end(), [](char is) { return is != 0; })) absent.clear();
+  return absent;
+}
+
+void set_stage(PreparedSolids& prepared, int step) {
+  const SolidModel& model = prepared.model;
   prepared.fewer.reset();
-  prepared.absent = std::move(absent);
-  if (prepared.absent.empty()) return;
-  prepared.fewer = system::with_pairs(
-      prepared.whole, prepared.structure, prepared.absent, [&](const system::ContactSystem::Pair& pair) {
+  prepared.absent = absent_in(model, step);
+  const auto waits = [&](const SolidHeldPoint& point) { return !point.stay.is_there(step); };
+  if (prepared.absent.empty() && std::none_of(model.held_points.begin(), model.held_points.end(), waits)) return;
+  std::vector<char> absent = prepared.absent;
+  absent.resize(model.bodies.size(), 0);
+  const auto has_side = [&](const system::PairSide& side) {
+    return side.part == system::PairSide::ground || absent[side.part] == 0;
+  };
+  prepared.fewer =
+      system::with_pairs(prepared.whole, prepared.structure, absent, [&](const system::ContactSystem::Pair& pair) {
+        if (pair.is_bar() && waits(model.held_points[prepared.held_point(pair)])) return false;
         const system::PairPoints& points = prepared.paired.points[static_cast<std::size_t>(pair.index)];
-        return !prepared.is_absent(points.a.part) && !prepared.is_absent(points.b.part);
+        return has_side(points.a) && has_side(points.b);
       });
+}
+
+double displacement_of_held_point(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t point) {
+  const SolidHeldPoint& of = prepared.model.held_points[point];
+  return lever_of(prepared.model, of) * of.held.value * factors.supports[of.held.support];
+}
+
+Vector reactions_of_held_points(const PreparedSolids& prepared, const Vector& p, double release,
+                                const Vector& released) {
+  const std::vector<SolidHeldPoint>& points = prepared.model.held_points;
+  Vector reactions = Vector::Zero(static_cast<Eigen::Index>(points.size()));
+  if (released.size() > 0) reactions = release * released;
+  const std::vector<system::ContactSystem::Pair>& pairs = prepared.contact().pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].is_bar()) {
+      const std::size_t point = prepared.held_point(pairs[i]);
+      reactions[static_cast<Eigen::Index>(point)] +=
+          lever_of(prepared.model, points[point]) * p[in_space.of(static_cast<Eigen::Index>(i))];
+    }
+  return reactions;
 }
 
 contact::JointLaws laws_of_solids(const PreparedSolids& prepared, const SolidFactors& factors) {
@@ -167,6 +255,8 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
 }
 
 double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t i) {
+  if (const std::size_t contacts = prepared.paired.pairs.size(); i >= contacts)
+    return -displacement_of_held_point(prepared, factors, i - contacts);
   const double gap = prepared.paired.points[i].gap;
   if (gap >= 0.0 || factors.fits.size() == 0) return gap;
   return gap * factors.fits[prepared.paired.pairs[i].contact];
@@ -185,7 +275,7 @@ contact::Problem problem_of_solids(const PreparedSolids& prepared, const Applied
   problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < pairs; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double gap = system.gap[i] < 0.0
+    const double gap = system.gap[i] < 0.0 || system.pairs[k].is_bar()
                            ? gap_of_solids(prepared, factors, static_cast<std::size_t>(system.pairs[k].index))
                            : system.gap[i];  // that of a pair that keeps its gap is 0
     problem.q.segment<3>(in_space.of(i)) << gap, -from.slip.segment<2>(2 * i);

@@ -13,9 +13,9 @@ inline constexpr Components in_space{3};
 
 /// The pairs of all contacts, in their order.
 struct PairedFaces {
-  std::vector<system::PairPoints> points;
-  std::vector<SolidPair> pairs;  // at rest
-  std::vector<char> turned;      // whether the pairs are corners of side a
+  std::vector<system::PairPoints> points;  // also of the held points, after those of the contacts
+  std::vector<SolidPair> pairs;            // at rest
+  std::vector<char> turned;                // whether the pairs are corners of side a
   contact::JointLaws laws;
 };
 
@@ -37,6 +37,10 @@ struct PreparedSolids {
   /// Of the bodies that are there.
   const system::ContactSystem& contact() const { return fewer ? *fewer : whole; }
   bool is_absent(std::size_t body) const { return !absent.empty() && absent[body] != 0; }
+  /// Which held point a pair is; it has no contact.
+  std::size_t held_point(const system::ContactSystem::Pair& pair) const {
+    return static_cast<std::size_t>(pair.index) - paired.pairs.size();
+  }
 };
 
 PreparedSolids prepared_solids(const SolidModel& model, int threads);
@@ -44,8 +48,10 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads);
 /// Laws of the pairs that move.
 contact::JointLaws laws_of_solids(const PreparedSolids& prepared, const SolidFactors& factors);
 
-/// Goes to a stage; `absent`: per body, empty: all are there. No factor of a body changes.
-void set_stage(PreparedSolids& prepared, std::vector<char> absent);
+/// Per body: not there during a step; empty: all are there.
+std::vector<char> absent_in(const SolidModel& model, int step);
+/// Goes to the stage of a step. No factor of a body changes.
+void set_stage(PreparedSolids& prepared, int step);
 
 /// Loads and prescribed displacements of all bodies, and of each the sum of the sizes of all its loads.
 struct AppliedToSolids {
@@ -60,6 +66,14 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
 
 /// The gap of pair i of the model; of an interference, the part that is there.
 double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t i);
+
+/// Half the size of a rigid body whose rotation is held, by which that is a length; else 1.
+double lever_of(const SolidModel& model, const SolidHeldPoint& point);
+/// What a held point prescribes, a length.
+double displacement_of_held_point(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t point);
+/// What each held point exerts, as reactions of constraints; of one that has ended the part that is not yet released.
+Vector reactions_of_held_points(const PreparedSolids& prepared, const Vector& p, double release,
+                                const Vector& released);
 
 /// The contact problem of the pairs that move, its laws not yet included, from the slip and the offsets of `from`;
 /// `tightened`: preloads whose shortenings are unknowns too.

@@ -58,6 +58,7 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const SolidSt
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap = paired.points[i].gap;
   for (std::size_t k = 0; k < prepared.contact().pairs.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
+    if (prepared.contact().pairs[k].is_bar()) continue;
     const auto i = static_cast<std::size_t>(prepared.contact().pairs[k].index);
     const Eigen::Matrix3d directions = paired.points[i].directions;
     const double sense = paired.turned[i] ? -1.0 : 1.0;
@@ -148,7 +149,7 @@ class SolidMarch {
       : prepared_(prepared_solids(model, options.threads)), before_(solids_at_rest(prepared_)) {
     solver_.tolerance = options.tolerance;
     uniqueness_ = options.uniqueness;
-    set_stage(prepared_, absent_in(model, options.from == nullptr ? 0 : options.from->factors.step));
+    set_stage(prepared_, options.from == nullptr ? 0 : options.from->factors.step);
     if (options.from == nullptr && !options.start) {
       state_ = solid_state_at_rest(prepared_);
       return;
@@ -243,6 +244,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   const double largest = std::max(state_.force_scale, largest_force_of_solids(moved, solution.p));
   to.certificate.equilibrium = imbalance_of(prepared_, moved, largest);
   describe_parts(prepared_, factors, shortening, moved, to);
+  to.held = reactions_of_held_points(prepared_, solution.p, factors.release, state_.released_points);
   SolidState reached{factors,
                      state_.slip + solution.slip_increment,
                      solution.gap,
@@ -255,7 +257,8 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
                      {},
                      state_.offset,
                      state_.held_offset,
-                     state_.released};
+                     state_.released,
+                     state_.released_points};
   to.energy = reached.energy = energy_of_solids(prepared_, state_, before_, reached, moved);
   to.pairs = solid_pairs(prepared_, reached);
   to.moments_of_sides = moments_of_sides(prepared_, to.pairs);
@@ -278,7 +281,8 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
 }  // namespace
 
 bool SolidModel::has_stages() const {
-  return std::any_of(bodies.begin(), bodies.end(), [](const SolidBody& body) { return body.stay.is_staged(); });
+  return !held_points.empty() ||
+         std::any_of(bodies.begin(), bodies.end(), [](const SolidBody& body) { return body.stay.is_staged(); });
 }
 
 SolidBody with_super_elements(SolidBody body, int threads) {

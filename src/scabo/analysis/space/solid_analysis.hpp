@@ -85,6 +85,15 @@ struct SolidSpringOfBody {
   int load = -1;  ///< index into SolidModel::loads: its forces on a body that stays
 };
 
+/// What a support that begins or ends in a step holds: a node of an elastic body along an axis, or a motion of a rigid
+/// one. It is a pair of the contact system whose other side is the ground, as a held point of the plane
+/// (system/held_points.hpp).
+struct SolidHeldPoint {
+  int body = -1;
+  system::Constraint held;
+  model::Stay stay;
+};
+
 struct SolidModel {
   std::vector<SolidBody> bodies;
   std::vector<SolidContact> contacts;
@@ -98,8 +107,9 @@ struct SolidModel {
   std::vector<SolidPreload> preloads = {};
   std::vector<SolidSpringOfBody> springs = {};
   std::vector<SolidBar> bars = {};
+  std::vector<SolidHeldPoint> held_points = {};
 
-  /// Whether bodies are put in place or taken away in steps.
+  /// Whether bodies or supports are put in place or taken away in steps.
   bool has_stages() const;
 };
 
@@ -184,6 +194,7 @@ struct SolidIncrement {
   std::vector<char> absent;       ///< [body], whether it is not there; empty: all are
   std::vector<Vector> u;          ///< [body], three numbers for each node; 0 of one that is absent
   std::vector<Vector> reactions;  ///< [body], of its constraints
+  Vector held;                    ///< reactions of the held points
   std::vector<Vector> heated;     ///< [body], change of temperature of the nodes; empty: none
   std::vector<SolidPair> pairs;   ///< between bodies that are there
   /// Of each contact: moments about the origin of its forces at the nodes of side a and of side b.
@@ -215,6 +226,7 @@ struct SolidState {
   Vector offset;                 ///< of each pair that moves, three numbers: added to its motion, from its placing on
   Vector held_offset;            ///< the same of pairs that supports hold
   std::vector<Vector> released;  ///< [body], what removed bodies exerted on it; empty where nothing did
+  Vector released_points;        ///< of each held point, its reaction when it ended
 };
 
 struct PreparedSolids;  // prepared_solids.hpp

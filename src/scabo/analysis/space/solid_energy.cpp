@@ -40,6 +40,21 @@ double initial_energy_of_solid(const PreparedSolids& prepared, const SolidFactor
   return energy;
 }
 
+/// Of the displacements that supports prescribe which begin or end.
+double work_of_held_points(const PreparedSolids& prepared, const SolidState& from, const SolidState& to) {
+  double work = 0.0;
+  const std::vector<system::ContactSystem::Pair>& pairs = prepared.contact().pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!pairs[i].is_bar()) continue;
+    const std::size_t point = prepared.held_point(pairs[i]);
+    const Eigen::Index row = in_space.of(static_cast<Eigen::Index>(i));
+    work += 0.5 * (from.p[row] + to.p[row]) *
+            (displacement_of_held_point(prepared, to.factors, point) -
+             (from.factors.supports.size() > 0 ? displacement_of_held_point(prepared, from.factors, point) : 0.0));
+  }
+  return work;
+}
+
 }  // namespace
 
 double elastic_energy_of_solid(const PreparedSolids& prepared, const SolidFactors& factors, const MovedSolids& moved,
@@ -62,6 +77,7 @@ Energy energy_of_solids(const PreparedSolids& prepared, const SolidState& from, 
     energy.external += initial_energy_of_solid(prepared, to.factors, i, after.applied, after.u[i]) -
                        initial_energy_of_solid(prepared, from.factors, i, before.applied, before.u[i]);
   }
+  energy.external += work_of_held_points(prepared, from, to);
   const Vector normal = to.p(Eigen::seqN(0, to.p.size() / in_space.dimension, in_space.dimension));
   energy.elastic += 0.5 * prepared.contact().softness.dot(normal.cwiseAbs2());
   const FrictionWork friction = friction_work_of_solids(prepared, from, to);

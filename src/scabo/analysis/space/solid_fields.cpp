@@ -29,6 +29,8 @@ struct SolidTable {
       field_of<SolidState>(
           "released", whole, 0, in_this_run, [](auto& state) -> auto& { return state.released; }),
       field_of<SolidState>(
+          "released_points", whole, 0, in_this_run, [](auto& state) -> auto& { return state.released_points; }),
+      field_of<SolidState>(
           "shortening", whole, 0, in_this_run, [](auto& state) -> auto& { return state.shortening; }),
       field_of<SolidState>(
           "p", pair, 3, lasts, [](auto& state) -> auto& { return state.p; }),

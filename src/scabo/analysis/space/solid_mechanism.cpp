@@ -121,6 +121,7 @@ Eigen::SparseMatrix<double> inverse_mass_of_solids(const MovingSolids& solids) {
 std::vector<SolidPair> moved_pairs(const MovingSolids& solids, const Vector& u) {
   std::vector<SolidPair> pairs = solids.pairs;
   for (std::size_t k = 0; k < solids.contact.pairs.size(); ++k) {
+    if (solids.contact.pairs[k].is_bar()) continue;
     const auto i = static_cast<std::size_t>(solids.contact.pairs[k].index);
     const Eigen::Vector3d of_pair = u.segment<3>(3 * static_cast<Eigen::Index>(k));
     pairs[i].gap = of_pair[0];

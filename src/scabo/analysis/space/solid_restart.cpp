@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scabo/analysis/space/solid_factors.hpp"
 #include "scabo/analysis/space/solid_fields.hpp"
+#include "scabo/analysis/space/solid_restart_points.hpp"
 #include "scabo/analysis/state/fingerprint.hpp"
 
 namespace scabo::analysis {
@@ -27,13 +30,15 @@ std::string fingerprint_of_body(const SolidBody& body) {
   return of.text();
 }
 
-std::string fingerprint_of_support(const SolidBody& body, std::size_t support) {
+std::string fingerprint_of_support(const SolidModel& model, std::size_t body, std::size_t support) {
   Fingerprint of;
-  for (const system::Constraint& held : body.supports) {
-    if (held.support != static_cast<int>(support)) continue;
+  const auto add = [&](const system::Constraint& held) {
+    if (held.support != static_cast<int>(support)) return;
     for (const double number : {1.0 * held.dof, 1.0 * held.component, held.rotation ? 1.0 : 0.0, held.value})
       of.add(number);
-  }
+  };
+  for (const system::Constraint& held : model.bodies[body].supports) add(held);
+  for (const SolidHeldPoint& point : model.held_points) add(point.held);
   return of.text();
 }
 
@@ -73,6 +78,7 @@ bool is_there(const PreparedSolids& now, int body) { return !now.is_absent(stati
 
 std::vector<EndState::Agreement> agreements_of_solids(const PreparedSolids& now, const model::SpaceModel& model,
                                                       const SolidFactors& factors) {
+  const int step = std::max(factors.step, 0);
   const SolidModel& solids = now.model;
   std::vector<EndState::Agreement> agreements;
   const auto add = [&](const char* kind, const std::string& name, std::string digest) {
@@ -81,8 +87,8 @@ std::vector<EndState::Agreement> agreements_of_solids(const PreparedSolids& now,
   for (std::size_t b = 0; b < solids.bodies.size(); ++b)
     if (!now.is_absent(b)) add("body", solids.bodies[b].name, fingerprint_of_body(solids.bodies[b]));
   for (std::size_t i = 0; i < model.supports.size(); ++i)
-    if (const int body = model.supports[i].on.body; is_there(now, body))
-      add("support", model.supports[i].name, fingerprint_of_support(solids.bodies[static_cast<std::size_t>(body)], i));
+    if (const int body = model.supports[i].on.body; is_there(now, body) && model.supports[i].stay.is_there(step))
+      add("support", model.supports[i].name, fingerprint_of_support(solids, static_cast<std::size_t>(body), i));
   for (std::size_t i = 0; i < solids.springs.size(); ++i)
     if (is_there(now, solids.springs[i].body))
       add("spring", model.springs[i].name, fingerprint_of_spring(solids.springs[i].spring));
@@ -132,8 +138,12 @@ void continue_field(const PreparedSolids& now, const model::SpaceModel& model, c
     if (const EndState::Of* of = find(end.contacts, model.contacts[c].name))
       put(kept(of->fields, field.name), places_in_contact(now, field, c), field.count, numbers, size);
   for (std::size_t b = 0; b < model.bodies.size() && field.owner == Owner::rigid_motion; ++b)
-    if (const EndState::Of* of = now.is_absent(b) ? nullptr : find(end.parts, model.bodies[b].name))
-      put(kept(of->fields, field.name), places_in_body(now, b), field.count, numbers, size);
+    if (const EndState::Of* of = now.is_absent(b) ? nullptr : find(end.parts, model.bodies[b].name)) {
+      const std::vector<double>& values = kept(of->fields, field.name);
+      const std::vector<Eigen::Index> places = places_in_body(now, b);
+      // Where supports of the other run end here, its body has more motions: continue_motions().
+      if (values.size() == places.size()) put(values, places, field.count, numbers, size);
+    }
   field.set(state, numbers);
 }
 
@@ -164,6 +174,9 @@ EndState end_state_of_solids(const PreparedSolids& now, const model::SpaceModel&
     end.loads.push_back({model.loads[i].name, state.factors.loads[static_cast<Eigen::Index>(i)]});
   for (std::size_t i = 0; i < model.supports.size(); ++i)
     end.supports.push_back({model.supports[i].name, state.factors.supports[static_cast<Eigen::Index>(i)]});
+  end.held = solids_held_at_end(now, state);
+  for (const model::SpaceSupport& support : model.supports)
+    if (support.is_staged() && support.stay.is_there(state.factors.step)) end.placed.push_back({support.name, 1.0});
   return end;
 }
 
@@ -180,6 +193,7 @@ SolidState state_of_restart(const PreparedSolids& now, const model::SpaceModel& 
   for (std::size_t i = 0; i < now.model.preloads.size(); ++i)
     if (const auto* of = find(end.bars, model.bodies[static_cast<std::size_t>(now.model.preloads[i].body)].name))
       state.shortening[static_cast<Eigen::Index>(i)] = kept(of->fields, shortening_name).at(0);
+  continue_held_points(now, end, state);
   return state;
 }
 

@@ -25,18 +25,31 @@ void set_offsets(const std::vector<Eigen::Index>& places, const std::vector<Eige
       offset.segment<3>(row) = -moved.segment<3>(row);
 }
 
-/// Takes the bodies that are no longer there out of a state: what they exerted on the others is released.
-void take_away(const PreparedSolids& before, const std::vector<char>& absent, const MovedSolids& moved,
+/// Takes the bodies that are no longer there, and supports that end in a step, out of a state: what they exerted on the
+/// others is released. `absent`: one for each body.
+void take_away(const PreparedSolids& before, const std::vector<char>& absent, int step, const MovedSolids& moved,
                SolidState& state) {
   const system::ContactSystem& contact = before.contact();
-  const auto gone = [&](std::size_t part) { return absent[part] != 0 && !before.is_absent(part); };
+  const auto gone = [&](std::size_t part) {
+    return part != system::PairSide::ground && absent[part] != 0 && !before.is_absent(part);
+  };
+  const auto ends = [&](const Pair& pair) {
+    return pair.is_bar() && before.model.held_points[before.held_point(pair)].stay.removed == step;
+  };
+  const Vector reactions = reactions_of_held_points(before, state.p, 0.0, {});
+  state.released_points = Vector::Zero(reactions.size());
   Vector vanishing = Vector::Zero(state.p.size());  // forces of the pairs of what is taken away
   for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
     const system::PairPoints& points = before.paired.points[static_cast<std::size_t>(contact.pairs[i].index)];
-    if (!gone(points.a.part) && !gone(points.b.part)) continue;
+    const bool let_go = ends(contact.pairs[i]);
+    if (!gone(points.a.part) && !gone(points.b.part) && !let_go) continue;
+    if (let_go && !gone(points.b.part)) {
+      const auto point = static_cast<Eigen::Index>(before.held_point(contact.pairs[i]));
+      state.released_points[point] = reactions[point];
+    }
     const auto row = static_cast<Eigen::Index>(i);
     vanishing.segment<3>(in_space.of(row)) = state.p.segment<3>(in_space.of(row));
-    state.energy.external -= 0.5 * contact.softness[row] * std::pow(state.p[in_space.of(row)], 2);
+    state.energy.external -= 0.5 * contact.softness[row] * state.p[in_space.of(row)] * state.p[in_space.of(row)];
   }
   state.released.assign(absent.size(), Vector());
   for (std::size_t b = 0; b < absent.size(); ++b) {
@@ -52,13 +65,6 @@ void take_away(const PreparedSolids& before, const std::vector<char>& absent, co
 
 }  // namespace
 
-std::vector<char> absent_in(const SolidModel& model, int step) {
-  std::vector<char> absent;
-  for (const SolidBody& body : model.bodies) absent.push_back(body.stay.is_there(step) ? 0 : 1);
-  if (std::none_of(absent.begin(), absent.end(), [](char is) { return is != 0; })) absent.clear();
-  return absent;
-}
-
 Vector presence_at(const SolidModel& model, int step) {
   if (!model.has_stages()) return {};
   Vector presence(static_cast<Eigen::Index>(model.bodies.size()));
@@ -68,8 +74,9 @@ Vector presence_at(const SolidModel& model, int step) {
 }
 
 bool takes_away(const SolidModel& model, int step) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [&](const SolidBody& body) { return body.stay.removed == step; });
+  const auto ends = [&](const auto& of) { return of.stay.removed == step; };
+  return std::any_of(model.bodies.begin(), model.bodies.end(), ends) ||
+         std::any_of(model.held_points.begin(), model.held_points.end(), ends);
 }
 
 void enter_step(PreparedSolids& prepared, int step, SolidState& state, MovedSolids& moved) {
@@ -79,15 +86,22 @@ void enter_step(PreparedSolids& prepared, int step, SolidState& state, MovedSoli
   state.factors.presence = presence_at(model, step - 1);
   state.factors.release = takes ? 1.0 : 0.0;
   state.released.clear();
-  std::vector<char> absent = absent_in(model, step);
+  state.released_points.resize(0);
+  const auto changes = [&](const auto& of) { return of.stay.is_there(step) != of.stay.is_there(step - 1); };
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), changes) &&
+      std::none_of(model.held_points.begin(), model.held_points.end(), changes))
+    return;
   const std::vector<char> absent_before = prepared.absent;
-  if (absent == absent_before) return;
 
   const system::ContactSystem& before = prepared.contact();
   const std::vector<Pair> pairs_before = before.pairs, held_before = before.held;
   const std::vector<int> first_before = before.first_rigid;
-  if (takes) take_away(prepared, absent, moved, state);
-  set_stage(prepared, std::move(absent));
+  if (takes) {
+    std::vector<char> absent = absent_in(model, step);
+    absent.resize(model.bodies.size(), 0);
+    take_away(prepared, absent, step, moved, state);
+  }
+  set_stage(prepared, step);
   const system::ContactSystem& contact = prepared.contact();
   ParentMaps maps{system::places_in(pairs_before, contact.pairs), system::places_in(held_before, contact.held), {}};
   maps.rigid_motions.assign(static_cast<std::size_t>(contact.rigid_motions()), -1);

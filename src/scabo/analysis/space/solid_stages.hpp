@@ -6,14 +6,11 @@
 
 namespace scabo::analysis {
 
-/// Per body: not there during a step; empty: all are there.
-std::vector<char> absent_in(const SolidModel& model, int step);
-
 /// Part of its loads that acts on every body at the end of a step, 0 or 1; step -1: before the first. Empty if no body
 /// is ever absent.
 Vector presence_at(const SolidModel& model, int step);
 
-/// Whether bodies are taken away in a step.
+/// Whether bodies or supports are taken away in a step.
 bool takes_away(const SolidModel& model, int step);
 
 /// Goes on to a step from the accepted state at the end of the step before it; `moved`: what the parts do then, before

@@ -97,9 +97,10 @@ void SpaceReader::rigid_support(const MapReader& map, SpaceSupport& support) {
 }
 
 void SpaceReader::support(const Value& value) {
-  const MapReader map(report_, value, {"on", "fix", "displacement", "rotation", "at", "name"},
+  const MapReader map(report_, value, {"on", "fix", "displacement", "rotation", "at", "name", "added", "removed"},
                       "{on: block.bottom, fix: [x, y, z]}", only_in_the_plane({"symmetry"}));
   if (!map.is_map()) return;
+  stages_of_supports_.push_back({model_.supports.size(), map.get("added"), map.get("removed")});
   SpaceSupport support;
   support.name = fmt::format("support_{}", model_.supports.size() + 1);
   if (const auto name = map.get("name")) {

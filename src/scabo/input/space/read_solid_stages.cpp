@@ -9,11 +9,12 @@ namespace scabo::input {
 
 using namespace model;
 
-/// Whether a body is put in place or taken away in the step of this name.
+/// Whether a body or support is put in place or taken away in the step of this name.
 bool SpaceReader::has_stage(const std::string& step) const {
   const auto named = [&](const std::optional<Value>& value) { return value && value->node->text == step; };
-  return std::any_of(stages_.begin(), stages_.end(),
-                     [&](const Stages& of) { return named(of.added) || named(of.removed); });
+  const auto begins_or_ends = [&](const Stages& of) { return named(of.added) || named(of.removed); };
+  return std::any_of(stages_.begin(), stages_.end(), begins_or_ends) ||
+         std::any_of(stages_of_supports_.begin(), stages_of_supports_.end(), begins_or_ends);
 }
 
 void SpaceReader::restart(const Value& value) {
@@ -27,6 +28,8 @@ void SpaceReader::restart(const Value& value) {
   Restart restart = end_->restart;
   restart.load_factors = end_->numbers("loads", names_of(model_.loads));
   restart.support_factors = end_->numbers("supports", names_of(model_.supports));
+  const std::vector<double> placed = end_->numbers("placed", names_of(model_.supports));
+  for (std::size_t i = 0; i < placed.size(); ++i) model_.supports[i].placed = placed[i] != 0.0;
   const std::vector<double> tightened = end_->numbers("bars", names_of(model_.bodies));
   for (std::size_t b = 0; b < model_.bodies.size(); ++b)
     if (auto& preload = model_.bodies[b].preload; preload && tightened[b] < 0.0)
@@ -35,18 +38,33 @@ void SpaceReader::restart(const Value& value) {
   model_.restart = std::move(restart);
 }
 
+Stay SpaceReader::stay_of(const Stages& of, const char* what) {
+  Stay stay;
+  if (of.added) stay.added = std::max(step_named(*of.added), 0);
+  if (of.removed) {
+    stay.removed = step_named(*of.removed);
+    if (const auto wrong = wrong_removal(stay, model_.steps, model_.restart.has_value(), what))
+      report_.error(*of.removed, *wrong);
+  }
+  return stay;
+}
+
 void SpaceReader::find_stages() {
   const std::size_t before = report_.count();
   for (std::size_t k = 0; k < stages_.size(); ++k) {
-    Stay stay;
-    if (const auto& added = stages_[k].added) stay.added = std::max(step_named(*added), 0);
-    if (const auto& removed = stages_[k].removed) {
-      stay.removed = step_named(*removed);
-      if (const auto wrong = wrong_removal(stay, model_.steps, model_.restart.has_value(), "body"))
-        report_.error(*removed, *wrong);
-    }
+    const Stay stay = stay_of(stages_[k], "body");
     const std::size_t end = k + 1 < stages_.size() ? stages_[k + 1].first : model_.bodies.size();
     for (std::size_t b = stages_[k].first; b < end; ++b) model_.bodies[b].stay = stay;
+  }
+  for (const Stages& of : stages_of_supports_) {
+    SpaceSupport& support = model_.supports[of.first];
+    support.stay = stay_of(of, "support");
+    if (report_.count() > before || support.on.body < 0) continue;
+    const SpaceBody& body = body_at(support.on.body);
+    if (const auto wrong = wrong_stay_on_body(support.stay, body.stay, body.name, model_.steps))
+      report_.error(
+          support.stay.added > 0 && support.stay.added < body.stay.added ? *of.added : of.removed.value_or(*of.added),
+          *wrong);
   }
   if (report_.count() == before) check_stages();
 }
@@ -70,8 +88,10 @@ void SpaceReader::check_stages() {
     if (std::none_of(support.displacement.begin(), support.displacement.end(), moves) &&
         std::none_of(support.rotation.begin(), support.rotation.end(), moves))
       continue;
+    const bool by_itself = support.stay.added > body.stay.added;
     if (const auto early =
-            displaced_too_early(support.name, i, body.stay.added, fmt::format("body '{}'", body.name), steps))
+            displaced_too_early(support.name, i, std::max(support.stay.added, body.stay.added),
+                                by_itself ? std::string("it") : fmt::format("body '{}'", body.name), steps))
       report_.error(support.on.source, *early);
   }
   for (const SpaceBody& body : model_.bodies)
@@ -80,7 +100,7 @@ void SpaceReader::check_stages() {
                     fmt::format("is tightened in step '{}', in which body '{}' is not there: name another step by "
                                 "'tightened'",
                                 steps[static_cast<std::size_t>(body.preload->step)].name, body.name));
-  for (std::size_t s = 0; s < steps.size(); ++s)
+  for (std::size_t s = 0; s < steps.size() && !model_.bodies.empty(); ++s)
     if (std::none_of(model_.bodies.begin(), model_.bodies.end(),
                      [&](const SpaceBody& body) { return body.stay.is_there(static_cast<int>(s)); })) {
       report_.error(steps[s].source,

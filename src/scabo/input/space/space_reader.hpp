@@ -24,6 +24,11 @@ class SpaceReader {
  private:
   using Components = std::array<std::optional<double>, 3>;
   using Formulas = std::array<model::SpaceFormula, 3>;
+  /// `added` and `removed`: the names of steps.
+  struct Stages {
+    std::size_t first;  ///< of the bodies of an entry, up to those of the next one; or a support
+    std::optional<Value> added, removed;
+  };
 
   void analysis(const Value& value);
   void solver(const Value& value);
@@ -86,6 +91,7 @@ class SpaceReader {
   // read_solid_stages.cpp
   void restart(const Value& value);
   bool has_stage(const std::string& step) const;
+  model::Stay stay_of(const Stages& of, const char* what);
   void find_stages();
   void check_stages();
 
@@ -105,13 +111,9 @@ class SpaceReader {
   std::map<std::pair<std::string, bool>, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
   std::vector<std::pair<std::size_t, Value>> fits_;       ///< contacts, and the names of the steps of `fit_in`
   std::vector<std::pair<std::size_t, Value>> tightened_;  ///< bodies, and the names of the steps of their preloads
-  /// `added` and `removed`: the names of steps.
-  struct Stages {
-    std::size_t first;  ///< of the bodies of an entry, up to those of the next one
-    std::optional<Value> added, removed;
-  };
-  std::optional<EndOfRun> end_;  ///< of the run from which this one starts
-  std::vector<Stages> stages_;   ///< of every entry of the bodies
+  std::optional<EndOfRun> end_;                           ///< of the run from which this one starts
+  std::vector<Stages> stages_of_supports_;
+  std::vector<Stages> stages_;  ///< of every entry of the bodies
 };
 
 }  // namespace scabo::input

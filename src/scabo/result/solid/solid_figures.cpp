@@ -26,21 +26,26 @@ SolidTotals totals_of(const analysis::SolidIncrement& increment, std::size_t con
 std::vector<SolidReaction> reactions_of(const analysis::PosedSolids& posed, std::size_t supports,
                                         const analysis::SolidIncrement& increment) {
   std::vector<SolidReaction> sums(supports);
-  for (std::size_t b = 0; b < increment.reactions.size(); ++b)
-    for (std::size_t c = 0; c < posed.model.bodies[b].supports.size(); ++c) {
-      const analysis::SolidBody& body = posed.model.bodies[b];
-      const system::Constraint& held = body.supports[c];
-      const Eigen::Vector3d value =
-          increment.reactions[b][static_cast<Eigen::Index>(c)] * Eigen::Vector3d::Unit(held.component);
-      SolidReaction& sum = sums[static_cast<std::size_t>(held.support)];
-      if (held.rotation) {
-        sum.moment += value;
-        continue;
-      }
-      const Eigen::Vector3d at = body.rigid_at ? *body.rigid_at : Eigen::Vector3d(body.mesh.nodes.col(held.dof / 3));
-      sum.force += value;
-      sum.moment += at.cross(value);
+  const auto add = [&](const analysis::SolidBody& body, const system::Constraint& held, double reaction) {
+    const Eigen::Vector3d value = reaction * Eigen::Vector3d::Unit(held.component);
+    SolidReaction& sum = sums[static_cast<std::size_t>(held.support)];
+    if (held.rotation) {
+      sum.moment += value;
+      return;
     }
+    const Eigen::Vector3d at = body.rigid_at ? *body.rigid_at : Eigen::Vector3d(body.mesh.nodes.col(held.dof / 3));
+    sum.force += value;
+    sum.moment += at.cross(value);
+  };
+  for (std::size_t b = 0; b < increment.reactions.size(); ++b)
+    for (std::size_t c = 0; c < posed.model.bodies[b].supports.size(); ++c)
+      add(posed.model.bodies[b], posed.model.bodies[b].supports[c],
+          increment.reactions[b][static_cast<Eigen::Index>(c)]);
+  for (std::size_t k = 0; k < posed.model.held_points.size() && increment.held.size() > 0; ++k) {
+    const analysis::SolidHeldPoint& point = posed.model.held_points[k];
+    add(posed.model.bodies[static_cast<std::size_t>(point.body)], point.held,
+        increment.held[static_cast<Eigen::Index>(k)]);
+  }
   return sums;
 }
 

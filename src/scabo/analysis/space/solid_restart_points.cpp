@@ -1,0 +1,96 @@
+#include "scabo/analysis/space/solid_restart_points.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "scabo/system/rigid_solid.hpp"
+
+namespace scabo::analysis {
+
+namespace {
+
+constexpr const char* reaction_name = "reaction";
+constexpr const char* offset_name = "offset";  // along the direction that is held
+
+/// A degree of freedom of an elastic body, a motion of a rigid one.
+double held_number(const SolidBody& body, const system::Constraint& held) {
+  return body.rigid_at ? system::held_motion(held) : held.dof;
+}
+
+/// Places of the pairs of a body that are held points.
+std::vector<Eigen::Index> points_on(const PreparedSolids& now, std::size_t body) {
+  std::vector<Eigen::Index> places;
+  const std::vector<system::ContactSystem::Pair>& pairs = now.contact().pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].is_bar() && now.model.held_points[now.held_point(pairs[i])].body == static_cast<int>(body))
+      places.push_back(static_cast<Eigen::Index>(i));
+  return places;
+}
+
+const SolidHeldPoint& point_at(const PreparedSolids& now, Eigen::Index place) {
+  return now.model.held_points[now.held_point(now.contact().pairs[static_cast<std::size_t>(place)])];
+}
+
+MovedSolids moved_in(const PreparedSolids& now, const SolidState& state) {
+  return moved_solids(now, applied_to_solids(now, state.factors, state.shortening, state.released), state.p, state.a);
+}
+
+}  // namespace
+
+std::vector<EndState::Held> solids_held_at_end(const PreparedSolids& now, const SolidState& state) {
+  const MovedSolids moved = moved_in(now, state);
+  const Vector reactions = reactions_of_held_points(now, state.p, 0.0, {});
+  std::vector<EndState::Held> all;
+  for (std::size_t b = 0; b < now.model.bodies.size(); ++b) {
+    const SolidBody& body = now.model.bodies[b];
+    const std::vector<Eigen::Index> points = points_on(now, b);
+    if (now.is_absent(b) || (points.empty() && body.supports.empty())) continue;
+    EndState::Held held;
+    held.name = body.name;
+    held.u.assign(moved.u[b].begin(), moved.u[b].end());
+    const auto add = [&](const system::Constraint& constraint, double reaction, double offset) {
+      held.constraints.push_back(held_number(body, constraint));
+      held.fields[reaction_name].push_back(reaction);
+      held.fields[offset_name].push_back(offset);
+    };
+    for (const Eigen::Index place : points)
+      add(point_at(now, place).held,
+          reactions[static_cast<Eigen::Index>(now.held_point(now.contact().pairs[static_cast<std::size_t>(place)]))],
+          state.offset.size() > 0 ? state.offset[in_space.of(place)] : 0.0);
+    for (std::size_t c = 0; c < body.supports.size(); ++c)
+      add(body.supports[c], moved.reactions[b][static_cast<Eigen::Index>(c)], 0.0);
+    all.push_back(std::move(held));
+  }
+  return all;
+}
+
+void continue_held_points(const PreparedSolids& now, const EndState& end, SolidState& state) {
+  std::vector<const EndState::Held*> continued(now.model.bodies.size(), nullptr);
+  for (std::size_t b = 0; b < now.model.bodies.size(); ++b) {
+    const SolidBody& body = now.model.bodies[b];
+    const auto held = std::ranges::find(end.held, body.name, &EndState::Held::name);
+    if (now.is_absent(b) || held == end.held.end()) continue;
+    for (const Eigen::Index place : points_on(now, b)) {
+      const SolidHeldPoint& point = point_at(now, place);
+      const auto known = std::ranges::find(held->constraints, held_number(body, point.held));
+      if (known == held->constraints.end()) continue;
+      const auto k = static_cast<std::size_t>(known - held->constraints.begin());
+      const double offset = kept(held->fields, offset_name).at(k);
+      state.p[in_space.of(place)] = kept(held->fields, reaction_name).at(k) / lever_of(now.model, point);
+      state.states[static_cast<std::size_t>(place)] = contact::ContactState::stick;
+      if (state.offset.size() == 0 && offset != 0.0) state.offset = Vector::Zero(state.p.size());
+      if (state.offset.size() > 0) state.offset[in_space.of(place)] = offset;
+      continued[b] = &*held;
+    }
+  }
+  const MovedSolids moved = moved_in(now, state);
+  for (std::size_t b = 0; b < continued.size(); ++b) {
+    const Matrix& rigid = now.structure.parts[b]->rigid_motions();
+    if (continued[b] == nullptr || rigid.cols() == 0) continue;
+    const Vector away = Eigen::Map<const Vector>(continued[b]->u.data(), rigid.rows()) - moved.u[b];
+    state.a.segment(now.contact().first_rigid[b], rigid.cols()) +=
+        (rigid.transpose() * rigid).ldlt().solve(rigid.transpose() * away);
+  }
+}
+
+}  // namespace scabo::analysis
