@@ -354,6 +354,10 @@ class CommandLine {
         ->option_text("N");
     plot_->add_option("--view", plot_options_.text, "From where bodies in space are seen, in degrees; default: -60,25")
         ->option_text("AZIMUTH,ELEVATION");
+    plot_
+        ->add_option("--cut", plot_options_.text,
+                     "Stress of bodies in space: a point of a plane and its normal; what this points to is taken away")
+        ->option_text("X,Y,Z,NX,NY,NZ");
     plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
         ->option_text("LENGTH,FORCE");
     plot_

@@ -3,7 +3,7 @@ import unittest
 
 import made_up  # noqa: F401  the package for pictures
 import numpy as np
-from plot import geometry, solids, tetrahedra, vtu
+from plot import cuts, geometry, solids, tetrahedra, vtu
 
 
 def grid():
@@ -45,6 +45,41 @@ def brick_and_wedge():
     brick = cell(25, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
     wedge = cell(26, [[1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 0, 1], [2, 0, 1], [1, 1, 1]])
     return vtu.Grid(np.array(places), np.array(brick + wedge), np.array([20, 35]), np.array([25, 26], dtype="u1"), {}, {})
+
+
+class Cut(unittest.TestCase):
+    """What a plane leaves of a body is closed: the surface that is left and the section, turned outwards, have the volume that is left."""
+
+    def left_of(self, of, point, normal, fine=False):
+        surface = tetrahedra.triangles_of(tetrahedra.outer_facets(of))
+        return cuts.cut_surface(of.points, surface, tetrahedra.tetrahedra_of(of, fine), point, normal)
+
+    def volume(self, left, points):
+        a, b, c = left.of(points)[left.corners].transpose(1, 0, 2)
+        return np.einsum("ij,ij->", a, np.cross(b, c)) / 6, np.cross(b - a, c - a).sum(axis=0) / 2
+
+    def test_volumes_of_a_cube_and_a_wedge(self):
+        of = brick_and_wedge()
+        for point, normal, volume in (((0.3, 0, 0), (1, 0, 0), 0.3), ((0.3, 0, 0), (-2, 0, 0), 1.2), ((0, 0, 0.25), (0, 0, 1), 0.375), ((0.5, 0.5, 0.5), (1, 1, 1), 0.5 + 1 / 48)):
+            left = self.left_of(of, point, normal)
+            found, area = self.volume(left, of.points)
+            self.assertAlmostEqual(found, volume, places=12)
+            np.testing.assert_allclose(area, 0, atol=1e-12)  # closed
+            self.assertGreater(len(left.outline), 0)
+            on = left.of(of.points)[left.outline.ravel()]
+            np.testing.assert_allclose((on - point) @ np.array(normal), 0, atol=1e-12)
+            np.testing.assert_allclose(left.of(of.points[:, 0] + 3 * of.points[:, 1]), left.of(of.points) @ [1, 3, 0], atol=1e-12)
+
+    def test_the_section_of_quadratic_tetrahedra_fits_their_facets(self):
+        """Also where their middle nodes are moved."""
+        of = grid()
+        moved = of.points + 0.05 * np.sin(9 * of.points[:, [1, 2, 0]])
+        left = self.left_of(of, (0.3, 0, 0), (1, 0.2, -0.1), fine=True)
+        np.testing.assert_allclose(self.volume(left, moved)[1], 0, atol=1e-12)
+        whole = self.left_of(of, (9, 0, 0), (1, 0, 0), fine=True)
+        self.assertEqual(len(whole.outline), 0)
+        other = self.left_of(of, (0.3, 0, 0), (-1, -0.2, 0.1), fine=True)
+        self.assertAlmostEqual(self.volume(left, moved)[0] + self.volume(other, moved)[0], self.volume(whole, moved)[0], places=12)
 
 
 class Seen(unittest.TestCase):

@@ -39,6 +39,27 @@ contacts:
             self.assertAlmostEqual(float(row["pressure"]), expected, delta=0.1 * expected)
         self.assertAlmostEqual(area, 2 * math.pi * 1.5 * 0.4, delta=0.02 * area)
 
+    def test_faces_by_their_direction(self):
+        """A model that is one in space by its shapes. A bar of which the part that looks down is pressed: all of a face, or 60 degrees of a round one."""
+        radius, length, pressure = 0.5, 2.0, 7e3
+        shapes = {"box": ("{box: {corner: [0, 0, 0], size: [1, 2, 1]}}", "front", length),
+                  "cylinder": (f"{{cylinder: {{from: [0, 0, 0], to: [0, {length}, 0], radius: {radius}}}}}", "bottom", 2 * radius * math.sin(math.pi / 6) * length)}
+        for name, (shape, end, area) in shapes.items():
+            for place in ("{body: bar, normal: [0, 0, -2]}", f"{{body: bar, face: {'bottom' if name == 'box' else 'side'}, normal: [0, 0, -2]}}"):
+                with self.subTest(shape=name, place=place):
+                    (self.directory / "model.yaml").write_text(f"""scabo: 1
+materials: {{steel: {{young: 200e9, poisson: 0.3}}}}
+bodies: {{bar: {{material: steel, shape: {shape}, mesh: {{size: 0.13}}}}}}
+supports: [{{on: bar.{end}, fix: [x, y, z], name: ground}}]
+loads: {{press: {{on: {place}, pressure: {pressure}}}}}
+""", encoding="utf-8")
+                    done = scabo("run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet")
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    reaction = summary_of(self.directory / "results")["increments"][-1]["reactions"]["ground"]
+                    exact = -pressure * area
+                    self.assertAlmostEqual(reaction[2], exact, delta=(1e-9 if name == "box" else 0.1) * abs(exact))  # up to half a facet more or less
+                    self.assertLess(abs(reaction[0]) + abs(reaction[1]), 1e-9 * abs(exact))
+
     def extruded(self, plane, loads):
         """A plate of 6 x 4 with a hole, 2 thick across the plane of its profile, on its bottom edge."""
         across, = set("xyz") - set(plane)

@@ -15,7 +15,7 @@ ON_REQUEST = ("envelope", "spectrum")  # not drawn without being named
 NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
 FORMATS = (".png", ".svg", ".pdf")
 APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history", "spectrum"), "contact": ("contact", "envelope"), "scale": ("stress", "mechanism"),
-           "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress", "mechanism"),
+           "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress", "mechanism"), "cut": ("stress",),
            "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism", *ON_REQUEST)}  # options that mean something for few kinds
 
 
@@ -39,6 +39,7 @@ def parser():
     options.add_argument("--mirror", action="store_true", help="bodies of revolution: both halves of the section")
     options.add_argument("--turned", type=int, metavar="N", help="bodies of revolution: writes no picture, but a .vtu file of the fields turned about the axis in N parts")
     options.add_argument("--view", metavar="AZIMUTH,ELEVATION", help="from where bodies in space are seen, in degrees; default: -60,25")
+    options.add_argument("--cut", metavar="X,Y,Z,NX,NY,NZ", help="stress of bodies in space: a point of a plane and its normal; what this points to is taken away")
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N")
     options.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
                          help=".png, .svg or .pdf; default: .png files beside DIR, one for each picture")
@@ -93,7 +94,7 @@ def join_negative(words):
     """`--window -1,2,0,1` is an option and its value, which argparse takes for an option of its own."""
     joined = []
     for word in words:
-        if joined and joined[-1] in ("--window", "--scale", "--increment", "--view") and word[:1] == "-" and word[1:2].isdigit():
+        if joined and joined[-1] in ("--window", "--scale", "--increment", "--view", "--cut") and word[:1] == "-" and word[1:2].isdigit():
             joined[-1] += "=" + word
         else:
             joined.append(word)
@@ -126,6 +127,19 @@ def view_of(text):
     return azimuth, elevation
 
 
+def cut_of(text):
+    from .results import ResultsError
+    if text is None:
+        return None
+    try:
+        numbers = list(map(float, text.split(",")))
+    except ValueError:
+        numbers = []
+    if len(numbers) != 6 or not all(map(math.isfinite, numbers)) or not any(numbers[3:]):
+        raise ResultsError(f"--cut {text}: give a point of the plane and its normal, as in --cut 0,0,0.1,1,0,0")
+    return numbers[:3], numbers[3:]
+
+
 def refuse_other_dimension(options, results):
     from .results import ResultsError
     if results.in_space and options.window is not None:
@@ -134,6 +148,8 @@ def refuse_other_dimension(options, results):
         raise ResultsError(f"--what {options.what}: of a model in space there are pictures of stress, contact and mechanism")
     if not results.in_space and options.view is not None:
         raise ResultsError(f"--view: {results.directory} is of a model in the plane")
+    if not results.in_space and options.cut is not None:
+        raise ResultsError(f"--cut: {results.directory} is of a model in the plane")
 
 
 def figures(options, results, increment):
@@ -143,7 +159,7 @@ def figures(options, results, increment):
     units = Units.parse(options.units) if options.units else Units()
     if results.in_space:
         component = options.component if options.what != "all" else None
-        return {"stress": lambda: solids.stress(results, increment, component, options.scale, units, view_of(options.view)),
+        return {"stress": lambda: solids.stress(results, increment, component, options.scale, units, view_of(options.view), cut_of(options.cut)),
                 "contact": lambda: solids.contact(results, increment, options.contact, component, units),
                 "mechanism": lambda: solids.mechanism(results, options.scale, units, view_of(options.view))}
     window = window_of(options.window)
@@ -210,7 +226,7 @@ def write_model(options):
     from .models import model
     from .results import ResultsError
     from .units import Units
-    for option in ("increment", "component", "contact", "scale", "view", "mirror", "turned"):
+    for option in ("increment", "component", "contact", "scale", "view", "cut", "mirror", "turned"):
         if getattr(options, option) not in (None, [], False):
             raise ResultsError(f"--{option}: has no meaning for a model that is not solved")
     if options.what != "all":
@@ -259,7 +275,7 @@ def write_sweep(options):
     from .results import ResultsError
     from .sweeps import sweep
     from .units import Units
-    for option in ("increment", "contact", "scale", "window", "view", "mirror", "turned"):
+    for option in ("increment", "contact", "scale", "window", "view", "cut", "mirror", "turned"):
         if getattr(options, option) not in (None, [], False):
             raise ResultsError(f"--{option}: has no meaning for a sweep")
     if options.what != "all":

@@ -10,11 +10,12 @@ from matplotlib.lines import Line2D
 
 from . import contacts as plane_contacts
 from . import fields, geometry, style
+from .cuts import cut_surface
 from .mechanisms import described
 from .motions import AT_REST, needed_mechanism
 from .motions import magnification_of as magnification_of_motion
 from .results import ResultsError
-from .tetrahedra import COMPONENTS, magnification_of, maps_of, outer_facets, sharp_edges, triangles_of, values_of
+from .tetrahedra import COMPONENTS, magnification_of, maps_of, outer_facets, sharp_edges, tetrahedra_of, triangles_of, values_of
 from .units import Units
 
 VIEW = (-60.0, 25.0)  # degrees: from which side and how high the eye looks
@@ -72,8 +73,9 @@ def seen_image(seen, corners, values, pixels=PIXELS):
     return image
 
 
-def visible_pieces(image, chains, seen, pieces=12):
-    """Pieces of lines through the points of chains that no body hides, S x 2 x 2."""
+def visible_pieces(image, chains, seen, beyond=None, pieces=12):
+    """Pieces of lines through the points of chains that no body hides, S x 2 x 2. `beyond`: how far points lie beyond a plane, to which the lines
+    lead."""
     t = np.linspace(0.0, 1.0, pieces + 1)
     shapes = np.array([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])  # through both ends and the middle
     lines = np.einsum("ijk,jt->itk", seen[chains], shapes)
@@ -84,12 +86,23 @@ def visible_pieces(image, chains, seen, pieces=12):
     around = np.min([image.depth[np.clip(at[..., 1] + i, 0, rows - 1), np.clip(at[..., 0] + j, 0, columns - 1)]
                      for i in (-1, 0, 1) for j in (-1, 0, 1)], axis=0)
     shown = middles[..., 2] > around - 3.0 * image.pixel
+    if beyond is not None:
+        far = np.einsum("ij,jt->it", beyond[chains], shapes)
+        shown &= far[:, 1:] + far[:, :-1] <= 0.0
     return np.stack([lines[:, :-1, :2], lines[:, 1:, :2]], axis=2)[shown]
 
 
+def visible_lines(image, lines):
+    """Of straight lines L x 2 x 3."""
+    count = len(lines)
+    points = np.concatenate([lines[:, 0], lines.mean(axis=1), lines[:, 1]])
+    return visible_pieces(image, np.arange(3 * count).reshape(3, count).T, points)
+
+
 @style.styled
-def stress(results, increment=-1, component=None, magnification=None, units=None, view=None):
-    """The deformed bodies, seen from `view`, azimuth and elevation in degrees, coloured by one of COMPONENTS."""
+def stress(results, increment=-1, component=None, magnification=None, units=None, view=None, cut=None):
+    """The deformed bodies, seen from `view`, azimuth and elevation in degrees, coloured by one of COMPONENTS. `cut`: a point of a plane and its
+    normal, in the units of the model; what lies on the side to which this points is taken away, before the deformation."""
     units = units or Units()
     number = results.number(increment)
     grid = results.fields(number)
@@ -106,7 +119,16 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
     axes = directions(*view)
     place = units.scale("length", np.abs(grid.points).max())
     seen = place.factor * (grid.points + magnification * grid.point_data["displacement"]) @ axes.T
-    image = seen_image(seen, corners, values)
+    beyond, lines = None, np.zeros((0, 2, 2))
+    if cut is None:
+        image = seen_image(seen, corners, values)
+    else:
+        left = cut_surface(grid.points, corners, tetrahedra_of(grid, fine=True), *cut)
+        if not len(left.outline):
+            raise ResultsError("--cut: the plane cuts no body")
+        image = seen_image(left.of(seen), left.corners, left.of(values))
+        beyond = (grid.points - cut[0]) @ np.asarray(cut[1], dtype=float)
+        lines = visible_lines(image, left.of(seen)[left.outline])
     shown = image.values[np.isfinite(image.values)]
     low, high = geometry.typical_range(shown, np.ones(len(shown)))
     if dimension == "stress" and max(abs(low), abs(high)) <= 1e-6 * float(np.abs(grid.point_data["von_mises"]).max()):
@@ -122,7 +144,8 @@ def stress(results, increment=-1, component=None, magnification=None, units=None
     figure = style.new_figure(width, height, results.title, below)
     axis = figure.add_subplot()
     draw_image(figure, axis, image, scale.factor * image.values, levels, scale.label(name))
-    axis.add_collection(LineCollection(visible_pieces(image, sharp_edges(grid.points, facets), seen), colors="black", linewidths=0.7))
+    axis.add_collection(LineCollection(visible_pieces(image, sharp_edges(grid.points, facets), seen, beyond), colors="black", linewidths=0.7))
+    axis.add_collection(LineCollection(lines, colors="black", linewidths=0.7))
     draw_scale(axis, image.extent, axes, place.unit)
     return figure
 

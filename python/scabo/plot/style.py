@@ -155,9 +155,11 @@ def contours(axis, points, corners, values, levels, extend=None, lines=True):
     colours = SIGNED if signed else MAGNITUDE if levels[-1] > 0 else MAGNITUDE + "_r"
     drawn = axis.tricontourf(shown, values, levels=levels, cmap=colours, extend=extend or ("both" if signed else "max"))
     if lines and len(levels) > 3:  # which side of zero a dark colour is on, told without colour too
-        chosen = levels[1:-1:2]
+        within = values[np.unique(shown.triangles)]
+        chosen = [level for level in levels[1:-1:2] if len(within) and within.min() < level < within.max()]
         dashes = ["solid" if level >= 0 else (0, (14, 8)) for level in chosen]  # in widths of the line
-        axis.tricontour(shown, values, levels=chosen, colors="black", linewidths=0.35, linestyles=dashes, alpha=0.7)
+        if chosen:
+            axis.tricontour(shown, values, levels=chosen, colors="black", linewidths=0.35, linestyles=dashes, alpha=0.7)
     return drawn
 
 

@@ -26,9 +26,11 @@ CORNERS = {vtu.TETRAHEDRON: 4, vtu.QUADRATIC_TETRAHEDRON: 4, vtu.QUADRATIC_WEDGE
 PARTS = {vtu.TETRAHEDRON: [[0, 1, 2, 3]], vtu.QUADRATIC_TETRAHEDRON: [[0, 1, 2, 3]],
          vtu.QUADRATIC_WEDGE: [[0, 1, 2, 5], [0, 1, 5, 4], [0, 4, 5, 3]],
          vtu.QUADRATIC_HEXAHEDRON: [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]]}
+# Those between all points of a quadratic tetrahedron, whose sides are the triangles of its facets.
+FINE_PARTS = [[0, 4, 6, 7], [4, 1, 5, 8], [6, 5, 2, 9], [7, 8, 9, 3], [6, 8, 4, 5], [6, 8, 5, 9], [6, 8, 9, 7], [6, 8, 7, 4]]
 # Triangles between the points of a facet, by its corners.
 TRIANGLES = {3: ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]), 4: ([0, 4, 7], [1, 5, 4], [2, 6, 5], [3, 7, 6], [4, 5, 6], [4, 6, 7])}
-SHARP = math.cos(math.radians(30))
+SHARP = math.cos(math.radians(30)) - 1e-6  # twelve sides of a cylinder turn by 30 degrees up to rounding
 
 
 def values_of(grid, component):
@@ -93,9 +95,10 @@ def sharp_edges(points, facets):
     return ends[one[sharp]]
 
 
-def tetrahedra_of(grid):
-    """Corners of the tetrahedra that all cells are divided into."""
-    parts = [grid.cells(kind)[:, corners] for kind, of in PARTS.items() if len(grid.cells(kind)) for corners in of]
+def tetrahedra_of(grid, fine=False):
+    """Corners of the tetrahedra that all cells are divided into; `fine`: quadratic tetrahedra along their middle nodes too."""
+    parts_of = {**PARTS, vtu.QUADRATIC_TETRAHEDRON: FINE_PARTS} if fine else PARTS
+    parts = [grid.cells(kind)[:, corners] for kind, of in parts_of.items() if len(grid.cells(kind)) for corners in of]
     return np.concatenate(parts)
 
 

@@ -57,7 +57,8 @@ bool is_discrete_abaqus_element(const std::string& type) {
 std::string abaqus_refusal(const std::string& type) {
   const auto starts = [&type](std::string_view with) { return type.rfind(with, 0) == 0; };
   if (starts("C3D") || starts("SC") || starts("F3D") || starts("DC3D") || starts("AC3D")) {
-    return "is three-dimensional; Scabo's bodies are plane: mesh the plane section with CPS or CPE elements";
+    return "is three-dimensional: a model of solids needs 'analysis: {space: true}', one of the plane a mesh of CPS or "
+           "CPE elements";
   }
   if (starts("CAXA") || starts("CGAX")) {
     return "turns about the axis or varies around it, which Scabo's bodies of revolution do not: use CAX elements";

@@ -68,8 +68,8 @@ const GmshElement& PlaneGmsh::element(std::int64_t type, std::int64_t number) {
   }
   if (is_gmsh_solid(type)) {
     fail(
-        fmt::format("cell {} has Gmsh's type {}, a three-dimensional cell; Scabo's bodies are plane: save the mesh of "
-                    "a plane surface only (in Gmsh: -2)",
+        fmt::format("cell {} has Gmsh's type {}, a three-dimensional cell: a model of solids needs 'analysis: "
+                    "{{space: true}}', one of the plane a plane surface only (in Gmsh: -2)",
                     number, type));
   }
   fail(

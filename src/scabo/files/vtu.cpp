@@ -95,7 +95,9 @@ class PlaneVtu : public VtuReader {
 std::string PlaneVtu::why_not_read(std::int64_t type, std::size_t nodes) const {
   if (is_vtk_solid(type))
     return fmt::format(
-        "has VTK's type {}, a three-dimensional cell; Scabo's bodies are plane: save a plane surface only", type);
+        "has VTK's type {}, a three-dimensional cell: a model of solids needs 'analysis: {{space: true}}', one of the "
+        "plane a plane surface only",
+        type);
   return fmt::format(
       "has VTK's type {} with {} nodes, which is not read; use triangles, quadrilaterals and polygons of order 1 or 2",
       type, nodes);

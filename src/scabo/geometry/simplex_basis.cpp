@@ -8,35 +8,34 @@ namespace scabo::geometry {
 
 namespace {
 
-/// Two points y and weights for the integral of y^k f(y) over 0 <= y <= 1, divided by that of y^k: Gauss-Jacobi.
-struct TwoPoints {
-  double y[2], weight[2];
-};
-TwoPoints two_points(int k) {
-  // Zeros of y^2 - 2 b y + c, the polynomial of degree 2 that is orthogonal to 1 and y (Jacobi).
-  const double n = k, b = (n + 2.0) / (n + 4.0), c = (n + 1.0) * (n + 2.0) / ((n + 3.0) * (n + 4.0));
-  const double root = std::sqrt(b * b - c), mean = (n + 1.0) / (n + 2.0);
-  TwoPoints rule{{b - root, b + root}, {}};
-  rule.weight[0] = (rule.y[1] - mean) / (2.0 * root);
-  rule.weight[1] = 1.0 - rule.weight[0];
-  return rule;
+/// Points with all coordinates but one equal to `equal`, that one being each in turn, so that no order of corners
+/// counts.
+void add_orbit(SimplexRule& rule, double equal, double weight) {
+  const Eigen::Index corners = rule.points.rows(), before = rule.points.cols();
+  rule.points.conservativeResize(Eigen::NoChange, before + corners);
+  rule.weights.conservativeResize(before + corners);
+  rule.points.rightCols(corners).setConstant(equal);
+  for (Eigen::Index i = 0; i < corners; ++i)
+    rule.points(i, before + i) = 1.0 - static_cast<double>(corners - 1) * equal;
+  rule.weights.tail(corners).setConstant(weight);
 }
 
-/// Conical product (Stroud, Approximate Calculation of Multiple Integrals, 1971, 2.5): lambda_(k + 1) is a part 1 - y
-/// of what the coordinates before it have left.
-SimplexRule conical_rule(int dimension) {
-  const Eigen::Index count = Eigen::Index{1} << dimension;
-  SimplexRule rule{Matrix(dimension + 1, count), Vector::Ones(count)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    double left = 1.0;
-    for (int k = 0; k < dimension; ++k) {
-      const TwoPoints along = two_points(dimension - 1 - k);
-      const Eigen::Index which = (i >> k) & 1;
-      rule.points(k + 1, i) = left * (1.0 - along.y[which]);
-      left *= along.y[which];
-      rule.weights[i] *= along.weight[which];
-    }
-    rule.points(0, i) = left;
+/// Symmetric rules with closed forms and weights above 0: of triangles exact up to degree 4, of tetrahedra up to 3
+/// (Felippa, A compendium of FEM integration formulas for symbolic work, Engineering Computations 21, 2004, rules 6 and
+/// 8).
+SimplexRule symmetric_rule(int dimension) {
+  SimplexRule rule{Matrix(dimension + 1, 0), Vector(0)};
+  if (dimension == 2) {
+    const double mean = (8.0 - std::sqrt(10.0)) / 18.0, half = std::sqrt(38.0 - 44.0 * std::sqrt(0.4)) / 18.0;
+    const double part = std::sqrt(213125.0 - 53320.0 * std::sqrt(10.0)) / 3720.0;
+    add_orbit(rule, mean + half, 1.0 / 6.0 + part);
+    add_orbit(rule, mean - half, 1.0 / 6.0 - part);
+  } else {
+    const double root = std::sqrt(17.0), mean = (55.0 - 3.0 * root) / 196.0,
+                 half = std::sqrt(1022.0 - 134.0 * root) / 196.0;
+    const double part = std::sqrt((1715161837.0 - 406006699.0 * root) / 23101.0) / 3120.0;
+    add_orbit(rule, mean + half, 0.125 + part);
+    add_orbit(rule, mean - half, 0.125 - part);
   }
   return rule;
 }
@@ -44,7 +43,7 @@ SimplexRule conical_rule(int dimension) {
 }  // namespace
 
 SimplexBasis::SimplexBasis(int dimension, int nodes)
-    : dimension_(dimension), nodes_(nodes), rule_(conical_rule(dimension)) {
+    : dimension_(dimension), nodes_(nodes), rule_(symmetric_rule(dimension)) {
   if (nodes == dimension + 1) return;
   edges_ = {{0, 1}, {1, 2}, {2, 0}};
   if (dimension == 3) edges_.insert(edges_.end(), {{0, 3}, {1, 3}, {2, 3}});

@@ -60,12 +60,16 @@ struct SpaceFace {
   int body = -1;
   int side_set = -1, node_set = -1;  ///< one of them, of `body`'s mesh; or none
   std::string of_shape;              ///< the name of a face of `body`'s shape
-  std::string text;                  ///< `block.bottom`
+  /// Only those facets of it, or of the whole boundary, whose outward normals are within 30 degrees of this unit
+  /// vector.
+  std::optional<Eigen::Vector3d> normal;
+  std::string text;  ///< `block.bottom`
   Source source;
 
-  bool is_body() const { return side_set < 0 && node_set < 0 && of_shape.empty(); }
+  bool is_body() const { return side_set < 0 && node_set < 0 && of_shape.empty() && !normal; }
   bool is_same(const SpaceFace& other) const {
-    return body == other.body && side_set == other.side_set && node_set == other.node_set && of_shape == other.of_shape;
+    return body == other.body && side_set == other.side_set && node_set == other.node_set &&
+           of_shape == other.of_shape && normal == other.normal;
   }
 };
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace scabo::geometry {
 namespace {
@@ -35,6 +38,21 @@ TEST_P(Simplices, RuleIsExactUpToDegreeThree) {
       }
   EXPECT_NEAR(rule.weights.sum(), 1.0, 1e-15);
   EXPECT_GT(rule.weights.minCoeff(), 0.0);
+}
+
+/// So the order of the corners of an element does not count, where its integrals are not exact either.
+TEST_P(Simplices, RuleIsTheSameForEveryOrderOfCorners) {
+  const SimplexRule& rule = basis.rule();
+  std::vector<int> order(static_cast<std::size_t>(basis.dimension() + 1));
+  std::iota(order.begin(), order.end(), 0);
+  while (std::next_permutation(order.begin(), order.end()))
+    for (Eigen::Index p = 0; p < rule.weights.size(); ++p) {
+      const Vector moved = rule.points(order, p);
+      double weight = 0.0;
+      for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+        if ((rule.points.col(q) - moved).lpNorm<Eigen::Infinity>() < 1e-15) weight += rule.weights[q];
+      EXPECT_EQ(weight, rule.weights[p]);
+    }
 }
 
 TEST_P(Simplices, ShapeFunctionsAreOneAtTheirNodes) {

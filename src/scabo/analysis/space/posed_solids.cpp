@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -30,6 +31,7 @@ class Posing {
 
  private:
   void add_body(const model::SpaceBody& body);
+  std::vector<mesh::SolidFacet> named_facets(const model::SpaceFace& face);
   std::vector<mesh::SolidFacet> facets(const model::SpaceFace& face);
   const std::vector<int>& set_of_nodes(const model::SpaceFace& at) const;
   std::set<int> held_nodes(const model::SpaceFace& at);
@@ -131,15 +133,42 @@ void Posing::add_body(const model::SpaceBody& of) {
   posed_.model.bodies.push_back(std::move(body));
 }
 
-std::vector<mesh::SolidFacet> Posing::facets(const model::SpaceFace& face) {
-  if (!face.of_shape.empty()) return of_shapes_[static_cast<std::size_t>(face.body)].at(face.of_shape);
+/// Those of a face that is named, or of the whole boundary.
+std::vector<mesh::SolidFacet> Posing::named_facets(const model::SpaceFace& face) {
+  const auto& of_shape = of_shapes_[static_cast<std::size_t>(face.body)];
+  if (!face.of_shape.empty()) return of_shape.at(face.of_shape);
+  if (face.side_set < 0 && face.node_set < 0) {
+    std::vector<mesh::SolidFacet> all = boundaries_[static_cast<std::size_t>(face.body)];
+    for (const auto& [name, facets] : of_shape) all.insert(all.end(), facets.begin(), facets.end());
+    return all;
+  }
   const files::ImportedSolidMesh& mesh = *model_.bodies[static_cast<std::size_t>(face.body)].mesh;
   std::vector<mesh::SolidFacet> found =
       face.side_set >= 0
           ? mesh::facets_of_sides(body(face.body).mesh, mesh.side_sets[static_cast<std::size_t>(face.side_set)].sides)
           : mesh::facets_among(boundaries_[static_cast<std::size_t>(face.body)],
                                mesh.node_sets[static_cast<std::size_t>(face.node_set)].nodes);
-  if (found.empty())
+  return found;
+}
+
+std::vector<mesh::SolidFacet> Posing::facets(const model::SpaceFace& face) {
+  std::vector<mesh::SolidFacet> found = named_facets(face);
+  const mesh::SolidMesh& mesh = body(face.body).mesh;
+  const bool any = !found.empty();
+  if (face.normal)
+    std::erase_if(found, [&](const mesh::SolidFacet& facet) {
+      const Matrix x = mesh::nodes_of(mesh, facet);
+      const bool triangle = mesh::corners_of(facet) == 3;
+      const Eigen::Vector3d a = x.col(triangle ? 1 : 2) - x.col(0),
+                            b = triangle ? x.col(2) - x.col(0) : x.col(3) - x.col(1), area = a.cross(b);
+      return area.dot(*face.normal) < std::sqrt(0.75) * area.norm();
+    });
+  if (any && found.empty())
+    mistakes_.push_back(
+        {face.source, fmt::format("'{}' has no element whose outward normal is within 30 degrees of this "
+                                  "direction: correct it",
+                                  face.text)});
+  if (!any)
     mistakes_.push_back({face.source, fmt::format("'{}' has no outer side of an element: name a surface, or a set "
                                                   "with all nodes of a face",
                                                   face.text)});
@@ -168,7 +197,7 @@ const std::vector<int>& Posing::set_of_nodes(const model::SpaceFace& at) const {
 /// Of a face, or of a set of nodes with the sides whose corners it has.
 std::set<int> Posing::held_nodes(const model::SpaceFace& at) {
   std::set<int> nodes;
-  const bool is_set = at.node_set >= 0;
+  const bool is_set = at.node_set >= 0 && !at.normal;
   if (is_set) nodes.insert(set_of_nodes(at).begin(), set_of_nodes(at).end());
   const std::vector<mesh::SolidFacet> on =
       is_set ? mesh::facets_among(boundaries_[static_cast<std::size_t>(at.body)], set_of_nodes(at)) : facets(at);

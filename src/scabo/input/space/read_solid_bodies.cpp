@@ -185,15 +185,19 @@ void SpaceReader::add_parts(const Value& value, std::vector<files::ImportedSolid
                      whole, parts.size(), fmt::join(told, ", "), parts.size() > told.size() ? ", ..." : "")});
 }
 
-/// `{body: block, near: [0, 0, 1]}`: the face that is nearest to the point.
-std::optional<SpaceFace> SpaceReader::face_near(const Value& value) {
-  const MapReader map(report_, value, {"body", "near"}, "{body: block, near: [0, 0, 1]}",
-                      only_in_the_plane({"normal", "face", "edge"}));
-  const auto name = map.need("body"), near = map.need("near");
+/// `{body: block, near: [0, 0, 1]}`: the face that is nearest to the point. `{body: block, normal: [0, 0, 1]}`: the
+/// part of the boundary, or of a `face`, that looks in a direction.
+std::optional<SpaceFace> SpaceReader::face_found(const Value& value) {
+  const MapReader map(report_, value, {"body", "near", "normal", "face"}, "{body: block, near: [0, 0, 1]}",
+                      only_in_the_plane({"edge"}));
+  const auto name = map.need("body"), near = map.get("near"), normal = map.get("normal"), part = map.get("face");
+  if (map.all_known() && near.has_value() == normal.has_value())
+    report_.error(value, "needs either 'near', a point, or 'normal', a direction");
+  if (near) map.refuse("face", "goes with 'normal': leave it out, or write body.face");
   const std::size_t before = report_.count();
   const auto text = name ? read_text(report_, *name) : std::nullopt;
-  const Eigen::Vector3d point = near ? vector(*near) : Eigen::Vector3d::Zero();
-  if (!text || !near || report_.count() > before) return {};
+  const Eigen::Vector3d given = near ? vector(*near) : normal ? vector(*normal) : Eigen::Vector3d::Zero();
+  if (!text || near.has_value() == normal.has_value() || report_.count() > before) return {};
   std::vector<std::string> bodies;
   for (const SpaceBody& body : model_.bodies) bodies.push_back(body.name);
   SpaceFace face;
@@ -205,21 +209,45 @@ std::optional<SpaceFace> SpaceReader::face_near(const Value& value) {
   }
   const SpaceBody& of = body_at(face.body);
   if (!of.mesh && !of.shape) return {};  // told with the body
+  if (normal) return face_along(*normal, given, part, std::move(face));
+  return face_near(*near, given, std::move(face));
+}
+
+std::optional<SpaceFace> SpaceReader::face_near(const Value& near, const Eigen::Vector3d& point, SpaceFace face) {
+  const SpaceBody& of = body_at(face.body);
   std::vector<std::string> names = of.mesh ? nearest_faces(*of.mesh, point) : nearest_faces(*of.shape, point);
   for (std::string& one : names) one = name_from(one);
   if (names.size() != 1) {
-    report_.error(*near, names.empty() ? "the body has no faces: name a set of nodes"
-                                       : fmt::format("is as near to the faces {} of body '{}': give a point within one",
-                                                     fmt::join(names, " and "), *text));
+    report_.error(near, names.empty() ? "the body has no faces: name a set of nodes"
+                                      : fmt::format("is as near to the faces {} of body '{}': give a point within one",
+                                                    fmt::join(names, " and "), of.name));
     return {};
   }
-  face.text = *text + "." + names.front();
-  find_face(value, names.front(), face);
+  face.text = of.name + "." + names.front();
+  find_face(near, names.front(), face);
+  return face;
+}
+
+std::optional<SpaceFace> SpaceReader::face_along(const Value& value, const Eigen::Vector3d& normal,
+                                                 const std::optional<Value>& part, SpaceFace face) {
+  if (normal.isZero(0.0)) {
+    report_.error(value, "has no direction: not all of it may be 0");
+    return {};
+  }
+  face.normal = normal.stableNormalized();
+  face.text = body_at(face.body).name;
+  const std::size_t before = report_.count();
+  if (const auto name = part ? read_text(report_, *part) : std::nullopt) {
+    face.text += "." + *name;
+    find_face(*part, *name, face);
+  }
+  if (report_.count() > before) return {};
+  face.text += fmt::format(" along ({:.4g}, {:.4g}, {:.4g})", normal.x(), normal.y(), normal.z());
   return face;
 }
 
 std::optional<SpaceFace> SpaceReader::face(const Value& value, const char* or_body) {
-  if (value.node->kind == Node::Kind::map) return face_near(value);
+  if (value.node->kind == Node::Kind::map) return face_found(value);
   const auto text = read_text(report_, value);
   if (!text) return {};
   const std::size_t dot = text->find('.');

@@ -97,8 +97,11 @@ void SpaceReader::rigid_support(const MapReader& map, SpaceSupport& support) {
 }
 
 void SpaceReader::support(const Value& value) {
-  const MapReader map(report_, value, {"on", "fix", "displacement", "rotation", "at", "name", "added", "removed"},
-                      "{on: block.bottom, fix: [x, y, z]}", only_in_the_plane({"symmetry"}));
+  const MapReader map(
+      report_, value, {"on", "fix", "displacement", "rotation", "at", "name", "added", "removed"},
+      "{on: block.bottom, fix: [x, y, z]}",
+      {{"symmetry",
+        "in space, hold the faces on a plane of symmetry along its normal, as in {on: block.left, fix: x}"}});
   if (!map.is_map()) return;
   stages_of_supports_.push_back({model_.supports.size(), map.get("added"), map.get("removed")});
   SpaceSupport support;
@@ -206,7 +209,7 @@ void SpaceReader::place_of_load(const MapReader& map, const Entry& entry, SpaceL
     const auto on = map.need("on");
     const bool of_bodies = load.kind == Kind::force || load.kind == Kind::moment;
     if (const auto place = on ? face(*on, of_bodies ? "a force or moment" : nullptr) : std::nullopt) load.on = *place;
-    if (load.kind == Kind::nodal_force && load.on.body >= 0 && load.on.node_set < 0)
+    if (load.kind == Kind::nodal_force && load.on.body >= 0 && (load.on.node_set < 0 || load.on.normal))
       report_.error(*on, "must be a set of nodes of a mesh file: give a face a 'force' or 'traction'");
     if (load.kind == Kind::nodal_force && load.on.body >= 0 && body_at(load.on.body).rigid)
       report_.error(*on, "is a set of nodes of a rigid body, on which a 'force' acts: name the body alone");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scabo/input/parameters.hpp"
 #include "scabo/input/space/space_reader.hpp"
 
@@ -96,11 +98,20 @@ SpaceModel SpaceReader::read(const Value& root) {
 }
 
 bool is_in_space(const Node& root) {
-  if (root.kind != Node::Kind::map) return false;
-  const MapEntry* analysis = root.find("analysis");
-  if (analysis == nullptr || analysis->value->kind != Node::Kind::map) return false;
-  const MapEntry* space = analysis->value->find("space");
-  return space != nullptr && space->value->text == "true";
+  const auto in = [](const Node& map, std::string_view key) -> const Node* {
+    const MapEntry* entry = map.kind == Node::Kind::map ? map.find(key) : nullptr;
+    return entry == nullptr ? nullptr : entry->value.get();
+  };
+  if (const Node* analysis = in(root, "analysis"))
+    if (const Node* space = in(*analysis, "space")) return space->text == "true";
+  const Node* bodies = in(root, "bodies");
+  if (bodies == nullptr || bodies->kind != Node::Kind::map) return false;
+  return std::any_of(bodies->entries.begin(), bodies->entries.end(), [&](const MapEntry& body) {
+    const Node* shape = in(*body.value, "shape");
+    const auto& kinds = kinds_of_solid_shapes();
+    return shape != nullptr && std::any_of(kinds.begin(), kinds.end(),
+                                           [&](const std::string& kind) { return in(*shape, kind) != nullptr; });
+  });
 }
 
 SpaceModel solid_model_of_tree(const NodePtr& root, Report& report, const std::string& file) {

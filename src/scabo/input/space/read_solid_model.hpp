@@ -11,7 +11,7 @@
 
 namespace scabo::input {
 
-/// Whether a model is one in space.
+/// Whether a model is one in space: as `analysis` says, else if a body has a shape that only these have.
 bool is_in_space(const Node& root);
 
 /// The model of a tree; `report` has the mistakes found before. Throws InputError with all mistakes.

@@ -123,10 +123,15 @@ SolidCombination combination_of(Report& report, const Value& value, SolidCombina
 
 }  // namespace
 
+const std::vector<std::string>& kinds_of_solid_shapes() {
+  static const std::vector<std::string> kinds{"box",     "cylinder", "tube",     "sphere",    "extrude",
+                                              "revolve", "union",    "subtract", "intersect", "file"};
+  return kinds;
+}
+
 std::optional<AnyShape> read_solid_shape(Report& report, const Value& value, const std::string& folder) {
   const std::size_t before = report.count();
-  const std::vector<std::string> kinds{"box",     "cylinder", "tube",     "sphere",    "extrude",
-                                       "revolve", "union",    "subtract", "intersect", "file"};
+  const std::vector<std::string>& kinds = kinds_of_solid_shapes();
   const MapReader map(report, value, kinds, "{box: {corner: [0, 0, 0], size: [1, 1, 1]}}",
                       only_in_the_plane({"rectangle", "circle", "polygon", "outline", "image", "names"}));
   if (!map.is_map()) return {};

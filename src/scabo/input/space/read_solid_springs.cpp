@@ -49,7 +49,7 @@ void SpaceReader::spring(const Value& value) {
   } else if (place && of_face && place->is_body()) {
     report_.error(*on, fmt::format("is a whole body, on which k_x, k_y and k_z act: name a face, as in {}.bottom",
                                    body_at(place->body).name));
-  } else if (place && of_axes && !place->is_body() && place->node_set < 0) {
+  } else if (place && of_axes && !place->is_body() && (place->node_set < 0 || place->normal)) {
     report_.error(*on,
                   "is a face, on which k_n and k_t act: k_x, k_y and k_z are those of a set of nodes or a rigid body");
   } else if (report_.count() == before &&

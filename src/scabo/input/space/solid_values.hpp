@@ -35,6 +35,8 @@ model::SolidExtrusion read_extrusion(Report& report, const Value& value);
 /// `{profile: {rectangle: ...}, plane: xz, axis: {from: [0, 0], to: [0, 1]}, angle: 90}`.
 model::SolidRevolution read_revolution(Report& report, const Value& value);
 
+/// Keys of a shape that only models in space have.
+const std::vector<std::string>& kinds_of_solid_shapes();
 /// `{box: {corner: [0, 0, 0], size: [1, 1, 1]}}`; nothing after a mistake. Names of files count from `folder`.
 std::optional<model::AnyShape> read_solid_shape(Report& report, const Value& value, const std::string& folder);
 

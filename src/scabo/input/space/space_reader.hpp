@@ -45,7 +45,10 @@ class SpaceReader {
   std::optional<int> region_of(const Value& value, const files::ImportedSolidMesh& mesh) const;
   /// A face of a body; or the body, where `or_body` names what may be on a whole one, as in `a load`.
   std::optional<model::SpaceFace> face(const Value& value, const char* or_body = nullptr);
-  std::optional<model::SpaceFace> face_near(const Value& value);
+  std::optional<model::SpaceFace> face_found(const Value& value);
+  std::optional<model::SpaceFace> face_near(const Value& near, const Eigen::Vector3d& point, model::SpaceFace face);
+  std::optional<model::SpaceFace> face_along(const Value& value, const Eigen::Vector3d& normal,
+                                             const std::optional<Value>& part, model::SpaceFace face);
   void find_face(const Value& value, const std::string& part, model::SpaceFace& face);
 
   // read_solid_conditions.cpp
