@@ -79,8 +79,9 @@ contacts: {{joint: {{between: [base.top, block.{"surface" if "sphere" in shape e
         summary, told = self.on_base("sphere: {centre: [2, 1.5, 0.5], radius: 0.5}", [0, 0, -10], 0, 0, size=0.25)
         sentence = "supports, friction and loads do not determine body 'block': "
         self.assertIn(sentence, told)
-        self.assertEqual(len(summary["warnings"]), 1)
-        self.assertIn(sentence, summary["warnings"][0])
+        at_rest, few = summary["warnings"]
+        self.assertIn(sentence, at_rest)
+        self.assertRegex(few, "^contact 'joint': only . of [0-9]+ pairs (is|are) in contact at the end, and the mesh is too coarse")
         self.assertIn("warning: step step_1, increment 1: " + sentence, (self.directory / "results" / "log.txt").read_text(encoding="utf-8"))
 
     def test_a_smooth_block_may_slide(self):
