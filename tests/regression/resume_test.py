@@ -242,19 +242,19 @@ class Resume(unittest.TestCase):
                     self.assert_same(whole)
 
     def test_killed_while_a_crack_grows_in_a_large_body(self):
-        """Whose states are solved by the factor of an earlier one: of 13, those of the first and of the ninth."""
-        large = GROWTH.replace("size: 0.125", "size: 0.0125, order: 1").replace(f"steps: {STEPS_OF_GROWTH}", "steps: 12").replace(
-            "every: 3", "fields: []")
+        """Whose states are solved by the factor of an earlier one: of 21, those of the first and of the seventeenth."""
+        large = GROWTH.replace("size: 0.125", "size: 0.0125, order: 1").replace(
+            f"step: 0.04, until: {{steps: {STEPS_OF_GROWTH}}}", "step: 0.022, until: {steps: 20}").replace("every: 3", "fields: []")
         self.model.write_text(large.replace("LAW", "toughness: {K_Ic: 1e6}"), encoding="utf-8")
         run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
         whole = content(self.directory / "whole")
         rows = list(csv.DictReader(io.StringIO(whole["cracks.csv"].decode())))
-        self.assertEqual(len(rows), 13)
+        self.assertEqual(len(rows), 21)
         for row in rows:
             K_I, K_II, a = (float(row[name]) for name in ("K_I", "K_II", "kink"))
             self.assertAlmostEqual(math.cos(a / 2) * (K_I * math.cos(a / 2)**2 - 1.5 * K_II * math.sin(a)), 1e6, delta=1e-3)
-        for checkpoints in (6, 12):  # two of them of increments before growth
+        for checkpoints in (6, 20):  # two of them of increments before growth
             shutil.rmtree(self.results, ignore_errors=True)
             self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
             run = scabo("resume", self.results, "--quiet")

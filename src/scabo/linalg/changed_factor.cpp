@@ -28,13 +28,36 @@ class Column {
   SparseMatrix::InnerIterator entry_;
 };
 
-/// Whether column j of A is column i of A_0, entry by entry in its order.
-bool is_same_column(const PrincipalPart& A, int j, const PrincipalPart& A_0, int i, const std::vector<int>& same) {
-  Column one(A, j), other(A_0, i);
-  for (; one && other; ++one, ++other)
-    if (same[static_cast<std::size_t>(one.row())] != other.row() || one.value() != other.value()) return false;
-  return !one && !other;
-}
+/// Columns of A that are columns of A_0, entry by entry in their order.
+class SameColumns {
+ public:
+  SameColumns(const PrincipalPart& A, const PrincipalPart& A_0, const std::vector<int>& same)
+      : A_(A), A_0_(A_0), same_(same), there_(A.place.size(), outside) {
+    for (std::size_t row = 0; row < there_.size(); ++row)
+      if (const int place = A.place[row]; place >= 0) there_[row] = same[static_cast<std::size_t>(place)];
+  }
+
+  bool is_same(int unknown) const {
+    const int before = same_[static_cast<std::size_t>(unknown)];
+    if (before < 0) return false;
+    SparseMatrix::InnerIterator one(A_.matrix, A_.unknowns[static_cast<std::size_t>(unknown)]),
+        other(A_0_.matrix, A_0_.unknowns[static_cast<std::size_t>(before)]);
+    for (;; ++one, ++other) {
+      while (one && there_[static_cast<std::size_t>(one.row())] == outside) ++one;
+      while (other && A_0_.place[static_cast<std::size_t>(other.row())] < 0) ++other;
+      if (!one || !other) return !one && !other;
+      if (there_[static_cast<std::size_t>(one.row())] != A_0_.place[static_cast<std::size_t>(other.row())] ||
+          one.value() != other.value())
+        return false;
+    }
+  }
+
+ private:
+  static constexpr int outside = -2;  // rows that are not of the part
+  const PrincipalPart &A_, &A_0_;
+  const std::vector<int>& same_;
+  std::vector<int> there_;  // of every row of A that unknown of A_0 which may be the same one, or -1
+};
 
 /// Unknowns by their numbers, and the other way round.
 struct Numbered {
@@ -239,11 +262,10 @@ std::unique_ptr<SparseFactor> factor_by_changes(const PrincipalPart& A, const Fa
   for (const int j : near) is_near[static_cast<std::size_t>(j)] = 1;
   std::vector<int> far;
   Numbered changed = none_of(A.size());
+  const SameColumns columns(A, before.A, same);
   for (int j = 0; j < A.size(); ++j) {
     const auto unknown = static_cast<std::size_t>(j);
-    const bool is_far =
-        is_near[unknown] == 0 && same[unknown] >= 0 && is_same_column(A, j, before.A, same[unknown], same);
-    if (is_far)
+    if (is_near[unknown] == 0 && columns.is_same(j))
       far.push_back(j);
     else
       changed.add(j);

@@ -228,6 +228,7 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
     longer = *from_;
   } else if (state.p.size() == 0 && is_at_rest(prepared, factors_at(model(), 0.0))) {
     longer = times(last_->load_factor / now.at.load_factor, state);
+    longer.factors = last_->factors;
   } else {
     Reached reached = reach_from_rest(prepared, last_->factors, options_);
     if (!reached.reason.empty()) return {};
