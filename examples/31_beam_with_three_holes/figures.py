@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""The beam with three holes: the paths of both notches over the cells of the last mesh, and the load that each crack needs."""
+"""The beam with three holes: the paths of three notches over the cells of the last mesh, beside points of plain finite elements, and the load that each
+crack needs."""
+import json
 import pathlib
 import sys
 
@@ -9,6 +11,7 @@ from pictures import np, plt
 
 HERE = pathlib.Path(__file__).resolve().parent
 NOTCHES = ((6, 1.0), (5, 1.5), (4.97, 1.5))  # from the middle, deep
+CHECK = {notch["from_middle"]: notch for notch in json.loads((HERE / "check.json").read_text(encoding="utf-8"))["notches"]}
 HOLES = {"low": 2.75, "middle": 4.75, "high": 6.75}
 
 
@@ -25,6 +28,9 @@ def main():
               f"passes the low hole at {distances['low']:.3f}; {summary['growth']['ended']}")
         pictures.draw_cells(axis, directory, linewidths=0.3)
         axis.plot(*path.T, "o-", color=colour, ms=2, lw=1.3)
+        if "by_triangles" in CHECK[middle]:
+            axis.plot(*np.array(CHECK[middle]["by_triangles"]).T, "s", color="k", mfc="none", ms=5, label="plain finite elements")
+            axis.legend(loc="upper left", fontsize=7)
         axis.set(xlim=(-7, -2), ylim=(0, 8), aspect="equal", xlabel="x (in)", ylabel="y (in)", title=f"notch {deep:g} deep, {middle} from the middle")
         axes[3].plot(table["length"], table["load_factor"], dashes, color=colour, marker="o", ms=2.5, label=f"{middle} from the middle")
     axes[3].set(xlabel="length of the crack (in)", ylabel="load (lb)", title="load at which it grows", ylim=(0, None))

@@ -30,8 +30,11 @@ class BeamWithThreeHoles(support.InTemporaryDirectory):
             self.assertIn(f"meets {notch['meets']}", summary["growth"]["ended"])
             tip = summary["increments"][10]["growth"]["tips"]["beam.notch.end"]["position"]
             self.assertLess(math.dist(tip, notch["tip"]), notch["tolerance"])
+            path = summary["growth"]["paths"]["beam.notch"]
+            for point in notch.get("by_triangles", ()):
+                self.assertLess(distance(path, point), notch["within"])
             low, high = notch["passes_low_at"]
-            passes = distance(summary["growth"]["paths"]["beam.notch"], (-4.0, 2.75)) - 0.25
+            passes = distance(path, (-4.0, 2.75)) - 0.25
             self.assertTrue(low < passes < high, passes)
 
 

@@ -288,10 +288,12 @@ TEST(Growth, TurnedByNinetyDegreesThePathIsTheSame) {
     EXPECT_NEAR((other[k] - Vec2(-path[k].y(), path[k].x())).norm(), 0.0, 1e-6);
 }
 
-// Within a tenth of a step.
+// Within a tenth of a step; polygons also turned.
 TEST(Growth, ByPolygonsOrFinerOrWithHalfTheStepThePathIsTheSame) {
   const Vec2 end = inclined_for_a_quarter("kind: quadtree, size: 0.125", 0.125).back();
   EXPECT_NEAR((inclined_for_a_quarter("kind: polygons, size: 0.125", 0.125).back() - end).norm(), 0.0, 0.0125);
+  const Vec2 turned = inclined_for_a_quarter("kind: polygons, size: 0.125", 0.125, true).back();
+  EXPECT_NEAR((turned - Vec2(-end.y(), end.x())).norm(), 0.0, 0.0125);
   EXPECT_NEAR((inclined_for_a_quarter("kind: quadtree, size: 0.0625", 0.125).back() - end).norm(), 0.0, 0.0125);
   EXPECT_NEAR((inclined_for_a_quarter("kind: quadtree, size: 0.125", 0.0625).back() - end).norm(), 0.0, 0.0125);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scabo/geometry/plane/foot_points.hpp"
 #include "scabo/model/checking.hpp"
 
 namespace scabo::model {
@@ -193,9 +194,27 @@ void check_distance(Checking& checking, const std::string& path, const GrowthSte
                             "faces out");
 }
 
+/// The place that a tip is to reach: within half a step of a body.
+void check_place(Checking& checking, const std::string& path, const GrowthStep& growth) {
+  if (!checking.vector(path, "until.tip", *growth.tip)) return;
+  const std::vector<char> bodies = bodies_of(checking.model, growth);
+  std::string names;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]) continue;
+    const Body& body = checking.model.bodies[b];
+    if (!checking.sound_shape(static_cast<int>(b)) || geometry::encloses(body.outline, *growth.tip) ||
+        geometry::distance_to(body.outline, *growth.tip) <= 0.5 * growth.step)
+      return;
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", body.name);
+  }
+  if (!names.empty())
+    checking.error(path, "until.tip",
+                   fmt::format("{} lies outside of {}, where cracks grow", point_text(*growth.tip), names));
+}
+
 /// Limits of growth, and what is left until them.
 void check_until(Checking& checking, const std::string& path, const GrowthStep& growth) {
-  if (growth.tip) checking.vector(path, "until.tip", *growth.tip);
+  if (growth.tip) check_place(checking, path, growth);
   if (growth.load_factor) checking.positive(path, "until.load_factor", *growth.load_factor);
   if (growth.steps) checking.whole(path, "until.steps", *growth.steps, limits::growth_steps);
   if (!growth.length || !checking.positive(path, "until.length", *growth.length)) return;
@@ -215,17 +234,18 @@ void check_until(Checking& checking, const std::string& path, const GrowthStep& 
     }
 }
 
-/// Cells at tips are half a step.
-void check_shortest(Checking& checking, const std::string& path, const GrowthStep& growth) {
+/// Cells at tips are half a step, and a step ends within its body.
+void check_step(Checking& checking, const std::string& path, const GrowthStep& growth) {
   constexpr double shortest = 1e-6;  // of the body
   for (std::size_t b = 0; b < checking.model.bodies.size(); ++b) {
     const Body& body = checking.model.bodies[b];
     if (body.cracks.empty() || !checking.sound_shape(static_cast<int>(b))) continue;
     const double size = geometry::outline_size(body.outline);
-    if (growth.step >= shortest * size) continue;
-    checking.error(
-        path, "step",
-        fmt::format("must be at least {:.0e} of the size of body '{}', which is {:.3g}", shortest, body.name, size));
+    if (growth.step >= shortest * size && growth.step <= size) continue;
+    const std::string of_body = fmt::format("the size of body '{}', which is {:.3g}", body.name, size);
+    checking.error(path, "step",
+                   growth.step > size ? "is longer than " + of_body
+                                      : fmt::format("must be at least {:.0e} of {}", shortest, of_body));
     return;
   }
 }
@@ -292,7 +312,7 @@ void check_growth_steps(Checking& checking) {
     if (growth.K_Ic) check_toughness(checking, path, "toughness.K_Ic", growth, *growth.K_Ic);
     check_apart(checking, path, growth);
     if (growth.G_c) check_toughness(checking, path, "toughness.G_c", growth, *growth.G_c);
-    if (checking.positive(path, "step", growth.step)) check_shortest(checking, path, growth);
+    if (checking.positive(path, "step", growth.step)) check_step(checking, path, growth);
     if (!check_names(checking, path, growth)) continue;
     if (growth.cycles)
       check_cycles(checking, path, step);

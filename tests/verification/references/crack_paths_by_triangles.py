@@ -5,9 +5,11 @@ the whole step. Faces of cracks do not touch.
 
     OPENBLAS_NUM_THREADS=1 crack_paths_by_triangles.py three_holes [--from-middle 5] [--deep 1.5] [--radius 0.25] [--step 0.05] [--until 4]
     OPENBLAS_NUM_THREADS=1 crack_paths_by_triangles.py in_shear --step 10 --size 20 --until 300
+    OPENBLAS_NUM_THREADS=1 crack_paths_by_triangles.py two_notches --step 10 --size 20 --until 160
 
 prints length, tip, K_I and K_II, and the least distance of the path from the edge of the low hole. three_holes: Bittencourt and others 1996, under a unit
-force; in_shear: Arrea and Ingraffea 1982, the beam of benchmarks/growth/courses.py. Needs gmsh, numpy and scipy.
+force; in_shear and two_notches: beams of benchmarks/growth/courses.py after Arrea and Ingraffea 1982 and Bocca and others 1991. Needs gmsh, numpy and
+scipy.
 """
 import argparse
 import math
@@ -23,9 +25,17 @@ PLANE_STRESS = True
 
 
 class Beam:
-    """Outline counter-clockwise from the left lower corner, on whose lower edge the crack begins, with holes, point loads and what is held."""
-    def __init__(self, corners, notch, loads, held, poisson, holes=(), radius=0.0):
+    """Outline counter-clockwise from the left lower corner, on whose lower edge the crack begins, with holes, point loads and what is held. `middle`: of a
+    body with a second crack, which is the first one turned about this point by half a turn."""
+    def __init__(self, corners, notch, loads, held, poisson, holes=(), radius=0.0, middle=None):
         self.corners, self.notch, self.loads, self.held, self.poisson, self.holes, self.radius = corners, notch, loads, held, poisson, holes, radius
+        self.middle = middle
+
+    def paths(self, path):
+        return [path] if self.middle is None else [path, [2 * np.array(self.middle) - x for x in path]]
+
+    def height(self):
+        return self.corners[-1][1]
 
 
 def three_holes(options):
@@ -39,22 +49,27 @@ def in_shear(_):
                 [((722, 306), -1.0), ((203, 306), -0.13)], [((600, 0), "xy"), ((1119, 0), "y")], 0.18)
 
 
+def two_notches(_):
+    return Beam([(0, 0), (320, 0), (400, 0), (780, 0), (800, 0), (800, 200), (480, 200), (400, 200), (20, 200), (0, 200)], [(400, 0), (400, 40)],
+                [((480, 200), -1.0), ((20, 200), -80 / 380)], [((320, 0), "xy"), ((780, 0), "y")], 0.18, middle=(400, 100))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("beam", choices=("three_holes", "in_shear"))
+    parser.add_argument("beam", choices=("three_holes", "in_shear", "two_notches"))
     for name, value in (("from-middle", 5.0), ("deep", 1.5), ("step", 0.05), ("size", 0.125), ("until", 4.0), ("radius", 0.25)):
         parser.add_argument(f"--{name}", type=float, default=value)
     options = parser.parse_args()
     beam = globals()[options.beam](options)
     path = [np.array(point, dtype=float) for point in beam.notch]
-    height, length = beam.corners[-1][1], np.linalg.norm(path[1] - path[0])
+    length = np.linalg.norm(path[1] - path[0])
     while length < options.until + 1e-9:
         K = factors(beam, path, options)
         print(f"{length:.4f} {path[-1][0]:.5f} {path[-1][1]:.5f} {K[0]:.5f} {K[1]:+.5f}", flush=True)
         ahead = turned(path[-1] - path[-2], kink(K))
         middle = factors(beam, path + [path[-1] + 0.5 * options.step * ahead], options)
         tip = path[-1] + options.step * turned(ahead, kink(middle))
-        if any(np.linalg.norm(tip - hole) < beam.radius for hole in beam.holes) or tip[1] > height - options.step:
+        if any(np.linalg.norm(tip - hole) < beam.radius for hole in beam.holes) or tip[1] > beam.height() - options.step:
             print("ends in a hole or at the upper edge")
             break
         path.append(tip)
@@ -85,9 +100,11 @@ def factors(beam, path, options):
     """K_I and K_II at the tip, for a thickness of 1."""
     last = np.linalg.norm(path[-1] - path[-2])
     gap = min((np.linalg.norm(path[-1] - hole) - beam.radius for hole in beam.holes), default=math.inf)
-    inner = 0.9 * min(last, options.step, 2.0 * gap, beam.corners[-1][1] - path[-1][1]) / 2.0  # of the disc, within the last, straight segment, and the body
-    nodes, triangles = opened(*mesh(beam, path, inner, options), path)
-    quarter_points(nodes, triangles, path[-1])
+    inner = 0.9 * min(last, options.step, 2.0 * gap, beam.height() - path[-1][1]) / 2.0  # of the disc, within the last, straight segment, and the body
+    nodes, triangles, cracks = mesh(beam, path, inner, options)
+    for crack, of_crack in zip(cracks, beam.paths(path)):
+        nodes, triangles = opened(nodes, triangles, crack, of_crack)
+        quarter_points(nodes, triangles, of_crack[-1])
     return interaction(beam, nodes, triangles, displacements(beam, nodes, triangles), path, inner)
 
 
@@ -109,20 +126,23 @@ class Geometry:
 
 
 def mesh(beam, path, inner, options):
-    """Nodes, quadratic triangles and the edges of the crack, which is a line inside."""
+    """Nodes, quadratic triangles and the edges of each crack, which is a line inside."""
     geometry, listed = Geometry(), lambda numbers: ", ".join(map(str, numbers))
     corners = [geometry.point(*x) for x in beam.corners]
-    crack = [corners[[tuple(x) for x in beam.corners].index(tuple(beam.notch[0]))]] + [geometry.point(*x) for x in path[1:]]
-    loops = [geometry.loop("Line", corners)]
-    of_crack = [geometry.curve("Line", a, b) for a, b in zip(crack, crack[1:])]
+    loops, cracks, tips = [geometry.loop("Line", corners)], [], []
+    for points in beam.paths(path):
+        crack = [corners[beam.corners.index(tuple(points[0]))]] + [geometry.point(*x) for x in points[1:]]
+        cracks.append([geometry.curve("Line", a, b) for a, b in zip(crack, crack[1:])])
+        tips.append(crack[-1])
+    of_crack = sum(cracks, [])
     for x, y in beam.holes:
         around = [geometry.point(x + beam.radius * c, y + beam.radius * s) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
         loops.append(geometry.loop("Circle", around, (geometry.point(x, y),)))
-    loaded = [corners[[tuple(x) for x in beam.corners].index(x)] for x, _ in [*beam.loads, *beam.held]]
+    loaded = [corners[beam.corners.index(x)] for x, _ in [*beam.loads, *beam.held]]
     text = geometry.points + geometry.curves
     text += [f"Curve Loop({k + 1}) = {{{listed(loop)}}};" for k, loop in enumerate(loops)]
     text += [f"Plane Surface(1) = {{{listed(range(1, len(loops) + 1))}}};", f"Curve{{{listed(of_crack)}}} In Surface{{1}};"]
-    near = {1: (f"PointsList = {{{crack[-1]}}}", inner / 5.0, 0.18), 2: (f"CurvesList = {{{listed(of_crack)}}}", min(options.size / 2, options.step), 0.2),
+    near = {1: (f"PointsList = {{{listed(tips)}}}", inner / 5.0, 0.18), 2: (f"CurvesList = {{{listed(of_crack)}}}", min(options.size / 2, options.step), 0.2),
             3: (f"PointsList = {{{listed(loaded)}}}", options.size / 2, 0.3)}
     if beam.holes:
         near[4] = (f"CurvesList = {{{listed(c for loop in loops[1:] for c in loop)}}}", min(options.size / 2, beam.radius / 4), 0.2)
@@ -131,7 +151,8 @@ def mesh(beam, path, inner, options):
                  f'Field[{2 * k + 1}].F = "{size:.8g} + {growth} * F{2 * k}";']
     text += ["Field[20] = MathEval;", f'Field[20].F = "{4 * options.size:.8g}";', "Field[21] = Min;", f"Field[21].FieldsList = {{20, {listed(2 * k + 1 for k in near)}}};",
              "Background Field = 21;", "Mesh.CharacteristicLengthExtendFromBoundary = 0;", "Mesh.CharacteristicLengthFromPoints = 0;", "Mesh.ElementOrder = 2;",
-             "Mesh.MshFileVersion = 2.2;", "Physical Surface(1) = {1};", f"Physical Curve(2) = {{{listed(of_crack)}}};"]
+             "Mesh.MshFileVersion = 2.2;", "Physical Surface(1) = {1};"]
+    text += [f"Physical Curve({k + 2}) = {{{listed(curves)}}};" for k, curves in enumerate(cracks)]
     with tempfile.TemporaryDirectory() as directory:
         written, result = pathlib.Path(directory) / "beam.geo", pathlib.Path(directory) / "beam.msh"
         written.write_text("\n".join(text), encoding="utf-8")
@@ -146,17 +167,17 @@ def read(text):
     number = {row[0]: k for k, row in enumerate(rows)}
     nodes = np.array([[float(row[1]), float(row[2])] for row in rows])
     start = text.index("$Elements")
-    triangles, crack = [], []
+    triangles, cracks = [], {}
     for row in (text[start + 2 + k].split() for k in range(int(text[start + 1]))):
         ends = [number[n] for n in row[3 + int(row[2]):]]
         if row[1] == "9":
             triangles.append(ends)
         elif row[1] == "8":
-            crack.append(frozenset(ends[:2]))
+            cracks.setdefault(row[3], []).append(ends[:2])
     used = np.unique(np.array(triangles))
     place = np.full(count, -1)
     place[used] = np.arange(len(used))
-    return nodes[used], place[np.array(triangles)], {frozenset(int(place[n]) for n in edge) for edge in crack}
+    return nodes[used], place[np.array(triangles)], [{frozenset(int(place[n]) for n in edge) for edge in crack} for _, crack in sorted(cracks.items())]
 
 
 def opened(nodes, triangles, crack, path):
