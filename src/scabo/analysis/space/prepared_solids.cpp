@@ -3,8 +3,10 @@
 #include <cmath>
 #include <memory>
 
+#include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/loads.hpp"
+#include "scabo/contact/laws/two_sided.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
@@ -23,6 +25,14 @@ bool has_pairs_on_first(const SolidModel& model, const SolidContact& contact, co
   const bool rigid_a = body_of(model, contact.a).rigid_at.has_value(),
              rigid_b = body_of(model, contact.b).rigid_at.has_value();
   return rigid_a == rigid_b ? !mesh::has_pairs_on_second(a, b) : rigid_b;
+}
+
+/// Tangents along and across the direction of friction axes. The cone of friction becomes round where the tangent
+/// across is scaled by the ratio of the coefficients: forces along it are divided by that, motions multiplied.
+void take_axes(const model::SpaceFrictionAxes& axes, double friction, system::PairPoints::Directions& directions) {
+  const Eigen::Vector3d n = directions.col(0);
+  directions.col(1) = (axes.direction - n.dot(axes.direction) * n).normalized();
+  directions.col(2) = axes.across / friction * n.cross(Eigen::Vector3d(directions.col(1)));
 }
 
 /// Resultants of the loads on a part along its free motions; what is rounding of their sum is 0.
@@ -55,6 +65,7 @@ PairedFaces paired_faces(const SolidModel& model) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       system::PairPoints& points = of_contact[i];
       points.gap += contact.gap;
+      if (contact.friction_axes) take_axes(*contact.friction_axes, contact.law.friction, points.directions);
       if (contact.law.modulus) points.softness = 1.0 / (*contact.law.modulus * found[i].area);
       paired.points.push_back(std::move(points));
     }
@@ -101,9 +112,20 @@ PreparedSolids prepared_solids(const SolidModel& model, int threads) {
         body.rigid_at ? system::rigid_solid(body.mesh.nodes, *body.rigid_at, body.supports, springs[b])
                       : std::move(*next++));
   }
-  prepared.contact = system::condense(prepared.structure, prepared.paired.points, prepared.paired.laws, threads);
-  for (system::ContactSystem::Pair& pair : prepared.contact.pairs)
-    pair.contact = prepared.paired.pairs[static_cast<std::size_t>(pair.index)].contact;
+  std::vector<system::PairPoints> points = prepared.paired.points;
+  contact::JointLaws laws = prepared.paired.laws;
+  for (const SolidBar& bar : model.bars) {
+    points.push_back(points_of(bar));
+    laws.of_pair.push_back(std::make_shared<contact::TwoSided>());
+  }
+  laws.area.conservativeResize(static_cast<Eigen::Index>(points.size()));
+  laws.area.tail(static_cast<Eigen::Index>(model.bars.size())).setOnes();
+  prepared.contact = system::condense(prepared.structure, points, laws, threads);
+  const std::size_t of_contacts = prepared.paired.pairs.size();
+  for (system::ContactSystem::Pair& pair : prepared.contact.pairs) {
+    const auto i = static_cast<std::size_t>(pair.index);
+    pair.contact = i < of_contacts ? prepared.paired.pairs[i].contact : -1;
+  }
   return prepared;
 }
 
@@ -116,10 +138,13 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
   const SolidModel& model = prepared.model;
   AppliedToSolids applied;
   applied.shortening = std::move(shortening);
+  std::vector<Vector> pulls;
+  for (const SolidBody& body : model.bodies) pulls.push_back(Vector::Zero(in_space.count(body.mesh.nodes.cols())));
+  for (std::size_t i = 0; i < model.bars.size(); ++i) model.bars[i].pull(given_tension(model, factors, i), pulls);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const SolidBody& body = model.bodies[b];
-    Vector forces = Vector::Zero(in_space.count(body.mesh.nodes.cols())), heated;
-    double sum = 0.0;
+    Vector forces = pulls[b], heated;
+    double sum = forces.lpNorm<1>();
     for (std::size_t load = 0; load < model.loads.size(); ++load) {
       const double factor = factors.loads[static_cast<Eigen::Index>(load)];
       if (model.loads[load][b].size() > 0) {
@@ -155,7 +180,7 @@ double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors
 }
 
 contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied,
-                                   const SolidFactors& factors, const Vector& slip,
+                                   const SolidFactors& factors, const Vector& slip, const Vector& of_pairs,
                                    const std::vector<std::size_t>& tightened) {
   const system::ContactSystem& system = prepared.contact;
   const Eigen::Index pairs = system.gap.size();
@@ -167,7 +192,8 @@ contact::Problem problem_of_solids(const PreparedSolids& prepared, const Applied
   problem.f = Vector::Zero(system.rigid_motions());
   for (Eigen::Index i = 0; i < pairs; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double gap = system.gap[i] < 0.0
+    const double gap = system.pairs[k].is_bar() ? -of_pairs[i]
+                       : system.gap[i] < 0.0
                            ? gap_of_solids(prepared, factors, static_cast<std::size_t>(system.pairs[k].index))
                            : system.gap[i];  // that of a pair that keeps its gap is 0
     problem.q.segment<3>(in_space.of(i)) << gap, -slip.segment<2>(2 * i);

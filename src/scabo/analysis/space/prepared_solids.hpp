@@ -20,9 +20,14 @@ struct PairedFaces {
 
 PairedFaces paired_faces(const SolidModel& model);
 
+/// The slip along the axes of a pair with these tangents, of which those of friction axes are not of length 1.
+inline Eigen::Vector3d slip_of_pair(const Eigen::Matrix3d& directions, const Eigen::Vector2d& along) {
+  return directions.col(1) * along[0] + directions.col(2) * (along[1] / directions.col(2).squaredNorm());
+}
+
 element::Mat6 elasticity_of(const SolidBody& body);
 
-/// What stays over all increments.
+/// What stays over all increments. Pairs of bars come after those of all contacts.
 struct PreparedSolids {
   const SolidModel& model;
   PairedFaces paired;
@@ -49,9 +54,10 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
 double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t i);
 
 /// The contact problem of the pairs that move, its laws not yet included; `slip`: (d - 1) numbers of each so far;
+/// `gap`: of bars the elongation at which they were tightened;
 /// `tightened`: preloads whose shortenings are unknowns too.
 contact::Problem problem_of_solids(const PreparedSolids& prepared, const AppliedToSolids& applied,
-                                   const SolidFactors& factors, const Vector& slip,
+                                   const SolidFactors& factors, const Vector& slip, const Vector& gap,
                                    const std::vector<std::size_t>& tightened);
 
 /// What the parts do under loads, contact forces and rigid motions.

@@ -9,6 +9,7 @@
 #include "scabo/analysis/quasistatic/branch.hpp"
 #include "scabo/analysis/space/prepared_solids.hpp"
 #include "scabo/analysis/space/smallest_motions.hpp"
+#include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/friction_work.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
@@ -54,12 +55,13 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const SolidSt
   std::vector<SolidPair> pairs = paired.pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap = paired.points[i].gap;
   for (std::size_t k = 0; k < prepared.contact.pairs.size(); ++k) {
+    if (prepared.contact.pairs[k].is_bar()) break;  // after those of all contacts
     const auto row = static_cast<Eigen::Index>(k);
     const auto i = static_cast<std::size_t>(prepared.contact.pairs[k].index);
     const Eigen::Matrix3d directions = paired.points[i].directions;
     const double sense = paired.turned[i] ? -1.0 : 1.0;
     pairs[i].force = sense * (directions * state.p.segment<3>(in_space.of(row)));
-    pairs[i].slip = sense * (directions.rightCols<2>() * state.slip.segment<2>(2 * row));
+    pairs[i].slip = sense * slip_of_pair(directions, state.slip.segment<2>(2 * row));
     pairs[i].gap = state.gap[row];
     pairs[i].state = state.states[k];
     pairs[i].broken = state.history[k].broken;
@@ -119,6 +121,7 @@ FrictionWork friction_work_of_solids(const PreparedSolids& prepared, const Solid
   const contact::JointLaws before = laws_of_solids(prepared, from.factors),
                            after = laws_of_solids(prepared, to.factors);
   for (std::size_t k = 0; k < prepared.contact.pairs.size(); ++k) {
+    if (prepared.contact.pairs[k].is_bar()) break;
     const auto row = static_cast<Eigen::Index>(k);
     const Eigen::Index at = in_space.of(row);
     add_friction_work(
@@ -207,6 +210,8 @@ class SolidMarch {
   /// The solution of the contact problem; `to` has what it says of it.
   contact::Evolution solved(const AppliedToSolids& applied, const SolidFactors& factors,
                             const std::vector<std::size_t>& tightened, SolidIncrement& to) const;
+  /// Tensions of all bars; of those that waited the elongation is kept, from which their stiffness counts.
+  std::vector<double> keep_bars(SolidState& reached, const std::vector<Vector>& u) const;
 
   PreparedSolids prepared_;
   contact::SolverOptions solver_;
@@ -234,11 +239,21 @@ contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const Soli
   start.a.conservativeResize(motions + static_cast<Eigen::Index>(tightened.size()));
   for (std::size_t k = 0; k < tightened.size(); ++k)
     start.a[motions + static_cast<Eigen::Index>(k)] = state_.shortening[static_cast<Eigen::Index>(tightened[k])];
-  const contact::Problem problem = problem_of_solids(prepared_, applied, factors, state_.slip, tightened);
-  const contact::JointLaws laws = laws_of_solids(prepared_, factors);
-  contact::Evolution evolution = contact::evolve(problem, laws, state_.history, start, solver_);
-  if (uniqueness_ && !prepared_.contact.pairs.empty())
-    to.uniqueness = follow_history(problem, laws, state_.history, start, solver_, evolution);
+  contact::Problem problem = problem_of_solids(prepared_, applied, factors, state_.slip, state_.gap, tightened);
+  contact::JointLaws laws = laws_of_solids(prepared_, factors);
+  contact::History history = state_.history;
+  const std::vector<char> waiting = waiting_bars(prepared_.model, state_.factors);
+  const bool waits = std::find(waiting.begin(), waiting.end(), char{1}) != waiting.end();
+  const WithoutWaiting without(prepared_.contact.pairs, prepared_.paired.pairs.size(), waiting);
+  if (waits) {
+    problem = without.of(problem);
+    laws = without.of(laws);
+    history = without.of(history);
+    start.p = without.of(start.p);
+  }
+  contact::Evolution evolution = contact::evolve(problem, laws, history, start, solver_);
+  if (uniqueness_ && problem.q.size() > 0)
+    to.uniqueness = follow_history(problem, laws, history, start, solver_, evolution);
   if (tightened.empty()) give_smallest_motions(applied, evolution.problem, start, evolution.solution);
   const contact::Solution& solution = evolution.solution;
   to.factors = factors;
@@ -247,7 +262,23 @@ contact::Evolution SolidMarch::solved(const AppliedToSolids& applied, const Soli
   if (solution.status == contact::Status::mechanism || solution.status == contact::Status::collapse)
     to.mechanism = solid_mechanism(moving(tightened), evolution.problem, solution);
   to.reason = reason_of_solids(prepared_.model, solution, to.mechanism);
+  if (waits && to.status == contact::Status::solved) without.put_back(state_.history, evolution);
   return evolution;
+}
+
+std::vector<double> SolidMarch::keep_bars(SolidState& reached, const std::vector<Vector>& u) const {
+  const SolidModel& model = prepared_.model;
+  const std::vector<char> waiting = waiting_bars(model, state_.factors);
+  std::vector<double> tensions(model.bars.size());
+  for (std::size_t k = 0; k < prepared_.contact.pairs.size(); ++k) {
+    const system::ContactSystem::Pair& pair = prepared_.contact.pairs[k];
+    if (!pair.is_bar()) continue;
+    const auto row = static_cast<Eigen::Index>(k);
+    const std::size_t bar = static_cast<std::size_t>(pair.index) - prepared_.paired.pairs.size();
+    tensions[bar] = given_tension(model, reached.factors, bar) - reached.p[in_space.of(row)];
+    reached.gap[row] = waiting[bar] ? elongation(model.bars[bar], u) : state_.gap[row];
+  }
+  return tensions;
 }
 
 SolidIncrement SolidMarch::next(const SolidFactors& factors) {
@@ -281,6 +312,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   to.springs = spring_resultants_of_solids(model, factors, moved.u);
   SolidState reached{factors,         state_.slip + solution.slip_increment, solution.gap, solution.p, a, shortening,
                      solution.states, std::move(evolution.history),          largest,      {}};
+  to.bars = keep_bars(reached, moved.u);
   to.energy = reached.energy = energy_of_solids(prepared_, state_, before_, reached, moved);
   to.pairs = solid_pairs(prepared_, reached);
   to.moments_of_sides = moments_of_sides(prepared_, to.pairs);

@@ -16,6 +16,7 @@ void exchange_solid_checkpoint(Io& io, SolidCheckpoint& of) {
   exchange_vector(io, "space/factors/coefficients", state.factors.coefficients);
   exchange_vector(io, "space/factors/fits", state.factors.fits);
   exchange_vector(io, "space/factors/tightened", state.factors.tightened);
+  exchange_vector(io, "space/factors/bars", state.factors.bars);
   exchange_vector(io, "space/shortening", state.shortening);
   exchange_vector(io, "space/slip", state.slip);
   exchange_vector(io, "space/gap", state.gap);

@@ -50,9 +50,9 @@ void SpaceReader::material(const Entry& entry) {
 SpaceModel SpaceReader::read(const Value& root) {
   root_ = root;
   const MapReader map(report_, root,
-                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs",
+                      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "bars",
                        "loads", "contact_properties", "contacts", "ties", "curves", "steps", "solver", "output"},
-                      "'scabo: 1' and sections", only_in_the_plane({"bars", "tolerance", "restart", "initial"}));
+                      "'scabo: 1' and sections", only_in_the_plane({"tolerance", "restart", "initial"}));
   if (const auto version = map.need("scabo"); version && number(version, 1.0) != 1.0)
     report_.error(*version, fmt::format("this program reads format version 1, not {}", version->node->text));
   if (const auto title = map.get("title")) model_.title = read_text(report_, *title).value_or("");
@@ -66,14 +66,18 @@ SpaceModel SpaceReader::read(const Value& root) {
          read_named(report_, *value, "bodies", "{block: {material: steel, mesh: {file: block.inp}}}"))
       body(entry);
   if (const auto value = map.get("bodies");
-      value && (value->node->kind == Node::Kind::null ||
-                (value->node->kind == Node::Kind::map && value->node->entries.empty())))
+      value &&
+      (value->node->kind == Node::Kind::null || (value->node->kind == Node::Kind::map && value->node->entries.empty())))
     report_.error(*value, "contains no body: define at least one");
   if (const auto value = map.get("supports"))
     for (const Value& item :
          read_list(report_, *value, "[{on: block.bottom, fix: [x, y, z]}]").value_or(std::vector<Value>{}))
       support(item);
   if (const auto value = map.get("springs")) springs(*value);
+  if (const auto value = map.get("bars"))
+    for (const Entry& entry :
+         read_named(report_, *value, "bars", "{hanger: {between: [deck.left, [0, 0, 9]], k: 2e6}}"))
+      bar(entry);
   if (const auto value = map.get("loads"))
     for (const Entry& entry : read_named(report_, *value, "loads", "{press: {on: block.top, pressure: 1e6}}"))
       load(entry);
