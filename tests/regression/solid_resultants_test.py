@@ -150,7 +150,7 @@ output: {history: {half: {face: block.HALF}}}
         for command in ("check", "run"):
             done = scabo(command, self.directory / "model.yaml")
             self.assertEqual(done.returncode, 1)
-            self.assertIn("model.yaml:7:33: output.history.half.face: 'block.HALF' has some of the sides of 'block.TOP', where load 'press' acts, and not all of them: "
+            self.assertIn("model.yaml:7:33: output.history.half.face: 'block.HALF' has some of the sides on which load 'press' acts, and not all of them: "
                           "name a face that has all or none", done.stderr)
 
     def test_points(self):

@@ -135,8 +135,11 @@ struct SpaceBar {
   std::optional<double> stiffness;  ///< force / length, > 0; none: that of area, young and length
   double area = 0.0, young = 0.0;   ///< length^2, force / length^2, > 0
   double preload = 0.0;  ///< tension at the end of the step in which it is tightened; 0: it acts from the start
-  int tightened = 0;     ///< index of that step
+  int tightened = 0;     ///< index of that step; negative: of the run from which this one starts
   Source source;
+
+  /// Its name at the end of a run, where bolts are by the names of their bodies.
+  std::string name_at_end() const { return "bar " + name; }
 };
 
 /// Coefficients of friction that differ along two directions of the faces.

@@ -64,6 +64,10 @@ void FaceActions::add_springs(std::size_t springs, Share share) {
 
 void FaceActions::add_contact(std::size_t contact, bool on_b) { contacts_.emplace_back(contact, on_b); }
 
+void FaceActions::add_bar(std::size_t bar, bool on_b, Share share) {
+  if (share.all || !share.nodes.empty()) bars_.push_back({bar, on_b, std::move(share)});
+}
+
 FaceResultant FaceActions::resultant(const SolidModel& model, const SolidIncrement& increment) const {
   const auto b = static_cast<std::size_t>(body_);
   const mesh::SolidMesh& mesh = model.bodies[b].mesh;
@@ -87,6 +91,13 @@ FaceResultant FaceActions::resultant(const SolidModel& model, const SolidIncreme
     for (const SolidPair& pair : increment.pairs)
       if (pair.contact == static_cast<int>(contact)) sum.force += (on_b ? 1.0 : -1.0) * pair.force;
     sum.moment += increment.moments_of_sides[contact][on_b ? 1 : 0];
+  }
+  for (const auto& [number, on_b, share] : bars_) {
+    const SolidBar& bar = model.bars[number];
+    const Eigen::Vector3d pull = (on_b ? -1.0 : 1.0) * increment.bars[number] * bar.direction;
+    const std::set<int> counts(share.nodes.begin(), share.nodes.end());
+    for (const system::PairSide::Node& node : (on_b ? bar.b : bar.a).nodes)
+      if (share.all || counts.count(node.node) > 0) sum.add(mesh.nodes.col(node.node), node.weight * pull);
   }
   sum.moment -= about_.cross(sum.force);
   return sum;

@@ -48,6 +48,7 @@ class FaceActions {
   void add_reactions(const std::vector<system::Constraint>& constraints, int support, const Share& share);
   void add_springs(std::size_t springs, Share share);
   void add_contact(std::size_t contact, bool on_b);
+  void add_bar(std::size_t bar, bool on_b, Share share);
 
   FaceResultant resultant(const SolidModel& model, const SolidIncrement& increment) const;
 
@@ -60,6 +61,12 @@ class FaceActions {
   std::vector<std::size_t> constraints_;                      // of the body
   std::vector<std::pair<std::size_t, Share>> springs_;
   std::vector<std::pair<std::size_t, bool>> contacts_;  // and whether it is side b
+  struct EndOfBar {
+    std::size_t bar;
+    bool on_b;
+    Share share;
+  };
+  std::vector<EndOfBar> bars_;
 };
 
 }  // namespace scabo::analysis

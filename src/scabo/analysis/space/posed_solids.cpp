@@ -11,12 +11,12 @@
 #include <set>
 #include <tuple>
 
+#include "scabo/analysis/space/body_mesh.hpp"
+#include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_factors.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
-#include "scabo/mesh/extruded_solid.hpp"
 #include "scabo/mesh/space/imported_solid.hpp"
 #include "scabo/mesh/space/shaped_solid.hpp"
-#include "scabo/model/limits.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_part.hpp"
 
@@ -50,6 +50,8 @@ class Posing {
   void add_preload(std::size_t body);
   SolidPlaceOfAction place_of_action(const model::SpaceFace& on);
   void add_resultant(const model::SpaceFaceResultant& of);
+  SolidPlaceOfAction place_of_action(const model::SpaceBar::End& end);
+  void add_bar(const model::SpaceBar& bar);
   SolidBody& body(int index) { return posed_.model.bodies[static_cast<std::size_t>(index)]; }
 
   const model::SpaceModel& model_;
@@ -62,56 +64,10 @@ class Posing {
   std::vector<Diagnostic> mistakes_;
 };
 
-namespace {
-
-/// Why a cell has no stiffness, if there is one.
-std::optional<std::string> wrong_cell(const model::SpaceBody& of, const mesh::SolidMesh& mesh) {
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const double least = element::least_of_cell(mesh::nodes_of(mesh, mesh.cells[c]));
-    if (least > 0.0) continue;
-    if (!of.mesh || of.made_of_shape) return "its curved face folds elements of this size: give it a smaller 'size'";
-    if (mesh::is_super_element(mesh.cells[c].size()))
-      return fmt::format(
-          "element {} of its mesh file is so distorted that a part of its sides cannot be seen from its "
-          "middle: correct its nodes, or leave out 'kind'",
-          of.mesh->cells[c].number);
-    return fmt::format(
-        "element {} of its mesh file has a Jacobian of {:.3g}, which must be positive everywhere: "
-        "correct its nodes",
-        of.mesh->cells[c].number, least);
-  }
-  const auto cells = of.mesh && !of.made_of_shape ? mesh::overlapping_cells(mesh) : std::nullopt;
-  if (!cells) return {};
-  return fmt::format(
-      "elements {} and {} of its mesh file lie on the same side of a face that both have: leave one of them out",
-      of.mesh->cells[static_cast<std::size_t>((*cells)[0])].number,
-      of.mesh->cells[static_cast<std::size_t>((*cells)[1])].number);
-}
-
-}  // namespace
-
 void Posing::add_body(const model::SpaceBody& of) {
-  mesh::ShapedSolid shaped;
-  if (of.shape) {
-    const auto* extrusion = std::get_if<model::SolidExtrusion>(&*of.shape);
-    const double nodes = extrusion ? mesh::count_nodes(*extrusion, of.sizes) : mesh::count_nodes(*of.shape, of.sizes);
-    if (nodes > model::limits::model_nodes) {
-      mistakes_.push_back({of.source, fmt::format("its mesh would have {:.2g} nodes, and at most {:.2g} are possible: "
-                                                  "give it a larger 'size'",
-                                                  nodes, model::limits::model_nodes)});
-      return;
-    }
-    if (extrusion) {
-      auto extruded = mesh::extruded_solid(*extrusion, of.sizes, model::limits::model_nodes);
-      if (const auto* wrong = std::get_if<Diagnostic>(&extruded))
-        return mistakes_.push_back({of.source, wrong->message});
-      shaped = std::get<mesh::ShapedSolid>(std::move(extruded));
-    } else {
-      shaped = mesh::solid_of_shape(*of.shape, of.sizes);
-    }
-  } else {
-    shaped.mesh = mesh::solid_mesh_of(*of.mesh);
-  }
+  auto made = mesh_of_body(of);
+  if (auto* mistake = std::get_if<std::string>(&made)) return mistakes_.push_back({of.source, std::move(*mistake)});
+  auto& shaped = std::get<mesh::ShapedSolid>(made);
   SolidBody body{std::move(shaped.mesh)};
   body.name = of.name;
   body.stay = of.stay;
@@ -391,6 +347,7 @@ void Posing::add_contact(const model::SpaceContact& contact) {
   posed.a = {contact.a.body, facets(contact.a)};
   posed.b = {contact.b.body, facets(contact.b)};
   posed.law = contact.law;
+  posed.friction_axes = contact.friction_axes;
   posed.gap = contact.gap;
   if (posed.a.facets.empty() || posed.b.facets.empty()) return;
   const mesh::Face a{body(contact.a.body).mesh, posed.a.facets}, b{body(contact.b.body).mesh, posed.b.facets};
@@ -401,6 +358,13 @@ void Posing::add_contact(const model::SpaceContact& contact) {
     mistakes_.push_back({contact.b.source, fmt::format("'{}' and '{}' have nothing in common, seen along their normal: "
                                                        "name faces that lie opposite each other",
                                                        contact.a.text, contact.b.text)});
+  if (contact.friction_axes)
+    for (const mesh::FacetPair& pair : mesh::facet_pairs(a, b))
+      if (pair.directions.col(0).cross(contact.friction_axes->direction).norm() < 0.1)
+        return mistakes_.push_back(
+            {contact.b.source, fmt::format("the 'direction' of the friction of contact '{}' is along the normal of its "
+                                           "faces at ({:.6g}, {:.6g}, {:.6g}): give one along the faces",
+                                           contact.name, pair.point.x(), pair.point.y(), pair.point.z())});
   posed_.model.contacts.push_back(std::move(posed));
 }
 
@@ -441,13 +405,13 @@ SolidPlaceOfAction Posing::place_of_action(const model::SpaceFace& on) {
 
 void Posing::add_resultant(const model::SpaceFaceResultant& of) {
   FaceActions on_face(of.on.body, facets(of.on), of.about);
-  const auto share_of = [&](const model::SpaceFace& on, const std::string& what) {
-    auto share = on_face.share_of(place_of_action(on));
+  const auto share_of = [&](const SolidPlaceOfAction& place, const std::string& what) {
+    auto share = on_face.share_of(place);
     if (!share)
       mistakes_.push_back(
-          {of.on.source, fmt::format("'{}' has some of the sides of '{}', where {} acts, and not all of "
-                                     "them: name a face that has all or none",
-                                     of.on.text, on.text, what)});
+          {of.on.source, fmt::format("'{}' has some of the sides on which {} acts, and not all of them: "
+                                     "name a face that has all or none",
+                                     of.on.text, what)});
     return share.value_or(FaceActions::Share());
   };
   const auto b = static_cast<std::size_t>(of.on.body);
@@ -455,21 +419,47 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
     const model::SpaceLoad& load = model_.loads[l];
     if (load.kind != model::SpaceLoad::Kind::gravity && load.kind != model::SpaceLoad::Kind::temperature)
       on_face.add_load(l, body(of.on.body).mesh, posed_.model.loads[l][b],
-                       share_of(load.on, fmt::format("load '{}'", load.name)));
+                       share_of(place_of_action(load.on), fmt::format("load '{}'", load.name)));
   }
   for (std::size_t s = 0; s < model_.supports.size(); ++s)
-    on_face.add_reactions(body(of.on.body).supports, static_cast<int>(s),
-                          share_of(model_.supports[s].on, fmt::format("support '{}'", model_.supports[s].name)));
+    on_face.add_reactions(
+        body(of.on.body).supports, static_cast<int>(s),
+        share_of(place_of_action(model_.supports[s].on), fmt::format("support '{}'", model_.supports[s].name)));
   for (std::size_t s = 0; s < model_.springs.size(); ++s)
-    on_face.add_springs(s, share_of(model_.springs[s].on, fmt::format("spring '{}'", model_.springs[s].name)));
+    on_face.add_springs(
+        s, share_of(place_of_action(model_.springs[s].on), fmt::format("spring '{}'", model_.springs[s].name)));
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
     for (const bool on_b : {false, true}) {
       const model::SpaceContact& contact = model_.contacts[c];
-      const auto share = share_of(on_b ? contact.b : contact.a,
+      const auto share = share_of(place_of_action(on_b ? contact.b : contact.a),
                                   fmt::format("{} '{}'", contact.tied ? "tie" : "contact", contact.name));
       if (share.all || !share.nodes.empty()) on_face.add_contact(c, on_b);
     }
+  for (std::size_t i = 0; i < model_.bars.size(); ++i)
+    for (const std::size_t end : {0, 1})
+      on_face.add_bar(
+          i, end == 1,
+          share_of(place_of_action(model_.bars[i].between[end]), fmt::format("bar '{}'", model_.bars[i].name)));
   posed_.resultants.push_back(std::move(on_face));
+}
+
+SolidPlaceOfAction Posing::place_of_action(const model::SpaceBar::End& end) {
+  if (!end.on && (end.body < 0 || body(end.body).rigid_at)) return {};
+  if (!end.on) return {end.body, {}, {node_nearest(body(end.body).mesh, end.at)}};
+  SolidPlaceOfAction place = place_of_action(*end.on);
+  if (!place.facets.empty()) place.nodes.clear();  // the mean of a set is that of its sides
+  return place;
+}
+
+void Posing::add_bar(const model::SpaceBar& bar) {
+  const auto end = [&](std::size_t k) {
+    return end_of_bar(posed_.model, bar.between[k], place_of_action(bar.between[k]));
+  };
+  auto made = bar_between(end(0), end(1), bar);
+  if (auto* mistake = std::get_if<std::string>(&made))
+    mistakes_.push_back({bar.source, std::move(*mistake)});
+  else
+    posed_.model.bars.push_back(std::get<SolidBar>(std::move(made)));
 }
 
 PosedSolids Posing::posed() {
@@ -481,7 +471,9 @@ PosedSolids Posing::posed() {
     for (const model::SpaceContact& contact : model_.contacts) add_contact(contact);
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       if (model_.bodies[b].preload) add_preload(b);
-    for (const model::SpaceFaceResultant& of : model_.resultants) add_resultant(of);
+    for (const model::SpaceBar& bar : model_.bars) add_bar(bar);
+    if (mistakes_.empty())
+      for (const model::SpaceFaceResultant& of : model_.resultants) add_resultant(of);
   }
   if (!mistakes_.empty()) throw InputError(model_.file, mistakes_);
   add_steps(model_, posed_);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/contact/laws/two_sided.hpp"
@@ -27,6 +28,14 @@ bool has_pairs_on_first(const SolidModel& model, const SolidContact& contact, co
   const bool rigid_a = body_of(model, contact.a).rigid_at.has_value(),
              rigid_b = body_of(model, contact.b).rigid_at.has_value();
   return rigid_a == rigid_b ? !mesh::has_pairs_on_second(a, b) : rigid_b;
+}
+
+/// Tangents along and across the direction of friction axes. The cone of friction becomes round where the tangent
+/// across is scaled by the ratio of the coefficients: forces along it are divided by that, motions multiplied.
+void take_axes(const model::SpaceFrictionAxes& axes, double friction, system::PairPoints::Directions& directions) {
+  const Eigen::Vector3d n = directions.col(0);
+  directions.col(1) = (axes.direction - n.dot(axes.direction) * n).normalized();
+  directions.col(2) = axes.across / friction * n.cross(Eigen::Vector3d(directions.col(1)));
 }
 
 /// Resultants of the loads on a part along its free motions; what is rounding of their sum is 0.
@@ -95,6 +104,7 @@ PairedFaces paired_faces(const SolidModel& model) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       system::PairPoints& points = of_contact[i];
       points.gap += contact.gap;
+      if (contact.friction_axes) take_axes(*contact.friction_axes, contact.law.friction, points.directions);
       if (contact.law.modulus) points.softness = 1.0 / (*contact.law.modulus * found[i].area);
       paired.points.push_back(std::move(points));
     }
@@ -114,6 +124,11 @@ PairedFaces paired_faces(const SolidModel& model) {
   }
   for (const SolidHeldPoint& point : model.held_points) {
     paired.points.push_back(points_of_held(model, point));
+    paired.laws.of_pair.push_back(std::make_shared<contact::TwoSided>());
+    areas.push_back(1.0);
+  }
+  for (const SolidBar& bar : model.bars) {
+    paired.points.push_back(points_of(bar));
     paired.laws.of_pair.push_back(std::make_shared<contact::TwoSided>());
     areas.push_back(1.0);
   }
@@ -173,8 +188,10 @@ void set_stage(PreparedSolids& prepared, int step) {
   const SolidModel& model = prepared.model;
   prepared.fewer.reset();
   prepared.absent = absent_in(model, step);
-  const auto waits = [&](const SolidHeldPoint& point) { return !point.stay.is_there(step); };
-  if (prepared.absent.empty() && std::none_of(model.held_points.begin(), model.held_points.end(), waits)) return;
+  const auto waits = [&](const auto& of) { return !of.stay.is_there(step); };
+  if (prepared.absent.empty() && std::none_of(model.held_points.begin(), model.held_points.end(), waits) &&
+      std::none_of(model.bars.begin(), model.bars.end(), waits))
+    return;
   std::vector<char> absent = prepared.absent;
   absent.resize(model.bodies.size(), 0);
   const auto has_side = [&](const system::PairSide& side) {
@@ -182,7 +199,8 @@ void set_stage(PreparedSolids& prepared, int step) {
   };
   prepared.fewer =
       system::with_pairs(prepared.whole, prepared.structure, absent, [&](const system::ContactSystem::Pair& pair) {
-        if (pair.is_bar() && waits(model.held_points[prepared.held_point(pair)])) return false;
+        if (prepared.is_held_point(pair) && waits(model.held_points[prepared.held_point(pair)])) return false;
+        if (prepared.is_bar(pair) && waits(model.bars[prepared.bar(pair)])) return false;
         const system::PairPoints& points = prepared.paired.points[static_cast<std::size_t>(pair.index)];
         return has_side(points.a) && has_side(points.b);
       });
@@ -200,7 +218,7 @@ Vector reactions_of_held_points(const PreparedSolids& prepared, const Vector& p,
   if (released.size() > 0) reactions = release * released;
   const std::vector<system::ContactSystem::Pair>& pairs = prepared.contact().pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (pairs[i].is_bar()) {
+    if (prepared.is_held_point(pairs[i])) {
       const std::size_t point = prepared.held_point(pairs[i]);
       reactions[static_cast<Eigen::Index>(point)] +=
           lever_of(prepared.model, points[point]) * p[in_space.of(static_cast<Eigen::Index>(i))];
@@ -218,10 +236,13 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
   const SolidModel& model = prepared.model;
   AppliedToSolids applied;
   applied.shortening = std::move(shortening);
+  std::vector<Vector> pulls;
+  for (const SolidBody& body : model.bodies) pulls.push_back(Vector::Zero(in_space.count(body.mesh.nodes.cols())));
+  for (std::size_t i = 0; i < model.bars.size(); ++i) model.bars[i].pull(given_tension(prepared, factors, i), pulls);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const SolidBody& body = model.bodies[b];
-    Vector forces = Vector::Zero(in_space.count(body.mesh.nodes.cols())), heated;
-    double sum = 0.0;
+    Vector forces = pulls[b], heated;
+    double sum = forces.lpNorm<1>();
     for (std::size_t load = 0; load < model.loads.size() && !prepared.is_absent(b); ++load) {
       const double factor = factors.presence_of(b) * factors.loads[static_cast<Eigen::Index>(load)];
       if (model.loads[load][b].size() > 0) {
@@ -255,8 +276,8 @@ AppliedToSolids applied_to_solids(const PreparedSolids& prepared, const SolidFac
 }
 
 double gap_of_solids(const PreparedSolids& prepared, const SolidFactors& factors, std::size_t i) {
-  if (const std::size_t contacts = prepared.paired.pairs.size(); i >= contacts)
-    return -displacement_of_held_point(prepared, factors, i - contacts);
+  const std::size_t contacts = prepared.paired.pairs.size(), held = prepared.model.held_points.size();
+  if (i >= contacts) return i < contacts + held ? -displacement_of_held_point(prepared, factors, i - contacts) : 0.0;
   const double gap = prepared.paired.points[i].gap;
   if (gap >= 0.0 || factors.fits.size() == 0) return gap;
   return gap * factors.fits[prepared.paired.pairs[i].contact];

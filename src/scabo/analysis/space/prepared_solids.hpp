@@ -13,13 +13,18 @@ inline constexpr Components in_space{3};
 
 /// The pairs of all contacts, in their order.
 struct PairedFaces {
-  std::vector<system::PairPoints> points;  // also of the held points, after those of the contacts
+  std::vector<system::PairPoints> points;  // of the contacts, then of the held points, then of the bars
   std::vector<SolidPair> pairs;            // at rest
   std::vector<char> turned;                // whether the pairs are corners of side a
   contact::JointLaws laws;
 };
 
 PairedFaces paired_faces(const SolidModel& model);
+
+/// The slip along the axes of a pair with these tangents, of which those of friction axes are not of length 1.
+inline Eigen::Vector3d slip_of_pair(const Eigen::Matrix3d& directions, const Eigen::Vector2d& along) {
+  return directions.col(1) * along[0] + directions.col(2) * (along[1] / directions.col(2).squaredNorm());
+}
 
 element::Mat6 elasticity_of(const SolidBody& body);
 
@@ -37,10 +42,16 @@ struct PreparedSolids {
   /// Of the bodies that are there.
   const system::ContactSystem& contact() const { return fewer ? *fewer : whole; }
   bool is_absent(std::size_t body) const { return !absent.empty() && absent[body] != 0; }
-  /// Which held point a pair is; it has no contact.
+  // Pairs without a contact:
+  bool is_bar(const system::ContactSystem::Pair& pair) const {
+    return static_cast<std::size_t>(pair.index) >= paired.pairs.size() + model.held_points.size();
+  }
+  bool is_held_point(const system::ContactSystem::Pair& pair) const { return pair.is_bar() && !is_bar(pair); }
+  /// Which of the held points or bars of the model a pair is.
   std::size_t held_point(const system::ContactSystem::Pair& pair) const {
     return static_cast<std::size_t>(pair.index) - paired.pairs.size();
   }
+  std::size_t bar(const system::ContactSystem::Pair& pair) const { return held_point(pair) - model.held_points.size(); }
 };
 
 PreparedSolids prepared_solids(const SolidModel& model, int threads);

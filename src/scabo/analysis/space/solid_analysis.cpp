@@ -9,6 +9,7 @@
 #include "scabo/analysis/quasistatic/branch.hpp"
 #include "scabo/analysis/space/prepared_solids.hpp"
 #include "scabo/analysis/space/smallest_motions.hpp"
+#include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_energy.hpp"
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/space/solid_stages.hpp"
@@ -63,7 +64,7 @@ std::vector<SolidPair> solid_pairs(const PreparedSolids& prepared, const SolidSt
     const Eigen::Matrix3d directions = paired.points[i].directions;
     const double sense = paired.turned[i] ? -1.0 : 1.0;
     pairs[i].force = sense * (directions * state.p.segment<3>(in_space.of(row)));
-    pairs[i].slip = sense * (directions.rightCols<2>() * state.slip.segment<2>(2 * row));
+    pairs[i].slip = sense * slip_of_pair(directions, state.slip.segment<2>(2 * row));
     pairs[i].gap = state.gap[row];
     pairs[i].state = state.states[k];
     pairs[i].broken = state.history[k].broken;
@@ -245,6 +246,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   to.certificate.equilibrium = imbalance_of(prepared_, moved, largest);
   describe_parts(prepared_, factors, shortening, moved, to);
   to.held = reactions_of_held_points(prepared_, solution.p, factors.release, state_.released_points);
+  to.bars = tensions_of_bars(prepared_, factors, solution.p);
   SolidState reached{factors,
                      state_.slip + solution.slip_increment,
                      solution.gap,
@@ -282,7 +284,8 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
 
 bool SolidModel::has_stages() const {
   return !held_points.empty() ||
-         std::any_of(bodies.begin(), bodies.end(), [](const SolidBody& body) { return body.stay.is_staged(); });
+         std::any_of(bodies.begin(), bodies.end(), [](const SolidBody& body) { return body.stay.is_staged(); }) ||
+         std::any_of(bars.begin(), bars.end(), [](const SolidBar& bar) { return !bar.stay.is_there(0); });
 }
 
 SolidBody with_super_elements(SolidBody body, int threads) {

@@ -65,6 +65,7 @@ struct SolidBar {
   Eigen::Vector3d direction;  ///< of length 1, from a to b
   double softness = 0.0;      ///< elongation per tension
   double preload = 0.0;       ///< tension when it is tightened; 0: it acts from the start
+  model::Stay stay = {};      ///< steps in which its stiffness acts: those after the one in which it is tightened
 
   /// What a tension adds to the forces on the nodes of all bodies.
   void pull(double tension, std::vector<Vector>& forces) const;

@@ -45,7 +45,7 @@ double work_of_held_points(const PreparedSolids& prepared, const SolidState& fro
   double work = 0.0;
   const std::vector<system::ContactSystem::Pair>& pairs = prepared.contact().pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!pairs[i].is_bar()) continue;
+    if (!prepared.is_held_point(pairs[i])) continue;
     const std::size_t point = prepared.held_point(pairs[i]);
     const Eigen::Index row = in_space.of(static_cast<Eigen::Index>(i));
     work += 0.5 * (from.p[row] + to.p[row]) *

@@ -45,6 +45,10 @@ SolidFactors factors_at_end(const model::SpaceModel& model, const PosedSolids& p
   for (std::size_t i = 0; i < posed.model.preloads.size(); ++i)
     if (model.bodies[static_cast<std::size_t>(posed.model.preloads[i].body)].preload->step <= step)
       factors.tightened[static_cast<Eigen::Index>(i)] = 1.0;
+  factors.bars = Vector::Ones(static_cast<Eigen::Index>(model.bars.size()));
+  for (std::size_t i = 0; i < model.bars.size(); ++i)
+    if (model.bars[i].preload != 0.0 && model.bars[i].tightened > step)
+      factors.bars[static_cast<Eigen::Index>(i)] = 0.0;
   factors.presence = presence_at(posed.model, step);
   return factors;
 }
@@ -64,6 +68,7 @@ SolidFactors factors_in(const model::SpaceModel& model, const PosedSolids& posed
   if (!model::coefficients_of(step).empty()) factors.coefficients = between(from.coefficients, to.coefficients, t);
   factors.fits = part_between(from.fits, to.fits, t);
   factors.tightened = part_between(from.tightened, to.tightened, t);
+  factors.bars = part_between(from.bars, to.bars, t);
   factors.step = to.step;
   if (to.presence.size() > 0) factors.presence = part_between(from.presence, to.presence, t);
   factors.release = takes_away(posed.model, to.step) ? 1.0 - t : 0.0;

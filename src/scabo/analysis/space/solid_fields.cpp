@@ -21,6 +21,8 @@ struct SolidTable {
       field_of<SolidState>(
           "tightened", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.tightened; }),
       field_of<SolidState>(
+          "bars", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.bars; }),
+      field_of<SolidState>(
           "step", whole, 1, in_this_run, [](auto& state) -> auto& { return state.factors.step; }),
       field_of<SolidState>(
           "presence", whole, 0, in_this_run, [](auto& state) -> auto& { return state.factors.presence; }),

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "scabo/analysis/space/large_motions.hpp"
+#include "scabo/analysis/space/prepared_solids.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/contact/questions/onset.hpp"
 #include "scabo/system/solid_part.hpp"
@@ -125,8 +126,7 @@ std::vector<SolidPair> moved_pairs(const MovingSolids& solids, const Vector& u) 
     const auto i = static_cast<std::size_t>(solids.contact.pairs[k].index);
     const Eigen::Vector3d of_pair = u.segment<3>(3 * static_cast<Eigen::Index>(k));
     pairs[i].gap = of_pair[0];
-    pairs[i].slip = (solids.turned[i] ? -1.0 : 1.0) *
-                    (Eigen::Matrix3d(solids.points[i].directions).rightCols<2>() * of_pair.tail<2>());
+    pairs[i].slip = (solids.turned[i] ? -1.0 : 1.0) * slip_of_pair(solids.points[i].directions, of_pair.tail<2>());
   }
   if (solids.absent.empty()) return pairs;
   std::vector<SolidPair> there;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_factors.hpp"
 #include "scabo/analysis/space/solid_fields.hpp"
 #include "scabo/analysis/space/solid_restart_points.hpp"
 #include "scabo/analysis/state/fingerprint.hpp"
+#include "scabo/analysis/state/pair_motions.hpp"
 
 namespace scabo::analysis {
 
@@ -48,6 +50,16 @@ std::string fingerprint_of_spring(const system::SolidSpring& spring) {
     for (linalg::SparseMatrix::InnerIterator it(spring.on_nodes, k); it; ++it)
       of.add(static_cast<double>(it.row())), of.add(it.value());
   of.add(Vector(spring.stiffness));
+  return of.text();
+}
+
+std::string fingerprint_of_bar(const SolidBar& bar) {
+  Fingerprint of;
+  for (const system::PairSide* side : {&bar.a, &bar.b}) {
+    of.add(side->part == system::PairSide::ground ? -1.0 : static_cast<double>(side->part));
+    for (const system::PairSide::Node& node : side->nodes) of.add(static_cast<double>(node.node)), of.add(node.weight);
+  }
+  of.add(Vector(bar.direction)), of.add(bar.softness), of.add(bar.preload);
   return of.text();
 }
 
@@ -98,6 +110,9 @@ std::vector<EndState::Agreement> agreements_of_solids(const PreparedSolids& now,
     of.add(solids.preloads[i].cut.forces);
     add("preload of body", solids.bodies[static_cast<std::size_t>(solids.preloads[i].body)].name, of.text());
   }
+  for (std::size_t i = 0; i < solids.bars.size(); ++i)
+    if (has_both_ends(now, solids.bars[i]) && factors.bars[static_cast<Eigen::Index>(i)] != 0.0)
+      add("bar", model.bars[i].name, fingerprint_of_bar(solids.bars[i]));
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
     if (is_there(now, model.contacts[c].a.body) && is_there(now, model.contacts[c].b.body))
       add(model.contacts[c].tied ? "tie" : "contact", model.contacts[c].name, fingerprint_of_contact(now, factors, c));
@@ -115,6 +130,12 @@ std::vector<Eigen::Index> places_in_contact(const PreparedSolids& now, const Sol
     if (pairs[i].contact == static_cast<int>(contact)) places.push_back(static_cast<Eigen::Index>(i));
   return places;
 }
+std::vector<Eigen::Index> place_of_bar(const PreparedSolids& now, std::size_t bar) {
+  const std::vector<Pair>& pairs = now.contact().pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (now.is_bar(pairs[i]) && now.bar(pairs[i]) == bar) return {static_cast<Eigen::Index>(i)};
+  return {};
+}
 std::vector<Eigen::Index> places_in_body(const PreparedSolids& now, std::size_t body) {
   std::vector<Eigen::Index> places;
   for (Eigen::Index k = 0; k < now.structure.parts[body]->rigid_motions().cols(); ++k)
@@ -124,6 +145,23 @@ std::vector<Eigen::Index> places_in_body(const PreparedSolids& now, std::size_t 
 
 bool is_of_contact(const SolidField& field) {
   return field.lasts && (field.owner == Owner::pair || field.owner == Owner::held_pair);
+}
+
+/// Whether the stiffness of a bar acted at the end, or begins with this run: it was tightened in the last step.
+bool acted(const EndState::Of& bar) { return !kept(bar.fields, "gap").empty(); }
+
+void begin_bars(const PreparedSolids& now, const model::SpaceModel& model, const EndState& end, SolidState& state) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < model.bars.size(); ++i)
+    if (const EndState::Of* of = find(end.bars, model.bars[i].name_at_end()); of != nullptr && !acted(*of))
+      for (const Eigen::Index place : place_of_bar(now, i)) places.push_back(place);
+  if (places.empty()) return;
+  const MovedSolids moved =
+      moved_solids(now, applied_to_solids(now, state.factors, state.shortening, state.released), state.p, state.a);
+  const Vector motion = motion_under(now.contact().motion, moved.u, state.p.size());
+  if (state.offset.size() == 0) state.offset = Vector::Zero(state.p.size());
+  for (const Eigen::Index place : places)
+    state.offset.segment<3>(in_space.of(place)) = -motion.segment<3>(in_space.of(place));
 }
 
 void continue_field(const PreparedSolids& now, const model::SpaceModel& model, const EndState& end,
@@ -137,6 +175,10 @@ void continue_field(const PreparedSolids& now, const model::SpaceModel& model, c
   for (std::size_t c = 0; c < model.contacts.size() && is_of_contact(field); ++c)
     if (const EndState::Of* of = find(end.contacts, model.contacts[c].name))
       put(kept(of->fields, field.name), places_in_contact(now, field, c), field.count, numbers, size);
+  for (std::size_t i = 0; i < model.bars.size() && field.owner == Owner::pair; ++i)
+    if (const EndState::Of* of = find(end.bars, model.bars[i].name_at_end()))
+      if (const auto place = place_of_bar(now, i); acted(*of) && !place.empty())
+        put(kept(of->fields, field.name), place, field.count, numbers, size);
   for (std::size_t b = 0; b < model.bodies.size() && field.owner == Owner::rigid_motion; ++b)
     if (const EndState::Of* of = now.is_absent(b) ? nullptr : find(end.parts, model.bodies[b].name)) {
       const std::vector<double>& values = kept(of->fields, field.name);
@@ -154,11 +196,17 @@ EndState end_state_of_solids(const PreparedSolids& now, const model::SpaceModel&
   end.in_space = true;
   end.agreements = agreements_of_solids(now, model, state.factors);
   for (const model::SpaceContact& contact : model.contacts) end.contacts.push_back({contact.name, {}});
+  for (const model::SpaceBar& bar : model.bars) {
+    end.bars.push_back({bar.name_at_end(), {}});
+    end.tightened.push_back({bar.name_at_end(), bar.tightened - static_cast<double>(model.steps.size())});
+  }
   for (const SolidField& field : fields_of_solid_state()) {
     const std::vector<double> numbers = field.get(state);
     if (field.lasts && field.owner == Owner::whole) end.whole[field.name] = numbers;
     for (std::size_t c = 0; c < end.contacts.size() && is_of_contact(field); ++c)
       end.contacts[c].fields[field.name] = selected(numbers, places_in_contact(now, field, c), field.count);
+    for (std::size_t i = 0; i < model.bars.size() && field.lasts && field.owner == Owner::pair; ++i)
+      end.bars[i].fields[field.name] = selected(numbers, place_of_bar(now, i), field.count);
     for (std::size_t b = 0; b < model.bodies.size() && field.owner == Owner::rigid_motion; ++b)
       if (!now.is_absent(b))
         end.parts.push_back({model.bodies[b].name, {{field.name, selected(numbers, places_in_body(now, b), 1)}}});
@@ -194,6 +242,7 @@ SolidState state_of_restart(const PreparedSolids& now, const model::SpaceModel& 
     if (const auto* of = find(end.bars, model.bodies[static_cast<std::size_t>(now.model.preloads[i].body)].name))
       state.shortening[static_cast<Eigen::Index>(i)] = kept(of->fields, shortening_name).at(0);
   continue_held_points(now, end, state);
+  begin_bars(now, model, end, state);
   return state;
 }
 

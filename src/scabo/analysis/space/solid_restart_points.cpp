@@ -22,7 +22,7 @@ std::vector<Eigen::Index> points_on(const PreparedSolids& now, std::size_t body)
   std::vector<Eigen::Index> places;
   const std::vector<system::ContactSystem::Pair>& pairs = now.contact().pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (pairs[i].is_bar() && now.model.held_points[now.held_point(pairs[i])].body == static_cast<int>(body))
+    if (now.is_held_point(pairs[i]) && now.model.held_points[now.held_point(pairs[i])].body == static_cast<int>(body))
       places.push_back(static_cast<Eigen::Index>(i));
   return places;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_energy.hpp"
 #include "scabo/analysis/space/solid_fields.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
@@ -34,7 +35,7 @@ void take_away(const PreparedSolids& before, const std::vector<char>& absent, in
     return part != system::PairSide::ground && absent[part] != 0 && !before.is_absent(part);
   };
   const auto ends = [&](const Pair& pair) {
-    return pair.is_bar() && before.model.held_points[before.held_point(pair)].stay.removed == step;
+    return before.is_held_point(pair) && before.model.held_points[before.held_point(pair)].stay.removed == step;
   };
   const Vector reactions = reactions_of_held_points(before, state.p, 0.0, {});
   state.released_points = Vector::Zero(reactions.size());
@@ -49,6 +50,8 @@ void take_away(const PreparedSolids& before, const std::vector<char>& absent, in
     }
     const auto row = static_cast<Eigen::Index>(i);
     vanishing.segment<3>(in_space.of(row)) = state.p.segment<3>(in_space.of(row));
+    if (before.is_bar(contact.pairs[i]))
+      vanishing[in_space.of(row)] -= given_tension(before, state.factors, before.bar(contact.pairs[i]));
     state.energy.external -= 0.5 * contact.softness[row] * state.p[in_space.of(row)] * state.p[in_space.of(row)];
   }
   state.released.assign(absent.size(), Vector());
@@ -89,7 +92,8 @@ void enter_step(PreparedSolids& prepared, int step, SolidState& state, MovedSoli
   state.released_points.resize(0);
   const auto changes = [&](const auto& of) { return of.stay.is_there(step) != of.stay.is_there(step - 1); };
   if (std::none_of(model.bodies.begin(), model.bodies.end(), changes) &&
-      std::none_of(model.held_points.begin(), model.held_points.end(), changes))
+      std::none_of(model.held_points.begin(), model.held_points.end(), changes) &&
+      std::none_of(model.bars.begin(), model.bars.end(), changes))
     return;
   const std::vector<char> absent_before = prepared.absent;
 

@@ -276,11 +276,37 @@ void SpaceReader::refuse_joined_faces(const Entry& entry, const SpaceContact& co
                                                   other.tied ? "tie" : "contact", other.name));
 }
 
+/// `friction: {direction: [1, 0, 0], along: 0.2, across: 0.5}`; false: the friction is another one.
+bool SpaceReader::friction_axes(const MapReader& map, SpaceContact& contact) {
+  const auto friction = map.get("friction");
+  if (!friction || friction->node->kind != Node::Kind::map || friction->node->find("direction") == nullptr)
+    return false;
+  for (const char* other : {"property", "cohesion", "tension", "bond", "shear_strength"})
+    map.refuse(other, "does not go together with a friction that differs along two directions: leave one of them out");
+  const std::size_t before = report_.count();
+  const MapReader keys(report_, *friction, {"direction", "along", "across"},
+                       "{direction: [1, 0, 0], along: 0.2, across: 0.5}");
+  SpaceFrictionAxes axes;
+  const Value direction = *keys.need("direction");
+  axes.direction = vector(direction);
+  if (report_.count() == before && axes.direction.isZero(0.0))
+    report_.error(direction, "has no direction: not all of it may be 0");
+  axes.direction.stableNormalize();
+  contact.law.friction = number_from(keys.need("along"), 0.0, false);
+  axes.across = number_from(keys.need("across"), 0.0, false);
+  constexpr double most = 100.0;  // scaled by more, motions along the faces lose their digits
+  if (report_.count() == before &&
+      std::max(axes.across, contact.law.friction) > most * std::min(axes.across, contact.law.friction))
+    report_.error(*friction, fmt::format("must have coefficients that differ by a factor of at most {:g}", most));
+  contact.friction_axes = axes;
+  return true;
+}
+
 /// As in the plane, but for what has no meaning in space.
 void SpaceReader::law(const MapReader& map, SpaceContact& contact) {
   const std::size_t before = report_.count();
   contact.law.name = contact.name;
-  read_law_or_property(report_, map, properties_, contact.law);
+  if (!friction_axes(map, contact)) read_law_or_property(report_, map, properties_, contact.law);
   if (const auto modulus = map.get("modulus")) contact.law.modulus = read_number(report_, *modulus);
   if (contact.law.bond) {
     map.refuse("gap", no_gap_beside_bond);
@@ -289,8 +315,9 @@ void SpaceReader::law(const MapReader& map, SpaceContact& contact) {
   if (report_.count() > before) return;
   if (contact.law.backward_friction || !contact.law.friction_along.empty())
     return report_.error(map.get("friction").value_or(map.map()),
-                         "must not depend on the direction of slip or on the place in a model in space: give a number, "
-                         "or {static: 0.5, dynamic: 0.3, slip_distance: 1e-4}");
+                         "must not depend on the sense of slip or on the place in a model in space: give a number, "
+                         "{static: 0.5, dynamic: 0.3, slip_distance: 1e-4}, or {direction: [1, 0, 0], along: 0.2, "
+                         "across: 0.5}");
   const Model nothing;
   Checking checking(nothing, Gaps());
   contact.law.source = map.map().source();

@@ -53,9 +53,9 @@ SpaceModel SpaceReader::read(const Value& root) {
   root_ = root;
   const MapReader map(
       report_, root,
-      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "loads",
+      {"scabo", "title", "parameters", "analysis", "materials", "bodies", "supports", "springs", "bars", "loads",
        "contact_properties", "contacts", "ties", "curves", "restart", "steps", "solver", "output"},
-      "'scabo: 1' and sections", only_in_the_plane({"bars", "tolerance", "initial"}));
+      "'scabo: 1' and sections", only_in_the_plane({"tolerance", "initial"}));
   if (const auto version = map.need("scabo"); version && number(version, 1.0) != 1.0)
     report_.error(*version, fmt::format("this program reads format version 1, not {}", version->node->text));
   if (const auto title = map.get("title")) model_.title = read_text(report_, *title).value_or("");
@@ -77,6 +77,10 @@ SpaceModel SpaceReader::read(const Value& root) {
          read_list(report_, *value, "[{on: block.bottom, fix: [x, y, z]}]").value_or(std::vector<Value>{}))
       support(item);
   if (const auto value = map.get("springs")) springs(*value);
+  if (const auto value = map.get("bars"))
+    for (const Entry& entry :
+         read_named(report_, *value, "bars", "{hanger: {between: [deck.left, [0, 0, 9]], k: 2e6}}"))
+      bar(entry);
   if (const auto value = map.get("loads"))
     for (const Entry& entry : read_named(report_, *value, "loads", "{press: {on: block.top, pressure: 1e6}}"))
       load(entry);

@@ -66,6 +66,7 @@ constexpr SpaceWord words_of_contact[] = {{"force", NumberKind::force, true},
 constexpr SpaceWord words_of_support[] = {{"reaction", NumberKind::reaction, true},
                                           {"moment", NumberKind::support_moment, true}};
 constexpr SpaceWord words_of_springs[] = {{"reaction", NumberKind::spring_force, true}};
+constexpr SpaceWord words_of_bars[] = {{"tension", NumberKind::bar_tension, false}};
 constexpr const char* words_of_stress[] = {"stress_xx", "stress_yy", "stress_zz",
                                            "stress_xy", "stress_yz", "stress_xz"};
 constexpr SpaceWord words_of_bolts[] = {{"tension", NumberKind::tension, false},
@@ -140,6 +141,7 @@ void SpaceReader::quantity(const Entry& entry) {
   look(words_of_contact, model_.contacts);
   look(words_of_support, model_.supports);
   look(words_of_springs, model_.springs);
+  look(words_of_bars, model_.bars);
   look(words_of_bolts, model_.bodies);
   if (SpaceQuantity candidate = quantity; !found && !name.empty() && find_word_of_point(word, candidate)) {
     named = true;
@@ -157,9 +159,9 @@ void SpaceReader::quantity(const Entry& entry) {
     return report_.error(entry.value, fmt::format("contact '{}' has no 'cohesion' that could be lost", name));
   if (found) return model_.quantities.push_back(std::move(quantity));
   if (named)
-    return report_.error(entry.value,
-                         fmt::format("there is no contact, support, springs, bolt or point called {} that has '{}'",
-                                     quoted_name(name), word));
+    return report_.error(
+        entry.value, fmt::format("there is no contact, support, springs, bolt, bar or point called {} that has '{}'",
+                                 quoted_name(name), word));
   report_.error(
       entry.value,
       fmt::format("{} is not a number of a history in space, as joint.force_x, joint.max_pressure, joint.open, "

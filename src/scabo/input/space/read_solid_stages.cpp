@@ -34,6 +34,11 @@ void SpaceReader::restart(const Value& value) {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b)
     if (auto& preload = model_.bodies[b].preload; preload && tightened[b] < 0.0)
       preload->step = static_cast<int>(tightened[b]);
+  std::vector<std::string> bars;
+  for (const SpaceBar& bar : model_.bars) bars.push_back(bar.name_at_end());
+  const std::vector<double> of_bars = end_->numbers("bars", bars);
+  for (std::size_t i = 0; i < bars.size(); ++i)
+    if (of_bars[i] < 0.0) model_.bars[i].tightened = static_cast<int>(of_bars[i]);
   model_.files.insert(model_.files.end(), end_->files.begin(), end_->files.end());
   model_.restart = std::move(restart);
 }

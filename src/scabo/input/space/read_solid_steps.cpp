@@ -76,7 +76,10 @@ void SpaceReader::friction(const Value& value, Step& step) {
     const auto found =
         std::find_if(contacts.begin(), contacts.end(), [&](const Contact& of) { return of.name == entry.key; });
     const auto c = static_cast<std::size_t>(found - contacts.begin());
-    if (entry.value.node->kind == Node::Kind::map)
+    if (model_.contacts[c].friction_axes)
+      report_.error(entry.value,
+                    "the friction of this contact differs along two directions and stays as it is: leave it out");
+    else if (entry.value.node->kind == Node::Kind::map)
       report_.error(entry.value, "must be a number: in space friction does not depend on the direction of slip");
     else if (!(step.friction[c] >= 0.0 && step.friction[c] <= largest))
       report_.error(entry.value,
@@ -185,6 +188,11 @@ void SpaceReader::find_tightened() {
     else if (const int step = step_named(value); step >= 0 && preload)
       preload->step = step;
   }
+  for (const auto& [bar, value] : tightened_bars_)
+    if (model_.bars[bar].tightened < 0)
+      report_.error(value, tightened_already("bar", model_.bars[bar].name, *end_));
+    else
+      model_.bars[bar].tightened = step_named(value);
 }
 
 }  // namespace scabo::input

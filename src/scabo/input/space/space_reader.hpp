@@ -62,12 +62,17 @@ class SpaceReader {
   void spring(const Value& value);
   void spring_at_rest(const Value& value, model::SpaceSpring& spring);
   void load(const Entry& entry);
+  bool friction_axes(const MapReader& map, model::SpaceContact& contact);
   void load_value(const std::string& kind, const Value& value, model::SpaceLoad& load);
   void place_of_load(const MapReader& map, const Entry& entry, model::SpaceLoad& load);
   void check_gravity(const Entry& entry, const model::SpaceLoad& load);
   void law(const MapReader& map, model::SpaceContact& contact);
   void pair_of_faces(const Entry& entry, bool tied);
   void refuse_joined_faces(const Entry& entry, const model::SpaceContact& contact);
+
+  // read_solid_bars.cpp
+  void bar(const Entry& entry);
+  std::optional<model::SpaceBar::End> bar_end(const Value& value);
 
   // read_solid_output.cpp
   void output(const Value& value);
@@ -112,9 +117,10 @@ class SpaceReader {
   model::SpaceModel model_;
   ContactProperties properties_;
   std::map<std::pair<std::string, bool>, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
-  std::vector<std::pair<std::size_t, Value>> fits_;       ///< contacts, and the names of the steps of `fit_in`
-  std::vector<std::pair<std::size_t, Value>> tightened_;  ///< bodies, and the names of the steps of their preloads
-  std::optional<EndOfRun> end_;                           ///< of the run from which this one starts
+  std::vector<std::pair<std::size_t, Value>> fits_;            ///< contacts, and the names of the steps of `fit_in`
+  std::vector<std::pair<std::size_t, Value>> tightened_;       ///< bodies, and the names of the steps of their preloads
+  std::vector<std::pair<std::size_t, Value>> tightened_bars_;  ///< the same of bars
+  std::optional<EndOfRun> end_;                                ///< of the run from which this one starts
   std::vector<Stages> stages_of_supports_;
   std::vector<Stages> stages_;  ///< of every entry of the bodies
 };

@@ -96,6 +96,8 @@ double value_of(const model::SpaceModel& model, const analysis::PosedSolids& pos
       return reactions_of(posed, model.supports.size(), increment)[of].moment[quantity.component];
     case Kind::spring_force:
       return increment.springs[of][quantity.component];
+    case Kind::bar_tension:
+      return increment.bars[of];
     case Kind::tension:
     case Kind::shortening:
       for (std::size_t i = 0; i < posed.model.preloads.size(); ++i)

@@ -75,6 +75,7 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
   json["moments"] = Json::object();
   if (!posed.model.preloads.empty()) json["preloads"] = Json::object();
   if (!model.springs.empty()) json["springs"] = Json::object();
+  if (!model.bars.empty()) json["bars"] = Json::object();
   json["energy"] = nullptr;
   json["certificate"] = nullptr;
   if (posed.model.has_stages()) json["absent"] = Json::array();
@@ -95,6 +96,8 @@ Json json_of(const model::SpaceModel& model, const analysis::PosedSolids& posed,
         {"force", increment.tensions[i].force}, {"shortening", increment.tensions[i].shortening}};
   for (std::size_t i = 0; i < increment.springs.size(); ++i)
     json["springs"][model.springs[i].name] = json_of(increment.springs[i]);
+  for (std::size_t i = 0; i < increment.bars.size(); ++i)
+    json["bars"][model.bars[i].name] = {{"tension", increment.bars[i]}};
   const analysis::Energy& energy = increment.energy;
   json["energy"] = {{"external", energy.external},
                     {"elastic", energy.elastic},
@@ -242,6 +245,9 @@ std::string totals_of(const Json& increment) {
   if (increment.contains("springs"))
     for (const auto& [name, force] : increment["springs"].items()) add("springs " + name, force);
   std::string text = table(rows);
+  if (increment.contains("bars"))
+    for (const auto& [name, bar] : increment["bars"].items())
+      text += fmt::format("  bar {}: tension {:.6g}\n", name, bar["tension"].get<double>());
   if (increment.contains("preloads"))
     for (const auto& [name, preload] : increment["preloads"].items())
       text += fmt::format("  preload of {}: tension {:.6g}, shortened by {:.6g}\n", name,
