@@ -171,7 +171,12 @@ class BlocksInSpace(support.InTemporaryDirectory):
         done = scabo("plot", self.directory / "results", "--view=20,-10", SCABO_PYTHON=sys.executable)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(sorted(file.name for file in self.directory.glob("*.png")), ["results.contact.png", "results.stress.png"])
-        for words, why in ((["--view", "1"], "--view 1: give two angles"), (["--window", "0,1,0,1"], "no meaning for bodies in space"),
+        whole = (self.directory / "results.stress.png").read_bytes()
+        done = scabo("plot", self.directory / "results", "--what", "stress", "--view=20,-10", "--cut", "0.5,0.5,0,1,1,0", SCABO_PYTHON=sys.executable)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertNotEqual((self.directory / "results.stress.png").read_bytes(), whole)
+        for words, why in ((["--view", "1"], "--view 1: give two angles"), (["--cut", "0,0,1"], "--cut 0,0,1: give a point of the plane and its normal"),
+                           (["--what", "stress", "--cut", "-9,0,0,-1,0,0"], "the plane cuts no body"), (["--window", "0,1,0,1"], "no meaning for bodies in space"),
                            (["--what", "mesh"], "there are pictures of stress, contact and mechanism"), (["--what", "stress", "--component", "zx"], "there are von_mises")):
             done = scabo("plot", self.directory / "results", *words, SCABO_PYTHON=sys.executable)
             self.assertEqual(done.returncode, 1, done.stderr)
