@@ -27,9 +27,11 @@ supports: [{on: beam.vertex_2, fix: [x, y]}, {on: beam.vertex_3, fix: y}]
 loads: {near: {on: beam.vertex_6, force: [0, -1000]}, far: {on: beam.vertex_7, force: [0, -130]}}
 steps: [{growth: {toughness: {K_Ic: 40}, step: 10}}]
 """
-# The same by plain finite elements: tests/verification/references/crack_paths_by_triangles.py in_shear --step 10 --size 20 --until 300
-BY_TRIANGLES = ((679.23, 89.88), (694.81, 102.39), (708.49, 116.97), (720.28, 133.11), (730.14, 150.51), (738.04, 168.87),
-                (744.02, 187.95), (748.17, 207.51), (750.59, 227.36), (751.43, 247.34))
+# Both by plain finite elements: tests/verification/references/crack_paths_by_triangles.py in_shear --step 10 --size 20 --until 300, and two_notches
+# --step 10 --size 20 --until 160
+IN_SHEAR_BY_TRIANGLES = ((679.23, 89.88), (694.81, 102.39), (708.49, 116.97), (720.28, 133.11), (730.14, 150.51), (738.04, 168.87),
+                         (744.02, 187.95), (748.17, 207.51), (750.59, 227.36), (751.43, 247.34))
+TWO_NOTCHES_BY_TRIANGLES = ((408.91, 44.54), (424.8, 56.67), (438.81, 70.92), (450.48, 87.14), (459.7, 104.88), (466.9, 123.53))
 # Two notches in four-point shear, antisymmetric, after Bocca, Carpinteri and Valente (1991).
 TWO_NOTCHES = """
 scabo: 1
@@ -116,11 +118,12 @@ def main():
     figure = plt.figure(figsize=(11.0, 6.4), layout="constrained")
     (beam, notches), (inclusion, hooks) = figure.subplots(2, 2)
     draw(options, beam, "in_shear", IN_SHEAR, (480, 850), (0, 306), "mm", "notched beam in shear")
-    beam.plot(*np.array(BY_TRIANGLES).T, "s", color="k", mfc="none", ms=5, label="plain finite elements")
+    beam.plot(*np.array(IN_SHEAR_BY_TRIANGLES).T, "s", color="k", mfc="none", ms=5, label="plain finite elements")
     beam.legend(loc="upper left")
     for x, y, down in ((600, 0, False), (722, 306, True)):
         arrow(beam, x, y, down, 22)
     draw(options, notches, "two_notches", TWO_NOTCHES, (250, 550), (0, 200), "mm", "two notches in four-point shear")
+    notches.plot(*np.array(TWO_NOTCHES_BY_TRIANGLES).T, "s", color="k", mfc="none", ms=5)
     for x, y, down in ((320, 0, False), (480, 200, True)):
         arrow(notches, x, y, down, 16)
     for name, young, colour, dashes in (("soft", "3e9", pictures.BLUE, "--"), ("stiff", "300e9", pictures.RED, "-")):
