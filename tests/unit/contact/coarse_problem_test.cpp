@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "scabo/contact/newton/coarse_start.hpp"
 #include "scabo/contact/solve.hpp"
 #include "support/decompositions.hpp"
 #include "unit/contact/problems.hpp"
@@ -181,6 +182,25 @@ TEST(CoarseStart, OfALongFloatingBodyLeadsToTheSolution) {
     ASSERT_EQ(solution.status, Status::solved) << solution.reason;
     EXPECT_LE(violation(problem, solution.p, solution.a), 1e-9);
   }
+}
+
+// Of several bodies pairs may be redundant. A force that moves nothing would be at the bound of friction.
+TEST(CoarseStart, IsOfOneBodyAndWithoutForcesThatMoveNothing) {
+  std::mt19937 random(11);
+  Problem problem = floating_problem(random, 60, 0.5);
+  Matrix W = problem.W.dense(), G = problem.G.dense();
+  for (int k = 1; k < W.rows(); k += 8) W.row(k).setZero(), W.col(k).setZero(), G.row(k).setZero();
+  problem.W = W, problem.G = G, problem.mu.setConstant(0.5);
+  const std::optional<CoarseStart> start = coarse_start(problem, Vector::Zero(G.cols()));
+  ASSERT_TRUE(start);
+  for (int k = 1; k < W.rows(); k += 8) EXPECT_EQ(start->point.p[k], 0.0);
+  EXPECT_GT(start->point.p.norm(), 0.0);
+  Matrix of_two(G.rows(), 2 * G.cols());
+  of_two << G, G;
+  problem.G = of_two;
+  problem.f = Vector(problem.f.replicate(2, 1));
+  ASSERT_GT(problem.G.cols(), 3);
+  EXPECT_FALSE(coarse_start(problem, Vector::Zero(problem.G.cols())));
 }
 
 TEST(CoarseStart, IterationsOnFewerPairsAreCountedApartAndStandInTheTrace) {
