@@ -10,7 +10,7 @@ namespace {
 
 /// Two pairs, a held one, three rigid motions, two bodies, a preload and a held point; every field has values of its
 /// own.
-SolidState full_state() {
+SolidState full_solid_state() {
   SolidState state;
   state.factors.loads = Vector::LinSpaced(2, 1.0, 2.0);
   state.factors.supports = Vector::LinSpaced(1, 3.0, 3.0);
@@ -37,7 +37,7 @@ SolidState full_state() {
 }
 
 TEST(SolidFields, KeepEveryNumberOfAState) {
-  const SolidState state = full_state();
+  const SolidState state = full_solid_state();
   SolidState copy;
   std::set<std::string> names;
   for (const SolidField& field : fields_of_solid_state()) {
@@ -55,14 +55,14 @@ TEST(SolidFields, KeepEveryNumberOfAState) {
 }
 
 TEST(SolidFields, FollowTheirPairsAndBodiesToAnotherStage) {
-  const SolidState moved = transfer(full_state(), {{1, -1, 0}, {-1, 0}, {-1, 2}}, fields_of_solid_state());
+  const SolidState moved = transfer(full_solid_state(), {{1, -1, 0}, {-1, 0}, {-1, 2}}, fields_of_solid_state());
   EXPECT_EQ(moved.p, (Vector(9) << 4, 5, 6, 0, 0, 0, 1, 2, 3).finished());
   EXPECT_EQ(moved.gap, (Vector(3) << 0.6, 0.0, 0.5).finished());
   EXPECT_EQ(moved.states,
             (std::vector{contact::ContactState::stick, contact::ContactState::open, contact::ContactState::slip}));
   EXPECT_EQ(moved.held_offset, (Vector(6) << 0, 0, 0, -7, -8, -9).finished());
   EXPECT_EQ(moved.a, (Vector(2) << 0, 9).finished());
-  EXPECT_EQ(moved.factors.loads, full_state().factors.loads);
+  EXPECT_EQ(moved.factors.loads, full_solid_state().factors.loads);
 }
 
 }  // namespace
