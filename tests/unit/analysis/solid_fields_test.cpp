@@ -8,8 +8,8 @@
 namespace scabo::analysis {
 namespace {
 
-/// Two pairs, a held one, three rigid motions, two bodies, a preload and a held point; every field has values of its
-/// own.
+/// Two pairs, a held one, three rigid motions, two bodies, a preload, a bar and a held point; every field has values of
+/// its own.
 SolidState full_solid_state() {
   SolidState state;
   state.factors.loads = Vector::LinSpaced(2, 1.0, 2.0);
@@ -17,6 +17,7 @@ SolidState full_solid_state() {
   state.factors.coefficients = Vector::LinSpaced(3, 0.1, 0.3);
   state.factors.fits = Vector::LinSpaced(1, 0.5, 0.5);
   state.factors.tightened = Vector::LinSpaced(1, 0.25, 0.25);
+  state.factors.bars = Vector::LinSpaced(1, 0.5, 0.5);
   state.factors.step = 4;
   state.factors.presence = Vector::LinSpaced(2, 0.0, 1.0);
   state.factors.release = 0.75;
