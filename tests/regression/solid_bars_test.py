@@ -163,6 +163,61 @@ steps: [{name: hang, loads: {push: 1}}]
         for name in ("history.csv", "contact.csv"):
             self.assertTrue(filecmp.cmp(whole / name, broken / name, shallow=False), name)
 
+    def test_a_restart_goes_on_with_them(self):
+        """In the step after the one in which a bar is tightened, and with its stiffness at work."""
+        text = BOLTED.replace("increments: 6, loads: {pull: 1}}", "increments: 2, loads: {pull: 0.3}}\n  - {name: more, increments: 2, loads: {pull: 1}}")
+        whole = self.solve(text)
+        self.assertEqual(len(whole), 7)
+        model, steps = text.split("steps:\n")[0], text.split("steps:\n")[1].split("output")[0].splitlines(keepends=True)
+        for first, name in ((2, "tightened"), (3, "pulled")):
+            (self.directory / "one.yaml").write_text(HEAD + model + "steps:\n" + "".join(steps[:first]), encoding="utf-8")
+            done = scabo("run", self.directory / "one.yaml", "-o", self.directory / f"{name}.results", "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rest = self.solve(model.replace(", tightened: tighten", "") + f"restart: {name}.results\nsteps:\n" + "".join(steps[first:]))
+            for one, other in zip(rest, whole[-len(rest):], strict=True):
+                self.assertAlmostEqual(one["bars"]["bolt"]["tension"], other["bars"]["bolt"]["tension"], delta=1e-9 * 6e5)
+                for key in ("external", "elastic"):
+                    self.assertAlmostEqual(one["energy"][key], other["energy"][key], delta=1e-9 * other["energy"]["elastic"])
+        (self.directory / "two.yaml").write_text(HEAD + model + "restart: pulled.results\nsteps:\n" + steps[1] + steps[3], encoding="utf-8")
+        done = scabo("run", self.directory / "two.yaml")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("bar 'bolt' has been tightened in 'pulled.results' already: leave 'tightened' out", done.stderr)
+        (self.directory / "two.yaml").write_text(HEAD + model.replace(", tightened: tighten", "").replace(f"k: {K}", "k: 1e8")
+                                                 + "restart: pulled.results\nsteps:\n" + steps[3], encoding="utf-8")
+        done = scabo("run", self.directory / "two.yaml")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("bar 'bolt' is not the same as in pulled.results", done.stderr)
+
+    def test_a_body_takes_its_bar_with_it(self):
+        """The tension of a bar, its preload too, falls to nothing while its body is removed; another one begins with its body."""
+        increments = self.solve(f"""materials: {{m: {{young: {YOUNG}, poisson: 0}}}}
+bodies:
+  post: {{material: m, shape: {{box: {{corner: [0, 0, 0], size: [1, 1, 2]}}}}, mesh: {{size: 1}}}}
+  beam: {{rigid: true, shape: {{box: {{corner: [0, 0, 5], size: [1, 1, 1]}}}}, mesh: {{size: 1}}, removed: free}}
+  late: {{rigid: true, shape: {{box: {{corner: [0, 0, 5], size: [1, 1, 1]}}}}, mesh: {{size: 1}}, added: again}}
+supports: [{{on: post.bottom, fix: [x, y, z], name: ground}}, {{on: beam, fix: [x, y, z]}}, {{on: late, fix: [x, y, z]}}]
+loads: {{press: {{on: post.top, traction: [0, 0, -1e5]}}}}
+bars:
+  tie: {{between: [post.top, beam.bottom], k: {K}, preload: 5e4, tightened: tighten}}
+  next: {{between: [post.top, late.bottom], k: {K}}}
+steps:
+  - {{name: tighten, loads: {{}}}}
+  - {{name: press, increments: 2, loads: {{press: 1}}}}
+  - {{name: free, increments: 2, loads: {{}}}}
+  - {{name: again, loads: {{press: 2}}}}
+""")
+        share = K / (K + COLUMNS)
+        ties = [5e4, 5e4 + 0.5e5 * share, 5e4 + 1e5 * share, 0.0, 0.0, 0.0]
+        pulls = [*ties[:3], 0.5 * ties[2], 0.0, 1e5 * share]  # at the top of the post
+        for increment, tie, pull, press in zip(increments, ties, pulls, [0, 0.5e5, 1e5, 1e5, 1e5, 2e5], strict=True):
+            self.assertAlmostEqual(increment["bars"]["tie"]["tension"], tie, delta=1e-9 * 2e5)
+            self.assertAlmostEqual(increment["reactions"]["ground"][2], press - pull, delta=1e-9 * 2e5)
+            energy, in_bar = increment["energy"], max(tie - 5e4, 0.0) + (pull if press == 2e5 else 0.0)
+            stored = (press - pull)**2 / (2 * COLUMNS) + in_bar**2 / (2 * K)
+            self.assertAlmostEqual(energy["elastic"], stored, delta=1e-9 * 1e5**2 / COLUMNS)
+            self.assertAlmostEqual(energy["external"], stored, delta=1e-9 * 1e5**2 / COLUMNS)
+        self.assertAlmostEqual(increments[-1]["bars"]["next"]["tension"], 1e5 * share, delta=1e-9 * 2e5)
+
 
 if __name__ == "__main__":
     support.main()

@@ -47,7 +47,8 @@ Vector resultants_of_loads(const system::BodySystem& part, const Vector& forces,
   return f;
 }
 
-/// A point of a rigid body as the least weighted mean of its nodes.
+}  // namespace
+
 system::PairSide side_at(const SolidModel& model, int body, const Eigen::Vector3d& at) {
   const Matrix& nodes = model.bodies[static_cast<std::size_t>(body)].mesh.nodes;
   const Eigen::Vector3d middle = nodes.rowwise().mean();
@@ -58,6 +59,8 @@ system::PairSide side_at(const SolidModel& model, int body, const Eigen::Vector3
   for (Eigen::Index i = 0; i < weights.size(); ++i) side.nodes.push_back({static_cast<int>(i), weights[i]});
   return side;
 }
+
+namespace {
 
 /// The ground and a point of a body, of which only the direction that is held counts. A rotation about axis k is held
 /// as a pair of the body with itself, whose side B is a lever along the next axis, and moves along the one after that.

@@ -21,6 +21,10 @@ struct PairedFaces {
 
 PairedFaces paired_faces(const SolidModel& model);
 
+/// A point that moves with a rigid body: of all means of its nodes that lie there the one with the least squares of
+/// weights.
+system::PairSide side_at(const SolidModel& model, int body, const Eigen::Vector3d& at);
+
 /// The slip along the axes of a pair with these tangents, of which those of friction axes are not of length 1.
 inline Eigen::Vector3d slip_of_pair(const Eigen::Matrix3d& directions, const Eigen::Vector2d& along) {
   return directions.col(1) * along[0] + directions.col(2) * (along[1] / directions.col(2).squaredNorm());

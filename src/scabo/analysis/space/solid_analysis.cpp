@@ -132,8 +132,8 @@ void leave_out_pairs(const PreparedSolids& prepared, SolidIncrement& to) {
 }
 
 /// What the parts do in an increment.
-void describe_parts(const PreparedSolids& prepared, const SolidFactors& factors, const Vector& shortening,
-                    const MovedSolids& moved, SolidIncrement& to) {
+void describe_parts(const PreparedSolids& prepared, const SolidState& from, const SolidFactors& factors,
+                    const Vector& p, const Vector& shortening, const MovedSolids& moved, SolidIncrement& to) {
   to.u = moved.u;
   to.reactions = moved.reactions;
   to.heated = moved.applied.heated;
@@ -141,6 +141,8 @@ void describe_parts(const PreparedSolids& prepared, const SolidFactors& factors,
   for (std::size_t i = 0; i < to.tensions.size(); ++i)
     if (prepared.is_absent(static_cast<std::size_t>(prepared.model.preloads[i].body))) to.tensions[i] = {};
   to.springs = spring_resultants_of_solids(prepared, factors, moved.u);
+  to.held = reactions_of_held_points(prepared, p, factors.release, from.released_points);
+  to.bars = tensions_of_bars(prepared, factors, p);
 }
 
 /// Increments in their order, each from the state that the one before it left.
@@ -244,9 +246,7 @@ SolidIncrement SolidMarch::next(const SolidFactors& factors) {
   MovedSolids moved = moved_solids(prepared_, std::move(applied), solution.p, a);
   const double largest = std::max(state_.force_scale, largest_force_of_solids(moved, solution.p));
   to.certificate.equilibrium = imbalance_of(prepared_, moved, largest);
-  describe_parts(prepared_, factors, shortening, moved, to);
-  to.held = reactions_of_held_points(prepared_, solution.p, factors.release, state_.released_points);
-  to.bars = tensions_of_bars(prepared_, factors, solution.p);
+  describe_parts(prepared_, state_, factors, solution.p, shortening, moved, to);
   SolidState reached{factors,
                      state_.slip + solution.slip_increment,
                      solution.gap,

@@ -44,26 +44,13 @@ SolidBarEnd mean_of_nodes(const mesh::SolidMesh& mesh, std::size_t body, const s
   return end;
 }
 
-/// A point that moves with a rigid body: the mean of all nodes, with the least sum of squares of weights, that lies
-/// there.
-SolidBarEnd point_of_rigid(const mesh::SolidMesh& mesh, std::size_t body, const Eigen::Vector3d& at) {
-  const Eigen::Vector3d centre = mesh.nodes.rowwise().mean();
-  const Matrix arms = mesh.nodes.colwise() - centre;
-  const Eigen::Vector3d turned = Eigen::Matrix3d(arms * arms.transpose()).ldlt().solve(at - centre);
-  SolidBarEnd end{{body, {}}, at};
-  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
-    end.side.nodes.push_back(
-        {static_cast<int>(i), 1.0 / static_cast<double>(mesh.nodes.cols()) + arms.col(i).dot(turned)});
-  return end;
-}
-
 }  // namespace
 
 SolidBarEnd end_of_bar(const SolidModel& model, const model::SpaceBar::End& end, const SolidPlaceOfAction& place) {
   if (!end.on && end.body < 0) return {{system::PairSide::ground, {}}, end.at};
   const auto b = static_cast<std::size_t>(end.on ? end.on->body : end.body);
   const SolidBody& of = model.bodies[b];
-  if (!end.on && of.rigid_at) return point_of_rigid(of.mesh, b, end.at);
+  if (!end.on && of.rigid_at) return {side_at(model, end.body, end.at), end.at};
   return place.facets.empty() ? mean_of_nodes(of.mesh, b, place.nodes) : mean_of_facets(of.mesh, b, place.facets);
 }
 
