@@ -1,11 +1,11 @@
 """Hexahedra and wedges of `.inp`, `.msh` and `.vtu` files as super-elements (`kind: hexahedra`): one mesh, distorted and turned, in every format."""
 import csv
 import itertools
-import math
 import random
 import unittest
 
 import support
+from solid_twins_test import product, rotation
 from solids import HEAD
 from support import scabo, summary_of
 
@@ -15,19 +15,6 @@ WEDGE = ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5))
 # The places of these middle nodes behind the corners, in Gmsh's order.
 OF_GMSH = {20: (0, 3, 8, 1, 9, 2, 10, 11, 4, 7, 5, 6), 15: (0, 2, 6, 1, 7, 8, 3, 5, 4)}
 TYPES = {8: ("C3D8", 5, 12), 6: ("C3D6", 6, 13), 20: ("C3D20", 17, 25), 15: ("C3D15", 18, 26)}
-
-
-def turn_of(seed):
-    dice = random.Random(seed)
-    a, b, c, d = (dice.gauss(0, 1) for _ in range(4))
-    n = math.sqrt(a * a + b * b + c * c + d * d)
-    a, b, c, d = a / n, b / n, c / n, d / n
-    return [[a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)], [2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)],
-            [2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d]]
-
-
-def product(matrix, vector):
-    return [sum(matrix[i][k] * vector[k] for k in range(3)) for i in range(3)]
 
 
 def block(low, high, counts, wedges, quadratic, seed):
@@ -145,7 +132,7 @@ output: {{points: [{{at: {row(inside)}, name: inside}}]}}
         return errors, [*force, *u, *turned_back, increment["energy"]["elastic"], *sorted(pressures)], summary_of(self.directory / "results")
 
     def test_a_uniform_pressure_passes_between_files_of_every_format(self):
-        turn = turn_of(3)
+        turn = rotation(3)
         forms = ("inp", "msh22", "msh41", "vtu")
         for k, (wedges, quadratic) in enumerate(itertools.product(((False, False), (True, False), (False, True), (True, True)), (False, True))):
             pair = (forms[k % 4], forms[(k + 1 + k // 4) % 4])
@@ -159,11 +146,11 @@ output: {{points: [{{at: {row(inside)}, name: inside}}]}}
     def test_the_formats_give_the_same_answer(self):
         """Also where the file's hexahedra are divided into tetrahedra, which its numbers decide how."""
         for kind, quadratic in ((", kind: hexahedra", True), (", kind: hexahedra", False), ("", True), ("", False)):
-            _, one, _ = self.solve(("inp", "inp"), (False, True), quadratic, turn_of(4), kind)
+            _, one, _ = self.solve(("inp", "inp"), (False, True), quadratic, rotation(4), kind)
             size = max(map(abs, one))
             for form in ("msh22", "msh41", "vtu"):
                 with self.subTest(kind=kind, quadratic=quadratic, format=form):
-                    errors, other, _ = self.solve((form, form), (False, True), quadratic, turn_of(4), kind)
+                    errors, other, _ = self.solve((form, form), (False, True), quadratic, rotation(4), kind)
                     self.assertLess(max(abs(a - b) for a, b in zip(one, other)) / size, 1e-12)
                     self.assertLess(max(errors), 1e-10)
 

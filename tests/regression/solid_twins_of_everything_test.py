@@ -6,7 +6,7 @@ import unittest
 
 import support
 from solid_twins_test import IDENTITY, product, rotation, text_of
-from solids import HEAD, arrays_of
+from solids import HEAD, bodies_of
 from support import scabo, summary_of
 
 TOLERANCE = 1e-9
@@ -36,15 +36,7 @@ class TwinsOfEverything(support.InTemporaryDirectory):
         """Nodes and tetrahedra of every body."""
         bodies = "\n".join(f"  {name}: {{material: m, shape: {{{shape}}}, mesh: {{size: {size}}}}}" for name, (shape, size) in SHAPES.items())
         self.run_model(f"materials: {{m: {{young: 1e9, poisson: 0.2, density: 1}}}}\nbodies:\n{bodies}\nloads: {{none: {{gravity: [0, 0, 0]}}}}\n")
-        arrays = arrays_of(self.directory / "results" / "fields_0001.vtu")
-        points, offsets, connectivity = (arrays[name] for name in ("Points", "offsets", "connectivity"))
-        found = {}
-        for body, name in enumerate(SHAPES, 1):
-            own = [i for i, number in enumerate(arrays["node_body"]) if number == body]
-            place = {node: k for k, node in enumerate(own)}
-            cells = [[place[node] for node in connectivity[start:end]] for start, end in zip((0, *offsets), offsets) if connectivity[start] in place]
-            found[name] = ([points[3 * i:3 * i + 3] for i in own], cells)
-        return found
+        return dict(zip(SHAPES, bodies_of(self.directory / "results" / "fields_0001.vtu", len(SHAPES))))
 
     def write(self, name, mesh, turn, scale, renumber, corners):
         nodes, cells = mesh

@@ -5,7 +5,7 @@ import random
 import unittest
 
 import support
-from solids import HEAD, arrays_of
+from solids import HEAD, bodies_of
 from support import scabo, summary_of
 
 YOUNG, FRICTION = 10e9, 0.3
@@ -72,20 +72,7 @@ loads: {{heat: {{gravity: [0, 0, 0]}}}}
 """)
         if made is None:
             return None
-        arrays = arrays_of(self.directory / "results" / "fields_0001.vtu")
-        points, offsets, connectivity = (arrays[name] for name in ("Points", "offsets", "connectivity"))
-        nodes = [tuple(points[3 * i:3 * i + 3]) for i in range(len(points) // 3)]
-        meshes = []
-        for body in (1, 2):
-            own = [i for i, number in enumerate(arrays["node_body"]) if number == body]
-            place = {node: k for k, node in enumerate(own)}
-            cells, start = [], 0
-            for end in offsets:
-                if connectivity[start] in place:
-                    cells.append([place[node] for node in connectivity[start:end]])
-                start = end
-            meshes.append(([nodes[i] for i in own], cells))
-        return meshes
+        return bodies_of(self.directory / "results" / "fields_0001.vtu", 2)
 
     def write_mesh(self, name, mesh, sets, turn, scale, renumber):
         nodes, cells = mesh

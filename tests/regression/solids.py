@@ -120,3 +120,16 @@ class Solving(support.InTemporaryDirectory):
             with open(points, encoding="utf-8", newline="") as file:
                 values = {row["name"]: {key: float(value) for key, value in row.items() if key not in ("name", "body")} for row in csv.DictReader(file)}
         return support.summary_of(self.directory / "results")["increments"][-1], values
+
+
+def bodies_of(file, count):
+    """Nodes and cells of the first bodies of a file of fields."""
+    arrays = arrays_of(file)
+    points, offsets, connectivity = (arrays[name] for name in ("Points", "offsets", "connectivity"))
+    bodies = []
+    for body in range(1, count + 1):
+        own = [i for i, number in enumerate(arrays["node_body"]) if number == body]
+        place = {node: k for k, node in enumerate(own)}
+        cells = [[place[node] for node in connectivity[start:end]] for start, end in zip((0, *offsets), offsets) if connectivity[start] in place]
+        bodies.append(([tuple(points[3 * i:3 * i + 3]) for i in own], cells))
+    return bodies
