@@ -186,7 +186,7 @@ steps: [{name: hang, loads: {push: 1}}]
                                                  + "restart: pulled.results\nsteps:\n" + steps[3], encoding="utf-8")
         done = scabo("run", self.directory / "two.yaml")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("bar 'bolt' is not the same as in pulled.results", done.stderr)
+        self.assertIn("bar 'bolt' is not the same as in ", done.stderr)
 
     def test_a_body_takes_its_bar_with_it(self):
         """The tension of a bar, its preload too, falls to nothing while its body is removed; another one begins with its body."""
