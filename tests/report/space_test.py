@@ -44,6 +44,9 @@ loads:
 contacts: {joint: {between: [ground.top, block.bottom], friction: 0.3}}
 """
 STEPS = "steps: [{name: rest, loads: {weight: 1}}, {name: push, loads: {push: 1}}]\n"
+# The same with a stop that is struck, the first of the bodies.
+STRUCK = SLIDING.replace("bodies:\n", "bodies:\n  stop: {rigid: true, shape: {box: {corner: [2, 1, 0], size: [0.2, 1, 0.5]}}, mesh: {size: 1}, removed: strike}\n").replace(
+    "supports: [", "supports: [{on: stop, fix: [x, y, z]}, ").replace("contacts: {", "contacts: {stopped: {between: [block.right, stop.left]}, ")
 CENTRE = np.array([0.5, 0.4, 0.25])
 TOP, ON_CUT, BELOW = (0.63, 0.31, 0.5), (0.5, 0.3, 0.17), (0.55, 0.5, 0.3)
 MAGNIFICATION = 2e4
@@ -62,7 +65,7 @@ class Space(InBrowser):
         assert run.returncode == 0, run.stderr
         cls.picture = pathlib.Path(os.environ.get("SCABO_PICTURE", cls.folder / "space.png"))
         tasks = {"increments": (1, 3), "top": list(TOP - CENTRE), "cut": 500, "on_cut": list(ON_CUT - CENTRE), "below": list(BELOW - CENTRE), "pair": 5,
-                 "mechanisms": [cls.mechanism_of("sliding", SLIDING), cls.mechanism_of("pushed", SLIDING + STEPS)], "magnification": MAGNIFICATION, "moved": list(TOP - CENTRE + MAGNIFICATION * motion(TOP))}
+                 "mechanisms": [cls.mechanism_of("sliding", SLIDING), cls.mechanism_of("pushed", SLIDING + STEPS), cls.mechanism_of("struck", STRUCK + STEPS.replace("]", ", {name: strike, loads: {push: 1}}]"))], "magnification": MAGNIFICATION, "moved": list(TOP - CENTRE + MAGNIFICATION * motion(TOP))}
         cls.seen = cls.drive("space.mjs", cls.folder / "stack.report.html", tasks, cls.picture)
 
     @classmethod
@@ -123,12 +126,12 @@ class Space(InBrowser):
 
     def test_a_mechanism_is_played(self):
         """Also where no increment was finished. The block, whose points come last, slides along x as it is drawn, the ground stays."""
-        for seen, finished in zip(self.seen["mechanisms"], (False, True)):
+        for seen, finished, block in zip(self.seen["mechanisms"], (False, True, False), (2, 2, 3), strict=True):
             self.assertIn("1 of 2 bodies moves, 'block'.", seen["note"])
             moved, body = np.reshape(seen["moved"], (-1, 3)), np.array(seen["body"])
-            np.testing.assert_allclose(moved, np.where(body[:, None] == 2, [1.0, 0.0, 0.0], 0.0), atol=1e-7)
+            np.testing.assert_allclose(moved, np.where(body[:, None] == block, [1.0, 0.0, 0.0], 0.0), atol=1e-7)
             self.assertAlmostEqual(seen["longest"], 0.2, delta=0.02)  # of a diagonal of 5.2: 0.06 or less
-            self.assertEqual(seen["coloured"], [2])
+            self.assertEqual(seen["coloured"], [block])
             self.assertEqual(seen["boxes"], int(finished))
             if finished:
                 self.assertEqual(seen["fields"][0], seen["fields"][1])

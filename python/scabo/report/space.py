@@ -18,7 +18,7 @@ def add_space(results, arrays, budget, asked=None):
     motion = motion_of_nodes(results)
     if not numbers and motion is None:
         return None
-    last = results.increments[numbers[-1] - 1].get("absent") if numbers else None
+    last = results.increments[-1 if motion is not None else numbers[-1] - 1].get("absent")  # a mechanism is that of the last one
     with_others = [number for number in numbers if results.increments[number - 1].get("absent") != last]
     numbers = [number for number in numbers if number not in with_others]
     keys = keys_of(asked) if numbers else []
@@ -42,6 +42,8 @@ def add_space(results, arrays, budget, asked=None):
             arrays.add(f"mechanism_{name}", values, "f4")
     why = "those with the bodies of the last one" if with_others and shown == numbers else "which keeps its size within bounds"
     what = f"This page has the fields of {len(shown)} of {results.count} increments ({listed(shown)}), {why}."
+    if not shown:
+        what = "This page has no fields, as no other increment has the bodies of the last one."
     return {"centre": centre.tolist(), "low": grid.points.min(axis=0).tolist(), "high": grid.points.max(axis=0).tolist(),
             "bodies": [body["name"] for body in results.summary["model"].get("bodies", [])] or [f"body {k + 1}" for k in range(int(bodies.max()))],
             "increments": shown, "ranges": chosen, "magnification": tetrahedra.magnification_of(results.fields(shown[-1])) if shown else 0.0,
