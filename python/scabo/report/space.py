@@ -18,7 +18,7 @@ def add_space(results, arrays, budget, asked=None):
     motion = motion_of_nodes(results)
     if not numbers and motion is None:
         return None
-    last = results.increments[-1 if motion is not None else numbers[-1] - 1].get("absent")  # a mechanism is that of the last one
+    last = (results.increments[numbers[-1] - 1] if motion is None else results.summary["increments"][-1]).get("absent")
     with_others = [number for number in numbers if results.increments[number - 1].get("absent") != last]
     numbers = [number for number in numbers if number not in with_others]
     keys = keys_of(asked) if numbers else []

@@ -1,4 +1,4 @@
-// Energies of bodies in space, by the rules of the plane (docs/methods/07, "Energy").
+// Energies of bodies in space, by the rules of the plane (docs/methods/07_history_and_increments.md, "Energy").
 #pragma once
 
 #include "scabo/analysis/space/prepared_solids.hpp"
