@@ -236,10 +236,13 @@ supports: [{on: floor, fix: [x, y, z]}]
         self.run_model(text)
         results = self.directory / "model.results"
         draw = lambda *words: scabo(*words, cwd=self.directory, SCABO_PYTHON=sys.executable)
-        for words in (("report", results, "-o", "page.html"), ("plot", results, "-o", "last.png"), ("plot", results, "--increment", "2", "-o", "second.png")):
+        for words in (("plot", results, "-o", "last.png"), ("plot", results, "--increment", "2", "-o", "second.png")):
             done = draw(*words)
             self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("those with the bodies of the last one", (self.directory / "page.html").read_text(encoding="utf-8"))
+        if not support.SANITIZED:  # there the page of the report is not built
+            done = draw("report", results, "-o", "page.html")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("those with the bodies of the last one", (self.directory / "page.html").read_text(encoding="utf-8"))
         done = draw("plot", results, "--what", "contact", "--contact", "joint_3", "-o", "joint.png")
         self.assertEqual(done.returncode, 1)
         self.assertIn("the bodies of this contact are not there in increment 9", done.stderr)

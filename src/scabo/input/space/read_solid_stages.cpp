@@ -66,10 +66,9 @@ void SpaceReader::find_stages() {
     support.stay = stay_of(of, "support");
     if (report_.count() > before || support.on.body < 0) continue;
     const SpaceBody& body = body_at(support.on.body);
+    const bool too_early = support.stay.added > 0 && support.stay.added < body.stay.added;
     if (const auto wrong = wrong_stay_on_body(support.stay, body.stay, body.name, model_.steps))
-      report_.error(
-          support.stay.added > 0 && support.stay.added < body.stay.added ? *of.added : of.removed.value_or(*of.added),
-          *wrong);
+      report_.error(too_early || !of.removed ? *of.added : *of.removed, *wrong);
   }
   if (report_.count() == before) check_stages();
 }
