@@ -93,7 +93,7 @@ void refuse_restart(const std::string& file, const model::Restart& restart, std:
   throw InputError(file, std::move(diagnostics));
 }
 
-EndState read_end_state(const std::string& file, const model::Restart& restart, bool in_space) {
+EndState read_end_state(const std::string& file, const model::Restart& restart, bool space) {
   const std::string& directory = restart.directory;
   EndState end;
   std::string wrong;
@@ -102,11 +102,11 @@ EndState read_end_state(const std::string& file, const model::Restart& restart, 
     if (io.first_text() == end_version) {
       exchange_end(io, end);
       io.finish();
-      if (end.in_space != in_space)
+      if (end.in_space != space)
         wrong = fmt::format(
             "{} has the results of a model in {}, and this one is in {}: name the results of a model of "
             "the same kind",
-            directory, end.in_space ? "space" : "the plane", in_space ? "space" : "the plane");
+            directory, end.in_space ? "space" : "the plane", space ? "space" : "the plane");
     } else {
       wrong = fmt::format("the state at the end of {} was written by another version of Scabo: run that model again",
                           directory);

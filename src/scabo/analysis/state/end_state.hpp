@@ -54,7 +54,7 @@ struct EndState {
 void write_end_state(const std::filesystem::path& directory, EndState end);
 
 /// Of the run from which the model of `file` starts. Throws InputError, at the place of `restart` in the file.
-EndState read_end_state(const std::string& file, const model::Restart& restart, bool in_space);
+EndState read_end_state(const std::string& file, const model::Restart& restart, bool space);
 
 /// Throws InputError with these messages at the place of `restart` in the file; without messages, nothing.
 void refuse_restart(const std::string& file, const model::Restart& restart, std::vector<std::string> messages);

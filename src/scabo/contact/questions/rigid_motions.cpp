@@ -226,8 +226,9 @@ std::optional<Vector> mechanism_of(const Problem& problem) {
   const auto balances = [&] { return unbalanced.norm() <= 1e-9 * problem.f.norm(); };
   if (problem.dimension == 2 || !balances()) return motion_of_proof(problem, rays, unbalanced);
   // In space the loads may be balanced by a pyramid and not by the cone.
-  constexpr double most_rays = 3e5;
-  for (int sides = 4 * fewest_sides; sides <= 16 * fewest_sides && sides * problem.pairs() <= most_rays; sides *= 4) {
+  constexpr double most_directions = 3e5;
+  for (int sides = 4 * fewest_sides; sides <= 16 * fewest_sides && sides * problem.pairs() <= most_directions;
+       sides *= 4) {
     unbalanced = unbalanced_by(rays_of(problem, sides / 4, true), problem.f);
     if (balances()) break;
     const Matrix closer = rays_of(problem, sides);
