@@ -130,6 +130,46 @@ output:
         top = [a + b for a, b in zip(cross(less((0.9, 0.7, 0.8), ABOUT), (400, 100, -300)), cross(less((0.6, 0.5, 0.8), ABOUT), (0, 0, -2400)))]
         self.near(found["top"][1], [r + m for r, m in zip(of_rim, top)])
 
+    def test_stages(self):
+        """A block that comes in the second step, and a support that ends in the third: the faces balance the loads that act, and what is not there has none."""
+        text = """materials: {m: {young: 1e7, poisson: 0.3, density: 500}}
+bodies:
+  base: {material: m, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.5}}
+  lid: {material: m, shape: {box: {corner: [0, 0, 1], size: [1, 1, 0.5]}}, mesh: {size: 0.5}, added: lid}
+supports: [{on: base.bottom, fix: [x, y, z], name: ground}, {on: base.right, fix: x, removed: strike, name: prop}]
+loads:
+  weight: {gravity: [0, 0, -10]}
+  push: {on: base.left, traction: [3000, 0, 0]}
+  press: {on: lid.top, pressure: 4000}
+contacts: {joint: {between: [base.top, lid.bottom], friction: 0.5}}
+steps:
+  - {name: base, loads: {weight: 1, push: 1}}
+  - {name: lid, increments: 2, loads: {press: 1}}
+  - {name: strike, increments: 4, loads: {}}
+output:
+  history:
+""" + "".join(f"    {body}_{face}: {{face: {body}.{face}, about: [0.5, 0.5, 0.5]}}\n" for body in ("base", "lid") for face in ("bottom", "top", "left", "right", "front", "back"))
+        (self.directory / "model.yaml").write_text(HEAD + text, encoding="utf-8")
+        done = scabo("run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        increments = summary_of(self.directory / "results")["increments"]
+        for row, increment, there in zip(self.rows(), increments, (0, 0.5, 1, 1, 1, 1, 1), strict=True):
+            total = lambda body, of: sum(row[f"{body}_{face}.{of}"] for face in ("bottom", "top", "left", "right", "front", "back"))  # noqa: E731
+            for body, weight in (("base", 5000.0), ("lid", 2500.0 * there)):
+                for axis, exact in zip("xyz", (0.0, 0.0, weight)):
+                    self.assertAlmostEqual(total(body, f"force_{axis}"), exact, delta=1e-9 * 5000)
+            press = 4000 * there**2  # its factor grows with the part of the lid that is there
+            self.assertAlmostEqual(row["lid_top.force_z"], -press, delta=1e-9 * 5000)
+            self.assertAlmostEqual(row["base_top.force_z"], -press - 2500 * there, delta=1e-9 * 5000)
+            prop = increment["reactions"].get("prop", [0.0] * 3)
+            self.assertAlmostEqual(row["base_right.force_x"], prop[0], delta=1e-9 * 5000)
+        self.assertLess(self.rows()[2]["base_right.force_x"], -500)
+        self.assertAlmostEqual(self.rows()[-1]["base_right.force_x"], 0.0, delta=1e-9 * 5000)
+        (self.directory / "model.yaml").write_text(HEAD + text.replace("added: lid}", "added: lid, removed: strike}"), encoding="utf-8")
+        done = scabo("run", self.directory / "model.yaml", "-o", self.directory / "again", "--quiet")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("body 'lid', which touches 'base', is removed in a step", done.stderr)
+
     def test_turned_and_in_millimetres(self):
         found, _ = self.solve()
         for turn, scale, force in ((rotation(5), 1.0, 1.0), (IDENTITY, 1e3, 1e-3), (rotation(6), 1e3, 1.0)):

@@ -129,6 +129,8 @@ struct SpaceBar {
     std::optional<SpaceFace> on;
     int body = -1;  ///< without `on`; -1: the ground
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
+
+    int of_body() const { return on ? on->body : body; }
   };
   std::string name;
   std::array<End, 2> between;

@@ -51,11 +51,16 @@ void FaceActions::add_load(std::size_t load, const mesh::SolidMesh& mesh, const 
     loads_.emplace_back(load, sum_over(mesh, forces, share));
 }
 
-void FaceActions::add_reactions(const std::vector<system::Constraint>& constraints, int support, const Share& share) {
+void FaceActions::add_reactions(const SolidModel& model, int support, const Share& share) {
   const std::set<int> nodes(share.nodes.begin(), share.nodes.end());
+  const auto counts = [&](const system::Constraint& held) {
+    return held.support == support && (share.all || nodes.count(held.dof / 3) > 0);
+  };
+  const std::vector<system::Constraint>& constraints = model.bodies[static_cast<std::size_t>(body_)].supports;
   for (std::size_t c = 0; c < constraints.size(); ++c)
-    if (constraints[c].support == support && (share.all || nodes.count(constraints[c].dof / 3) > 0))
-      constraints_.push_back(c);
+    if (counts(constraints[c])) constraints_.push_back(c);
+  for (std::size_t k = 0; k < model.held_points.size(); ++k)
+    if (model.held_points[k].body == body_ && counts(model.held_points[k].held)) held_points_.push_back(k);
 }
 
 void FaceActions::add_springs(std::size_t springs, Share share) {
@@ -72,16 +77,19 @@ FaceResultant FaceActions::resultant(const SolidModel& model, const SolidIncreme
   const auto b = static_cast<std::size_t>(body_);
   const mesh::SolidMesh& mesh = model.bodies[b].mesh;
   FaceResultant sum;
+  if (!increment.absent.empty() && increment.absent[b] != 0) return sum;
   for (const auto& [load, at_one] : loads_) {
-    const double factor = increment.factors.loads[static_cast<Eigen::Index>(load)];
+    const double factor = increment.factors.presence_of(b) * increment.factors.loads[static_cast<Eigen::Index>(load)];
     sum.force += factor * at_one.force;
     sum.moment += factor * at_one.moment;
   }
-  for (const std::size_t c : constraints_) {
-    const system::Constraint& held = model.bodies[b].supports[c];
-    sum.add(mesh.nodes.col(held.dof / 3),
-            increment.reactions[b][static_cast<Eigen::Index>(c)] * Eigen::Vector3d::Unit(held.component));
-  }
+  const auto add_reaction = [&](const system::Constraint& held, double reaction) {
+    sum.add(mesh.nodes.col(held.dof / 3), reaction * Eigen::Vector3d::Unit(held.component));
+  };
+  for (const std::size_t c : constraints_)
+    add_reaction(model.bodies[b].supports[c], increment.reactions[b][static_cast<Eigen::Index>(c)]);
+  for (const std::size_t k : held_points_)
+    add_reaction(model.held_points[k].held, increment.held[static_cast<Eigen::Index>(k)]);
   for (const auto& [springs, share] : springs_) {
     const FaceResultant of = sum_over(mesh, -model.springs[springs].spring.times(increment.u[b]), share);
     sum.force += of.force;

@@ -45,7 +45,8 @@ class FaceActions {
 
   /// `forces`: of all nodes at factor 1.
   void add_load(std::size_t load, const mesh::SolidMesh& mesh, const Vector& forces, const Share& share);
-  void add_reactions(const std::vector<system::Constraint>& constraints, int support, const Share& share);
+  /// Of a support, also one that begins or ends in a step.
+  void add_reactions(const SolidModel& model, int support, const Share& share);
   void add_springs(std::size_t springs, Share share);
   void add_contact(std::size_t contact, bool on_b);
   void add_bar(std::size_t bar, bool on_b, Share share);
@@ -59,6 +60,7 @@ class FaceActions {
   std::set<int> nodes_;
   std::vector<std::pair<std::size_t, FaceResultant>> loads_;  // at factor 1
   std::vector<std::size_t> constraints_;                      // of the body
+  std::vector<std::size_t> held_points_;                      // of the model
   std::vector<std::pair<std::size_t, Share>> springs_;
   std::vector<std::pair<std::size_t, bool>> contacts_;  // and whether it is side b
   struct EndOfBar {

@@ -414,6 +414,15 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
                                      of.on.text, what)});
     return share.value_or(FaceActions::Share());
   };
+  const auto leaves = [&](int own, int other) {
+    if (own == of.on.body && other >= 0 && body(other).stay.removed >= 0)
+      mistakes_.push_back({of.on.source, fmt::format("body '{}', which touches '{}', is removed in a step: what it "
+                                                     "exerts is released at nodes, and no face has it; ask for forces "
+                                                     "of contacts and supports",
+                                                     body(other).name, body(own).name)});
+  };
+  for (const model::SpaceContact& contact : model_.contacts)
+    leaves(contact.a.body, contact.b.body), leaves(contact.b.body, contact.a.body);
   const auto b = static_cast<std::size_t>(of.on.body);
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const model::SpaceLoad& load = model_.loads[l];
@@ -423,7 +432,7 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
   }
   for (std::size_t s = 0; s < model_.supports.size(); ++s)
     on_face.add_reactions(
-        body(of.on.body).supports, static_cast<int>(s),
+        posed_.model, static_cast<int>(s),
         share_of(place_of_action(model_.supports[s].on), fmt::format("support '{}'", model_.supports[s].name)));
   for (std::size_t s = 0; s < model_.springs.size(); ++s)
     on_face.add_springs(
@@ -436,10 +445,11 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
       if (share.all || !share.nodes.empty()) on_face.add_contact(c, on_b);
     }
   for (std::size_t i = 0; i < model_.bars.size(); ++i)
-    for (const std::size_t end : {0, 1})
-      on_face.add_bar(
-          i, end == 1,
-          share_of(place_of_action(model_.bars[i].between[end]), fmt::format("bar '{}'", model_.bars[i].name)));
+    for (const std::size_t end : {0, 1}) {
+      const auto& ends = model_.bars[i].between;
+      leaves(ends[end].of_body(), ends[1 - end].of_body());
+      on_face.add_bar(i, end == 1, share_of(place_of_action(ends[end]), fmt::format("bar '{}'", model_.bars[i].name)));
+    }
   posed_.resultants.push_back(std::move(on_face));
 }
 

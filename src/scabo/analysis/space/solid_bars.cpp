@@ -47,8 +47,8 @@ SolidBarEnd mean_of_nodes(const mesh::SolidMesh& mesh, std::size_t body, const s
 }  // namespace
 
 SolidBarEnd end_of_bar(const SolidModel& model, const model::SpaceBar::End& end, const SolidPlaceOfAction& place) {
-  if (!end.on && end.body < 0) return {{system::PairSide::ground, {}}, end.at};
-  const auto b = static_cast<std::size_t>(end.on ? end.on->body : end.body);
+  if (end.of_body() < 0) return {{system::PairSide::ground, {}}, end.at};
+  const auto b = static_cast<std::size_t>(end.of_body());
   const SolidBody& of = model.bodies[b];
   if (!end.on && of.rigid_at) return {side_at(model, end.body, end.at), end.at};
   return place.facets.empty() ? mean_of_nodes(of.mesh, b, place.nodes) : mean_of_facets(of.mesh, b, place.facets);

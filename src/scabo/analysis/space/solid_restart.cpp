@@ -69,7 +69,7 @@ std::string fingerprint_of_contact(const PreparedSolids& now, const SolidFactors
     if (pair.contact != static_cast<int>(contact)) continue;
     const auto i = static_cast<std::size_t>(pair.index);
     of.add(now.paired.points[i].softness);
-    of.add(Vector(now.paired.pairs[i].normal)), of.add(Vector(now.paired.pairs[i].point));
+    of.add(Vector(now.paired.points[i].directions.reshaped())), of.add(Vector(now.paired.pairs[i].point));
     of.add(now.paired.pairs[i].area), of.add(gap_of_solids(now, factors, i));
   }
   return of.text();
