@@ -1,6 +1,6 @@
 #include "scabo/contact/extrapolation.hpp"
 
-#include <Eigen/QR>
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::contact {
 

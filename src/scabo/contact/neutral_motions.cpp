@@ -1,13 +1,12 @@
 #include "scabo/contact/neutral_motions.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "scabo/contact/constants.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::contact {
 

@@ -3,12 +3,12 @@
 #include <cblas.h>
 #include <lapacke.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <random>
 
 #include "scabo/base/error.hpp"
 #include "scabo/base/interruption.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::linalg {
 

@@ -14,11 +14,11 @@
 // enough of them.
 #pragma once
 
-#include <Eigen/LU>
 #include <functional>
 #include <vector>
 
 #include "scabo/base/types.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::linalg {
 

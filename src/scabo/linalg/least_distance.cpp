@@ -1,10 +1,10 @@
 #include "scabo/linalg/least_distance.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/nonnegative_least_squares.hpp"
 
 namespace scabo::linalg {

@@ -1,9 +1,10 @@
 #include "scabo/linalg/nonnegative_least_squares.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::linalg {
 

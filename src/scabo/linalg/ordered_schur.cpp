@@ -2,7 +2,6 @@
 
 #include <lapacke.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -10,6 +9,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "scabo/base/error.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::linalg {
 

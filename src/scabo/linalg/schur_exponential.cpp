@@ -1,12 +1,13 @@
 #include "scabo/linalg/schur_exponential.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::linalg {
 

@@ -1,10 +1,10 @@
 #include "scabo/system/contact_system.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/base/error.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/parallel.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/joined_bodies.hpp"

@@ -1,7 +1,5 @@
 #include "scabo/system/elastic_body.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 #include "scabo/base/components.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/linalg/changed_factor.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/ranks.hpp"
 #include "scabo/system/rigid_motions.hpp"
 #include "scabo/system/same_nodes.hpp"

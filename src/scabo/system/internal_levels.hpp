@@ -12,11 +12,11 @@
 // with the damping a M + b K.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <memory>
 #include <vector>
 
 #include "scabo/element/cell_library.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/dofs.hpp"
 

@@ -15,12 +15,12 @@
 // softness to it.
 #pragma once
 
-#include <Eigen/LU>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "scabo/contact/pair_operator.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/structure.hpp"
 
 namespace scabo::system {

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "scabo/base/components.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/symmetric_eigen.hpp"
 
 namespace scabo::system {

@@ -1,10 +1,10 @@
 // The rigid part of a structure: three degrees of freedom, on supports and springs.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <utility>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/body_system.hpp"
 #include "scabo/system/rigid_motions.hpp"
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <cmath>
 
 #include "scabo/base/components.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::system {
 

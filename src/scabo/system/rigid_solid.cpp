@@ -1,8 +1,8 @@
 #include "scabo/system/rigid_solid.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/rigid_motions.hpp"
 
 namespace scabo::system {

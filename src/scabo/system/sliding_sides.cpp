@@ -1,12 +1,11 @@
 #include "scabo/system/sliding_sides.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/mesh/plane/concurrent_rays.hpp"
 #include "scabo/mesh/plane/interface.hpp"
 

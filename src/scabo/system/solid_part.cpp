@@ -1,7 +1,8 @@
 #include "scabo/system/solid_part.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::system {
 

@@ -1,6 +1,5 @@
 #include "scabo/system/thermal_energy.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 
@@ -8,6 +7,7 @@
 #include "scabo/element/plane/finite_element.hpp"
 #include "scabo/element/plane/initial_stress.hpp"
 #include "scabo/element/sbfem/modal_solution.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/loads.hpp"
 
 namespace scabo::system {

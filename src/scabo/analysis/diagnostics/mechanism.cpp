@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/geometry/plane/polygon.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::analysis {
 

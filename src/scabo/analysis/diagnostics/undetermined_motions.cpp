@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/analysis/diagnostics/mechanism.hpp"
 #include "scabo/contact/questions/rigid_motions.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/least_distance.hpp"
 #include "scabo/system/rigid_motions.hpp"
 

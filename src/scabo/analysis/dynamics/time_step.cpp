@@ -1,6 +1,5 @@
 #include "scabo/analysis/dynamics/time_step.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "scabo/analysis/state/balance.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/analysis/state/pair_motions.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::analysis {
 

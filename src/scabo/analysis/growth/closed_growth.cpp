@@ -1,6 +1,5 @@
 #include "scabo/analysis/growth/closed_growth.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -8,6 +7,7 @@
 
 #include "scabo/analysis/growth/closed_cracks.hpp"
 #include "scabo/element/plane/point_operator.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"
 
 namespace scabo::analysis {

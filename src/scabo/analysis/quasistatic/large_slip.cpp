@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "scabo/analysis/state/carried_over.hpp"
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::analysis {
 

@@ -1,6 +1,5 @@
 #include "scabo/analysis/space/prepared_solids.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,6 +8,7 @@
 #include "scabo/analysis/space/solid_preloads.hpp"
 #include "scabo/analysis/state/loads.hpp"
 #include "scabo/contact/laws/two_sided.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/contact_laws.hpp"
 #include "scabo/system/fewer_parts.hpp"
 #include "scabo/system/rigid_solid.hpp"

@@ -1,9 +1,9 @@
 #include "scabo/analysis/space/smallest_motions.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "scabo/analysis/diagnostics/undetermined_motions.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/least_distance.hpp"
 #include "scabo/system/solid_part.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "scabo/analysis/space/prepared_solids.hpp"
 #include "scabo/base/error.hpp"
 #include "scabo/contact/questions/onset.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/solid_part.hpp"
 
 namespace scabo::analysis {

@@ -1,8 +1,8 @@
 #include "scabo/analysis/space/solid_restart_points.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/rigid_solid.hpp"
 
 namespace scabo::analysis {

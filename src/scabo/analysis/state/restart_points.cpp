@@ -1,10 +1,10 @@
 #include "scabo/analysis/state/restart_points.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/analysis/state/fields.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::analysis {
 

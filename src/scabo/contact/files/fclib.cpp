@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "scabo/contact/files/hdf5_file.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::contact {
 

@@ -1,9 +1,9 @@
 // Directions where W is dense.
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/contact/kkt/newton_direction_workspace.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::contact {
 

@@ -6,10 +6,10 @@
 // The rigid motions are eliminated by an approximation of A^-1: da from (F A^-1 M + E) da = F A^-1 x - y.
 #pragma once
 
-#include <Eigen/LU>
 #include <vector>
 
 #include "scabo/contact/kkt/saddle_matrix.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/hierarchical_solver.hpp"
 
 namespace scabo::contact {

@@ -1,11 +1,11 @@
 #include "scabo/contact/questions/onset.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <vector>
 
 #include "scabo/contact/questions/rigid_motions.hpp"
 #include "scabo/contact/solve.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::contact {
 

@@ -1,14 +1,12 @@
 #include "scabo/contact/questions/rigid_motions.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "scabo/base/components.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/nonnegative_combination.hpp"
 #include "scabo/linalg/nonnegative_least_squares.hpp"
 #include "scabo/linalg/symmetric_positive_solver.hpp"

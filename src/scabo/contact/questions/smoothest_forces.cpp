@@ -1,12 +1,11 @@
 #include "scabo/contact/questions/smoothest_forces.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/least_distance.hpp"
 
 namespace scabo::contact {

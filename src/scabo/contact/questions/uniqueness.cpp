@@ -1,13 +1,11 @@
 #include "scabo/contact/questions/uniqueness.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <random>
 
 #include "scabo/contact/newton/newton.hpp"
 #include "scabo/contact/questions/lemke.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/dense.hpp"
 
 namespace scabo::contact {

@@ -1,6 +1,5 @@
 #include "scabo/element/facet/coefficient_matrices.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <string>
 #include <type_traits>
@@ -9,6 +8,7 @@
 #include "scabo/element/facet/cell_ring.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::element {
 

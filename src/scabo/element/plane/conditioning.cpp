@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "scabo/base/components.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::element {
 

@@ -1,12 +1,11 @@
 #include "scabo/element/plane/exact_riccati.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/element/sbfem/riccati.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::element {
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "scabo/base/components.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/element/sbfem/ring_doubling.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/schur_exponential.hpp"
 
 namespace scabo::element {

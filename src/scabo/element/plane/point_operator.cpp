@@ -1,11 +1,11 @@
 #include "scabo/element/plane/point_operator.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "scabo/base/components.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {

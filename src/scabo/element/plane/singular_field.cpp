@@ -1,10 +1,10 @@
 #include "scabo/element/plane/singular_field.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/ordered_schur.hpp"
 
 namespace scabo::element {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "scabo/element/sbfem/ring_doubling.hpp"
 #include "scabo/geometry/line_basis.hpp"
 #include "scabo/linalg/cholesky_factor.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {

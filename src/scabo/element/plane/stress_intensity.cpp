@@ -1,6 +1,5 @@
 #include "scabo/element/plane/stress_intensity.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 #include "scabo/base/components.hpp"
 #include "scabo/element/plane/interior_field.hpp"
 #include "scabo/geometry/line_basis.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/ordered_schur.hpp"
 
 namespace scabo::element {

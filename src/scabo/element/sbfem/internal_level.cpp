@@ -1,9 +1,7 @@
 #include "scabo/element/sbfem/internal_level.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include "scabo/element/sbfem/lyapunov.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/dense.hpp"
 
 namespace scabo::element {

@@ -1,11 +1,11 @@
 #include "scabo/element/sbfem/modal_solution.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "scabo/base/error.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/parallel.hpp"
 
 namespace scabo::element {

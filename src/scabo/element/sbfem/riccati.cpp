@@ -1,11 +1,11 @@
 #include "scabo/element/sbfem/riccati.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/linalg/dense.hpp"
 
 namespace scabo::element {

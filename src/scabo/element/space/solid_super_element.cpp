@@ -1,8 +1,6 @@
 #include "scabo/element/space/solid_super_element.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +11,7 @@
 #include "scabo/element/sbfem/ill_posed.hpp"
 #include "scabo/element/sbfem/ring_doubling.hpp"
 #include "scabo/geometry/facet_basis.hpp"
+#include "scabo/linalg/decompositions.hpp"
 
 namespace scabo::element {
 

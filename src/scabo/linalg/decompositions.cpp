@@ -1,0 +1,3 @@
+#include "scabo/linalg/decompositions.hpp"
+
+SCABO_DECOMPOSITIONS();
