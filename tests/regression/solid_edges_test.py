@@ -181,6 +181,36 @@ loads: {{push: {{on: {{body: post, edge: [top, side]}}, {load}}}}}
         last = self.solve(model.format(load="line_load: [0, 0, -1]"))
         self.assertAlmostEqual(last["reactions"]["ground"][2], math.pi, delta=1e-4 * math.pi)
 
+    def test_edges_of_every_shape(self):
+        """A line load of 1 has the length of the edge as its total, and a force of 1 in the middle of the edge has its moments."""
+        square = "profile: {rectangle: {corner: [1, 0], size: [2, 2]}}"
+        bodies = (("box: {corner: [0, 0, 0], size: [1, 2, 3]}", "bottom", "edge: [top, back]", 1.0, (0.5, 2, 3)),
+                  ("tube: {from: [0, 0, 0], to: [0, 0, 2], inner: 0.5, outer: 1}", "bottom", "edge: [top, inside]", math.pi, (0, 0, 2)),
+                  ("sphere: {centre: [0, 0, 0], radius: 1, keep: [+z, +x]}", "cut_z", "edge: [surface, cut_x]", math.pi, (0, 0, 2 / math.pi)),
+                  (f"extrude: {{{square}, holes: {{gallery: {{circle: {{centre: [2, 1], radius: 0.5}}}}}}, plane: xy, from: 0, to: 1}}", "start", "edge: [end, gallery]", math.pi, (2, 1, 1)),
+                  (f"extrude: {{{square}, plane: xy, from: 0, to: 1}}", "start", "edge: [left, top]", 1.0, (1, 2, 0.5)),
+                  (f"revolve: {{{square}, plane: xz, axis: {{from: [0, 0], to: [0, 1]}}, angle: 90}}", "bottom", "edge: [start, top]", 2.0, None),
+                  ("subtract: {plate: {box: {corner: [0, 0, 0], size: [2, 2, 1]}}, bore: {cylinder: {from: [1, 1, -1], to: [1, 1, 2], radius: 0.5}}}", "plate_bottom",
+                   "edge: [plate_top, bore_side]", math.pi, (1, 1, 1)))
+        for shape, foot, edge, length, middle in bodies:
+            model = f"""materials: {{m: {{young: 1e7, poisson: 0.3}}}}
+bodies: {{body: {{material: m, shape: {{{shape}}}, mesh: {{size: 0.25}}}}}}
+supports: [{{on: body.{foot}, fix: [x, y, z], name: ground}}]
+loads: {{push: {{on: {{body: body, {edge}}}, LOAD}}}}
+"""
+            (self.directory / "model.yaml").write_text(HEAD + model.replace("LOAD", "line_load: [0, 0, -1]"), encoding="utf-8")
+            done = scabo("run", self.directory / "model.yaml", "-o", self.directory / "results", "--quiet")
+            if "built without Gmsh's library" in done.stderr:
+                continue
+            self.assertEqual(done.returncode, 0, done.stderr)
+            total = summary_of(self.directory / "results")["increments"][-1]["reactions"]["ground"][2]
+            self.assertAlmostEqual(total, length, delta=(1e-9 if length < math.pi else 1e-3) * length, msg=shape)
+            last = self.solve(model.replace("LOAD", "force: [0, 0, -1]"))
+            self.assertAlmostEqual(last["reactions"]["ground"][2], 1.0, delta=1e-9)
+            if middle:
+                for found, exact in zip(last["moments"]["ground"], [middle[1], -middle[0], 0]):
+                    self.assertAlmostEqual(found, exact, delta=1e-3, msg=shape)
+
     def test_a_beam_on_two_edges(self):
         """Each edge has half of the weight; the whole load along the edge above it."""
         for kind in ("tetrahedra", "hexahedra"):

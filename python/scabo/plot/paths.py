@@ -101,6 +101,10 @@ def paths_through(results, number, first, last):
     return paths
 
 
+def described(along):
+    return "along the line from ({}) to ({})".format(*(", ".join(f"{x:.4g}" for x in end) for end in along))
+
+
 @style.styled
 def lines(results, increment=-1, component=None, units=None, along=None):
     """A panel for each component, with a curve for each line and body. `along`: both ends of a line through a model in space, instead of the lines
@@ -111,11 +115,10 @@ def lines(results, increment=-1, component=None, units=None, along=None):
     paths = paths_through(results, number, *along) if along else paths_of(results, number)
     shown = paths[:MOST_LINES]
     of_most = f"\u00a0· {len(shown)} of {len(paths)} lines" if len(paths) > len(shown) else ""
-    ends = "\u00a0· from ({}) to ({})".format(*(", ".join(f"{x:.4g}" for x in end) for end in along)) if along else ""
     columns = min(2, len(names))
     rows = -(-len(names) // columns)
     figure = style.new_figure(style.WIDTH if columns == 2 else 4.6, 2.55 * rows if columns == 2 else 3.2, results.title,
-                              f"{results.name_of(number)}\u00a0· along {'a line' if len(paths) == 1 or along else 'lines'}{ends}{of_most}")
+                              f"{results.name_of(number)}\u00a0· {described(along) if along else 'along a line' if len(paths) == 1 else 'along lines'}{of_most}")
     axes = figure.subplots(rows, columns, squeeze=False).reshape(-1)
     for axis, name in zip(axes, names):
         of = [curves.Curve(curves.short_name(path.name) if len(paths) > 1 else "", path.distance, path.values[name]) for path in shown]
@@ -152,7 +155,8 @@ def contact(results, number, along, names, component, units):
     found = contact_paths(results, number, *along, names)
     if len(found) > contacts.MOST_CONTACTS:
         raise ResultsError(f"--along: the line meets {len(found)} contact faces; name up to {contacts.MOST_CONTACTS} of them with --contact")
-    return contacts.contact_curves(results, number, found, units, [curve for curve in contacts.CURVES if component in (None, curve[0])])
+    return contacts.contact_curves(results, number, found, units, [curve for curve in contacts.CURVES if component in (None, curve[0])],
+                                   described(along))
 
 
 def weights_in(of, point, number):
