@@ -272,6 +272,11 @@ loads: {{push: {{on: {{body: block, {place}}}, {load}}}}}
         self.near(last["moments"]["ground"], [50, -120, 0], 200)
         last = self.solve(model.format(place="point: [ENDS, TOP, FRONT], near: [1, 1, 1]", load="force: [0, 0, -100]"))
         self.near(last["moments"]["ground"], [0, -120, 0], 200)
+        for place, why in (("point: [ENDS, TOP, FRONT]", "is 2 points, in all of which these faces meet"), ("edge: [ENDS, LEFT]", "the faces 'block.ENDS' and 'block.LEFT' do not meet")):
+            (self.directory / "model.yaml").write_text(HEAD + model.format(place=place, load="force: [0, 0, -100]"), encoding="utf-8")
+            done = scabo("check", self.directory / "model.yaml")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(why, done.stderr)
 
     def test_curves_points_and_sets_of_files(self):
         """Physical curves and points of Gmsh; a set of nodes along an edge, also of linear elements."""
