@@ -322,7 +322,7 @@ class CommandLine {
     plot_->add_option("DIR", plot_options_.directory, "Results directory of a run; or a model file, drawn unsolved")
         ->required()
         ->option_text(" ");
-    const std::vector<std::string> kinds = {"stress", "contact",   "convergence", "mesh",     "history",
+    const std::vector<std::string> kinds = {"stress", "contact",   "convergence", "mesh",     "history", "lines",
                                             "cracks", "mechanism", "envelope",    "spectrum", "all"};
     plot_
         ->add_option("--what", plot_options_.what,
@@ -336,7 +336,7 @@ class CommandLine {
         ->option_text("N");
     plot_
         ->add_option("--component", plot_options_.text,
-                     "Part of stress, contact, history or spectrum; a wrong name lists them")
+                     "Part of stress, contact, history, lines or spectrum; a wrong name lists them")
         ->option_text("NAME");
     plot_->add_option("--contact", plot_options_.contacts, "Only this contact; may be repeated")
         ->option_text("NAME")
@@ -358,11 +358,13 @@ class CommandLine {
         ->add_option("--cut", plot_options_.text,
                      "Stress of bodies in space: a point of a plane and its normal; what this points to is taken away")
         ->option_text("X,Y,Z,NX,NY,NZ");
+    plot_->add_option("--along", plot_options_.text, "Lines and contact of bodies in space: values along this line")
+        ->option_text("X0,Y0,Z0,X1,Y1,Z1");
     plot_->add_option("--units", plot_options_.text, "Units of the model, as in --units m,N")
         ->option_text("LENGTH,FORCE");
     plot_
         ->add_option("-o,--output", plot_options_.text,
-                     "A .png, .svg or .pdf; default: .png files beside DIR, one for each picture")
+                     "A .png, .svg or .pdf, of lines a .csv too; default: .png files beside DIR, one for each picture")
         ->option_text("FILE");
     plot_->footer(plot_example);
   }

@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 __all__ = ["Contact", "Increment", "Result"]
 
 _STATES = np.array(["open", "stick", "slip"])
-_PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "envelope", "spectrum", "history", "cracks")
-_PICTURES_IN_SPACE = ("stress", "contact", "mechanism")
+_PICTURES = ("stress", "contact", "mesh", "convergence", "mechanism", "envelope", "spectrum", "history", "lines", "cracks")
+_PICTURES_IN_SPACE = ("stress", "contact", "lines", "mechanism")
 _VALUES = ("normal_force", "tangential_force", "open", "stick", "slip", "max_gap", "max_pressure")
 
 
@@ -358,7 +358,7 @@ class Result:
     def plot(self, what: str = "stress", increment: int = -1, **options: Any) -> Any:
         """A figure of Matplotlib by ``scabo.plot``, whose functions describe the options: what="stress" on the deformed
         shape, "contact" (pressure, shear, gap, slip), "mesh", "convergence", "mechanism", "envelope", "spectrum"
-        (``columns="NAME"``, a velocity of the history), "history" or "cracks". ``mirrored=True`` draws both halves of bodies of
+        (``columns="NAME"``, a velocity of the history), "history", "lines" (those of ``output.lines``) or "cracks". ``mirrored=True`` draws both halves of bodies of
         revolution. Results that are not in a directory are first written to a temporary one."""
         of_space = self.dimension == 3
         pictures = _PICTURES_IN_SPACE if of_space else _PICTURES
@@ -366,10 +366,10 @@ class Result:
             raise ValueError(f"what must be {', '.join(pictures[:-1])} or {pictures[-1]}, not {what!r}")
         try:
             from . import plot
-            picture = getattr(plot, f"solid_{what}" if of_space else what)
+            picture = getattr(plot, f"solid_{what}" if of_space and what != "lines" else what)
         except ImportError as error:
             raise ImportError(f"plot() needs scabo.plot and Matplotlib (python3-matplotlib): {error}") from None
-        if what in ("stress", "contact"):
+        if what in ("stress", "contact", "lines"):
             options["increment"] = self._number(increment) + 1  # files and pictures count from 1
         elif what != "mechanism":
             self._number(increment)

@@ -36,7 +36,7 @@ def box(corner, size, parts, turn, scale):
     for at in itertools.product(*(range(n) for n in parts)):
         for cell in CORNERS:
             nodes = [tuple(a + (corner >> k & 1) for k, a in enumerate(at)) for corner in cell]
-            u, v, w = (less(points[node], points[nodes[0]]) for node in nodes[1:])
+            u, v, w = (product(turn, less(points[node], points[nodes[0]])) for node in nodes[1:])
             if sum(x * y for x, y in zip(cross(u, v), w)) < 0:
                 nodes[0], nodes[1] = nodes[1], nodes[0]
             number += 1

@@ -177,7 +177,7 @@ class BlocksInSpace(support.InTemporaryDirectory):
         self.assertNotEqual((self.directory / "results.stress.png").read_bytes(), whole)
         for words, why in ((["--view", "1"], "--view 1: give two angles"), (["--cut", "0,0,1"], "--cut 0,0,1: give a point of the plane and its normal"),
                            (["--what", "stress", "--cut", "-9,0,0,-1,0,0"], "the plane cuts no body"), (["--window", "0,1,0,1"], "no meaning for bodies in space"),
-                           (["--what", "mesh"], "there are pictures of stress, contact and mechanism"), (["--what", "stress", "--component", "zx"], "there are von_mises")):
+                           (["--what", "mesh"], "there are pictures of stress, contact, lines and mechanism"), (["--what", "stress", "--component", "zx"], "there are von_mises")):
             done = scabo("plot", self.directory / "results", *words, SCABO_PYTHON=sys.executable)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn(why, done.stderr)

@@ -5,7 +5,7 @@
     figure = scabo_plot.stress(results, component="principal_1")
     figure.savefig("stress.pdf")
 
-`stress`, `mesh`, `contact`, `convergence`, `history`, `cracks`, `mechanism`, `envelope`, `spectrum` and, of a sweep's directory, `sweep` each return a Matplotlib figure; `solid_stress`, `solid_contact` and `solid_mechanism` those of a model in space.
+`stress`, `mesh`, `contact`, `convergence`, `history`, `lines`, `cracks`, `mechanism`, `envelope`, `spectrum` and, of a sweep's directory, `sweep` each return a Matplotlib figure; `solid_stress`, `solid_contact` and `solid_mechanism` those of a model in space.
 What they draw comes from functions that return arrays (geometry.py, contacts.py, curves.py); colours, marks and fonts from style.py. The folder is a program too:
 `python3 .../scabo/plot DIR` does what `scabo plot DIR` does. Matplotlib is imported with the first of these functions:
 reports read the files with this package and need only NumPy.
@@ -23,16 +23,17 @@ if TYPE_CHECKING:
     from .fields import stress
     from .in_time import envelope, spectrum
     from .mechanisms import mechanism
+    from .paths import lines
     from .meshes import mesh
     from .solids import contact as solid_contact
     from .solids import mechanism as solid_mechanism
     from .solids import stress as solid_stress
     from .sweeps import sweep
 
-__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "cracks", "envelope", "history", "mechanism", "mesh", "solid_contact",
+__all__ = ["Results", "ResultsError", "Units", "contact", "convergence", "cracks", "envelope", "history", "lines", "mechanism", "mesh", "solid_contact",
            "solid_mechanism", "solid_stress", "spectrum", "stress", "sweep"]
 
-_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "cracks": "crack_paths", "envelope": "in_time", "spectrum": "in_time", "history": "curves", "mechanism": "mechanisms", "mesh": "meshes",
+_DRAWN_BY = {"contact": "contacts", "convergence": "curves", "cracks": "crack_paths", "envelope": "in_time", "spectrum": "in_time", "history": "curves", "lines": "paths", "mechanism": "mechanisms", "mesh": "meshes",
              "stress": "fields", "sweep": "sweeps"}
 _IN_SPACE = {"solid_contact": "contact", "solid_mechanism": "mechanism", "solid_stress": "stress"}
 

@@ -10,13 +10,13 @@ import warnings
 
 from . import memory, screen
 
-KINDS = ("stress", "contact", "convergence", "mesh", "history", "cracks", "mechanism")
+KINDS = ("stress", "contact", "convergence", "mesh", "history", "lines", "cracks", "mechanism")
 ON_REQUEST = ("envelope", "spectrum")  # not drawn without being named
 NO_MEMORY = "not enough memory for pictures: raise the limit, as in `ulimit -v 1000000`, in kB"
 FORMATS = (".png", ".svg", ".pdf")
-APPLIES = {"increment": ("stress", "contact"), "component": ("stress", "contact", "history", "spectrum"), "contact": ("contact", "envelope"), "scale": ("stress", "mechanism"),
-           "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress", "mechanism"), "cut": ("stress",),
-           "units": ("stress", "contact", "mesh", "history", "cracks", "mechanism", *ON_REQUEST)}  # options that mean something for few kinds
+APPLIES = {"increment": ("stress", "contact", "lines"), "component": ("stress", "contact", "history", "lines", "spectrum"), "contact": ("contact", "envelope"), "scale": ("stress", "mechanism"),
+           "window": ("stress", "mesh", "cracks", "mechanism"), "view": ("stress", "mechanism"), "cut": ("stress",), "along": ("lines", "contact"),
+           "units": ("stress", "contact", "mesh", "history", "lines", "cracks", "mechanism", *ON_REQUEST)}  # options that mean something for few kinds
 
 
 class Parser(argparse.ArgumentParser):
@@ -32,7 +32,7 @@ def parser():
                          help="what is drawn; default: all that the results have but envelope and spectrum")
     options.add_argument("--increment", type=int, metavar="N",
                          help="number from 1 over all steps, or of the mode; default -1, the last one")
-    options.add_argument("--component", metavar="NAME", help="of stress, contact, history or spectrum; a wrong name lists those there are")
+    options.add_argument("--component", metavar="NAME", help="of stress, contact, history, lines or spectrum; a wrong name lists those there are")
     options.add_argument("--contact", action="append", default=[], metavar="NAME", help="only this contact; may be repeated")
     options.add_argument("--scale", type=float, metavar="S", help="magnification of displacements; default: one that shows them")
     options.add_argument("--window", metavar="X0,X1,Y0,Y1", help="only this part of stress, mesh, cracks and mechanism")
@@ -40,9 +40,10 @@ def parser():
     options.add_argument("--turned", type=int, metavar="N", help="bodies of revolution: writes no picture, but a .vtu file of the fields turned about the axis in N parts")
     options.add_argument("--view", metavar="AZIMUTH,ELEVATION", help="from where bodies in space are seen, in degrees; default: -60,25")
     options.add_argument("--cut", metavar="X,Y,Z,NX,NY,NZ", help="stress of bodies in space: a point of a plane and its normal; what this points to is taken away")
+    options.add_argument("--along", metavar="X0,Y0,Z0,X1,Y1,Z1", help="lines and contact of bodies in space: values along this line")
     options.add_argument("--units", metavar="LENGTH,FORCE", help="units of the model, as in --units m,N")
     options.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
-                         help=".png, .svg or .pdf; default: .png files beside DIR, one for each picture")
+                         help=".png, .svg or .pdf, of lines and along a line a .csv too; default: .png files beside DIR, one for each picture")
     return options
 
 
@@ -94,7 +95,7 @@ def join_negative(words):
     """`--window -1,2,0,1` is an option and its value, which argparse takes for an option of its own."""
     joined = []
     for word in words:
-        if joined and joined[-1] in ("--window", "--scale", "--increment", "--view", "--cut") and word[:1] == "-" and word[1:2].isdigit():
+        if joined and joined[-1] in ("--window", "--scale", "--increment", "--view", "--cut", "--along") and word[:1] == "-" and word[1:2].isdigit():
             joined[-1] += "=" + word
         else:
             joined.append(word)
@@ -140,27 +141,45 @@ def cut_of(text):
     return numbers[:3], numbers[3:]
 
 
+def along_of(text):
+    from .results import ResultsError
+    if text is None:
+        return None
+    try:
+        numbers = list(map(float, text.split(",")))
+    except ValueError:
+        numbers = []
+    if len(numbers) != 6 or not all(map(math.isfinite, numbers)) or numbers[:3] == numbers[3:]:
+        raise ResultsError(f"--along {text}: give both ends of a line, as in --along 0,0,0,1,0,0")
+    return numbers[:3], numbers[3:]
+
+
 def refuse_other_dimension(options, results):
     from .results import ResultsError
     if results.in_space and options.window is not None:
         raise ResultsError("--window: has no meaning for bodies in space; --view says from where they are seen")
-    if results.in_space and options.what not in ("all", "stress", "contact", "mechanism"):
-        raise ResultsError(f"--what {options.what}: of a model in space there are pictures of stress, contact and mechanism")
+    if results.in_space and options.what not in ("all", "stress", "contact", "lines", "mechanism"):
+        raise ResultsError(f"--what {options.what}: of a model in space there are pictures of stress, contact, lines and mechanism")
     if not results.in_space and options.view is not None:
         raise ResultsError(f"--view: {results.directory} is of a model in the plane")
     if not results.in_space and options.cut is not None:
         raise ResultsError(f"--cut: {results.directory} is of a model in the plane")
+    if not results.in_space and options.along is not None:
+        raise ResultsError(f"--along: {results.directory} is of a model in the plane, whose `output: {{lines: ...}}` gives values along lines")
+    if options.along is not None and options.what == "all":
+        raise ResultsError("--along: say of what, as in --what lines or --what contact")
 
 
 def figures(options, results, increment):
     """Names and functions of the wanted figures."""
-    from . import contacts, crack_paths, curves, fields, in_time, mechanisms, meshes, solids
+    from . import contacts, crack_paths, curves, fields, in_time, mechanisms, meshes, paths, solids
     from .units import Units
     units = Units.parse(options.units) if options.units else Units()
     if results.in_space:
-        component = options.component if options.what != "all" else None
+        component, along = options.component if options.what != "all" else None, along_of(options.along)
         return {"stress": lambda: solids.stress(results, increment, component, options.scale, units, view_of(options.view), cut_of(options.cut)),
-                "contact": lambda: solids.contact(results, increment, options.contact, component, units),
+                "contact": lambda: solids.contact(results, increment, options.contact, component, units, along),
+                "lines": lambda: paths.lines(results, increment, component, units, along),
                 "mechanism": lambda: solids.mechanism(results, options.scale, units, view_of(options.view))}
     window = window_of(options.window)
     one = options.what != "all"
@@ -171,6 +190,7 @@ def figures(options, results, increment):
         "convergence": lambda: curves.convergence(results),
         "mesh": lambda: meshes.mesh(results, units, window),
         "history": lambda: curves.history(results, component, units),
+        "lines": lambda: paths.lines(results, increment, component, units),
         "cracks": lambda: crack_paths.cracks(results, units, window),
         "envelope": lambda: in_time.envelope(results, options.contact, units),
         "spectrum": lambda: in_time.spectrum(results, component, units),
@@ -181,7 +201,8 @@ def figures(options, results, increment):
 def write(options):
     from .results import NothingToDraw, Results, ResultsError, refuse_impossible
     from .sweeps import Sweep
-    if options.output is not None and options.turned is None and options.output.suffix.lower() not in FORMATS:
+    as_table = options.output is not None and options.output.suffix.lower() == ".csv" and (options.what == "lines" or options.along is not None)
+    if options.output is not None and options.turned is None and options.output.suffix.lower() not in FORMATS and not as_table:
         raise ResultsError(f"-o {options.output}: the name must end in .png, .svg or .pdf")
     if options.drawing is not None:
         return write_model(options)
@@ -200,6 +221,8 @@ def write(options):
         return write_turned(options, results)
     increment = -1 if options.increment is None else options.increment
     refuse_other_dimension(options, results)
+    if as_table:
+        return write_along(options, results, increment)
     kinds = kinds_of(results, options.what)
     if kinds != ["mechanism"]:
         results.number(increment)
@@ -221,12 +244,24 @@ def write(options):
     return 0
 
 
+def write_along(options, results, increment):
+    """Values along lines as a table."""
+    from . import paths
+    along = along_of(options.along)
+    if options.what == "contact":
+        paths.write_contact_table(results, increment, options.contact, along, options.output)
+    else:
+        paths.write_table(results, increment, options.component, along, options.output)
+    screen.show("scabo plot", options.output, "the file is")
+    return 0
+
+
 def write_model(options):
     """The picture of a model before it is solved."""
     from .models import model
     from .results import ResultsError
     from .units import Units
-    for option in ("increment", "component", "contact", "scale", "view", "cut", "mirror", "turned"):
+    for option in ("increment", "component", "contact", "scale", "view", "cut", "along", "mirror", "turned"):
         if getattr(options, option) not in (None, [], False):
             raise ResultsError(f"--{option}: has no meaning for a model that is not solved")
     if options.what != "all":
@@ -258,6 +293,10 @@ def write_turned(options, results):
     return 0
 
 
+def has_lines(results):
+    return (results.directory / "lines.csv").exists()
+
+
 def kinds_of(results, what):
     """What is to be drawn. In few runs cracks grow, or they end as a mechanism; where the first increment does, there is nothing else."""
     if what != "all":
@@ -265,8 +304,8 @@ def kinds_of(results, what):
     if results.mechanism() is not None and not results.count:
         return ["mechanism"]
     if results.in_space:
-        return ["stress", "contact"] + ["mechanism"] * (results.mechanism() is not None)
-    missing = [kind for kind, there in (("cracks", "growth" in results.summary), ("mechanism", results.mechanism() is not None)) if not there]
+        return ["stress", "contact"] + ["lines"] * has_lines(results) + ["mechanism"] * (results.mechanism() is not None)
+    missing = [kind for kind, there in (("lines", has_lines(results)), ("cracks", "growth" in results.summary), ("mechanism", results.mechanism() is not None)) if not there]
     return [kind for kind in KINDS if kind not in missing]
 
 
@@ -275,7 +314,7 @@ def write_sweep(options):
     from .results import ResultsError
     from .sweeps import sweep
     from .units import Units
-    for option in ("increment", "contact", "scale", "window", "view", "cut", "mirror", "turned"):
+    for option in ("increment", "contact", "scale", "window", "view", "cut", "along", "mirror", "turned"):
         if getattr(options, option) not in (None, [], False):
             raise ResultsError(f"--{option}: has no meaning for a sweep")
     if options.what != "all":

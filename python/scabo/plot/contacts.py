@@ -64,15 +64,20 @@ def contact(results, increment=-1, contacts=(), component=None, units=None):
 NO_SHEAR = 1e-3  # part of the largest pressure; smaller shear is that of the mesh, and its axis ends there
 
 
-def contact_curves(results, number, lines, units, curves):
+def contact_curves(results, number, lines, units, curves, along=None):
+    """`along`: what says along which line these values of a face in space are."""
     single = len(lines) == 1 and len(curves) > 1
     rows, columns = (len(curves) // 2, 2) if single else (len(curves), len(lines))
     width = style.WIDTH if columns < 3 else 9.2
     height = 2.3 * rows if single or len(curves) == 1 else 1.75 * rows + 0.3
     subtitle = f"{results.name_of(number)}\u00a0· forces on the second side of the contact; shear and slip positive along\u00a0t"
+    legend = style.state_marks(counts_of(lines))
+    if along:
+        subtitle = f"{results.name_of(number)}\u00a0· {along}"
+        legend = [(style.state_mark(state), state) for state, count in counts_of(lines).items() if count]
     if any(part_in_contact(line) is not None for line in lines):
         subtitle += "\u00a0· only the part in contact and its surroundings"
-    figure = style.new_figure(width, height, results.title, subtitle, style.state_marks(counts_of(lines)))
+    figure = style.new_figure(width, height, results.title, subtitle, legend)
     together = not single and all(part_in_contact(line) is None for line in lines)
     axes = figure.subplots(rows, columns, sharex="col", sharey="row" if together else "none", squeeze=False)
     grid = axes.reshape(-1, 1) if single else axes  # curve x contact
@@ -83,10 +88,10 @@ def contact_curves(results, number, lines, units, curves):
     scales = {key: units.scale(dimension, largest[key]) for key, _, dimension in curves}
     for column, line in enumerate(lines):
         view = part_in_contact(line)
-        along = units.scale("length", line.distance[-1] if view is None else 10 * (view[1] - view[0]))
+        length = units.scale("length", line.distance[-1] if view is None else 10 * (view[1] - view[0]))
         for row, (key, name, _) in enumerate(curves):
             axis = grid[row, column]
-            x, y = along.factor * line.distance, scales[key].factor * line.values[key]
+            x, y = length.factor * line.distance, scales[key].factor * line.values[key]
             axis.axhline(0, color="0.6", linewidth=0.6, zorder=0.5)
             axis.plot(x, y, color="0.45", linewidth=0.9, zorder=2)
             shown = slice(None) if view is None else (line.distance >= view[0]) & (line.distance <= view[1])
@@ -95,7 +100,7 @@ def contact_curves(results, number, lines, units, curves):
             style.plain_frame(axis)
             axis.margins(0.04, 0.1)
             if view is not None:
-                show_part(axis, x, y, along.factor * np.array(view))
+                show_part(axis, x, y, length.factor * np.array(view))
             nothing = not (y[shown].any() or together and any(other.values[key].any() for other in lines))
             if no_shear and key == "shear" and not nothing:
                 axis.set_ylim(*(scales[key].factor * largest[key] * np.array([-1, 1])))
@@ -106,8 +111,8 @@ def contact_curves(results, number, lines, units, curves):
                 style.nothing_but_zero(axis, what_zero_means(key, line.states[shown]))
         for axis in grid[-2:, column] if single else grid[-1:, column]:
             nothing = 1e-9 * line.distance[-1]  # rounding of a coordinate that is 0
-            start = ", ".join(f"{along.factor * (value if abs(value) > nothing else 0.0):.4g}" for value in (line.x[0], line.y[0]))
-            axis.set_xlabel(along.label(f"distance from ({start})"))
+            start = ", ".join(f"{length.factor * (value if abs(value) > nothing else 0.0):.4g}" for value in (line.x[0], line.y[0]))
+            axis.set_xlabel(length.label("distance" if along else f"distance from ({start})"))
         if len(lines) > 1:
             grid[0, column].set_title(line.name)
         elif len(curves) > 1:

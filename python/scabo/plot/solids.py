@@ -9,7 +9,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.lines import Line2D
 
 from . import contacts as plane_contacts
-from . import fields, geometry, style
+from . import fields, geometry, paths, style
 from .cuts import cut_surface
 from .mechanisms import described
 from .motions import AT_REST, needed_mechanism
@@ -232,10 +232,13 @@ MOST_MAPS = 6
 
 
 @style.styled
-def contact(results, increment=-1, contacts=(), component=None, units=None):
-    """Maps of the contact faces, coloured by `component`, pressure by default, with the state of every pair."""
+def contact(results, increment=-1, contacts=(), component=None, units=None, along=None):
+    """Maps of the contact faces, coloured by `component`, pressure by default, with the state of every pair. `along`: both ends of a line; instead of
+    maps the curves of all components, or of `component`, along it."""
     units = units or Units()
     number = results.number(increment)
+    if along:
+        return paths.contact(results, number, along, contacts, component, units)
     component = component or "pressure"
     if component not in QUANTITIES:
         raise ResultsError(f"--component {component}: on a contact face there are {', '.join(QUANTITIES)}")

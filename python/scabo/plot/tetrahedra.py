@@ -119,6 +119,7 @@ class FaceMap:
     """A contact face after one increment, in the units of the file, with one value for each pair."""
     name: str
     places: np.ndarray   # n x 2, in the plane of the face
+    flat: object         # of points m x 3, in the same way
     axes: tuple          # what the two coordinates are called
     corners: np.ndarray  # T x 3, triangles between pairs
     values: dict         # pressure, shear, gap, slip
@@ -152,15 +153,16 @@ def map_of(name, grid, contact):
     along = int(np.argmax(np.abs(normal)))
     if abs(normal[along]) > 1 - 1e-9:  # the axes themselves
         kept = [k for k in range(3) if k != along]
-        places, axes = points[:, kept], tuple("xyz"[k] for k in kept)
+        flat, axes = (lambda x: x[:, kept]), tuple("xyz"[k] for k in kept)
     else:
         first = np.cross([0, 0, 1], normal) if abs(normal[2]) < 0.9 else np.cross([0, 1, 0], normal)
         first /= np.linalg.norm(first)
         second = np.cross(normal, first)
-        places = (points - points.mean(axis=0)) @ np.column_stack([first, second / np.linalg.norm(second)])
+        middle, across = points.mean(axis=0), np.column_stack([first, second / np.linalg.norm(second)])
+        flat = lambda x: (x - middle) @ across
         axes = ("along the face", "across it")
     rounding = 4e-16 * np.abs(points).max()
     cleared = lambda values: np.where(np.abs(values) <= rounding, 0.0, values)
-    return FaceMap(name, places, axes, corners,
+    return FaceMap(name, flat(points), flat, axes, corners,
                    {"pressure": data["pressure"], "shear": np.linalg.norm(data["shear"], axis=1), "gap": cleared(data["gap"]),
                     "slip": cleared(np.linalg.norm(data["slip"], axis=1))}, np.array(["open", "stick", "slip"])[data["state"]])

@@ -1,6 +1,7 @@
 // A mesh of solids as a file gives it: nodes, cells and named sets, in one form for all formats.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct SolidSideSet {
   std::vector<SolidSide> sides;
 };
 
+/// A curve: the ends of its pieces, edges of cells.
+struct SolidLineSet {
+  std::string name;
+  std::vector<std::array<int, 2>> edges;
+};
+
 /// Lengths are in the unit of the file. Guaranteed: there are cells, every node belongs to one, coordinates are finite,
 /// and (x2 - x1) x (x3 - x1) . (x4 - x1) of the corners of a tetrahedron is positive. Other cells are not turned over.
 struct ImportedSolidMesh {
@@ -35,6 +42,7 @@ struct ImportedSolidMesh {
   std::vector<NodeSet> node_sets;       ///< without repetition, those of nodes that belong to cells
   std::vector<CellSet> cell_sets;       ///< without repetition, ascending
   std::vector<SolidSideSet> side_sets;  ///< without repetition; of a side between two cells, that of both may be there
+  std::vector<SolidLineSet> line_sets;  ///< nodes that belong to cells
   std::vector<std::string> remarks;     ///< what of the file was left out though it may matter
 };
 

@@ -252,6 +252,16 @@ void SolidBuilder::make_sets(const NumberIndex& nodes, const std::vector<int>& p
   }
   for (const RawCells& set : cell_sets_)
     if (!set.cells.empty()) mesh.cell_sets.push_back({set.name, {set.cells.begin(), set.cells.end()}});
+  for (const RawLines& set : line_sets_) {
+    const auto at = [&](std::int64_t number) {
+      const int node = nodes.find(number);
+      return node < 0 ? -1 : place[static_cast<std::size_t>(node)];
+    };
+    SolidLineSet of{set.name, {}};
+    for (const auto& [from, to] : set.lines)
+      if (at(from) >= 0 && at(to) >= 0) of.edges.push_back({at(from), at(to)});
+    if (!of.edges.empty()) mesh.line_sets.push_back(std::move(of));
+  }
   make_side_sets(nodes, place, mesh);
 }
 

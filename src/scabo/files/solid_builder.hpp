@@ -50,11 +50,15 @@ class SolidBuilder {
   int node_set(const std::string& name) { return index_of(node_sets_, name); }
   int cell_set(const std::string& name) { return index_of(cell_sets_, name); }
   int side_set(const std::string& name) { return index_of(side_sets_, name); }
+  int line_set(const std::string& name) { return index_of(line_sets_, name); }
 
   void add_node_to_set(int set, std::int64_t node) { node_sets_[static_cast<std::size_t>(set)].nodes.push_back(node); }
   void add_cell_to_set(int set, int cell) { cell_sets_[static_cast<std::size_t>(set)].cells.insert(cell); }
   void add_cells_to_set(int set, const CellRange& cells) {
     for (int cell = cells.first; cell < cells.last; ++cell) add_cell_to_set(set, cell);
+  }
+  void add_line(int set, std::int64_t from, std::int64_t to) {
+    line_sets_[static_cast<std::size_t>(set)].lines.push_back({from, to});
   }
   void add_side(int set, const SolidSide& side);
   /// By its three or four corners; those of all cells that have it. No side of a cell: left out.
@@ -69,6 +73,10 @@ class SolidBuilder {
   struct RawNodes {
     std::string name;
     std::vector<std::int64_t> nodes;
+  };
+  struct RawLines {
+    std::string name;
+    std::vector<std::array<std::int64_t, 2>> lines;
   };
   struct RawCells {
     std::string name;
@@ -122,6 +130,7 @@ class SolidBuilder {
   std::vector<RawNodes> node_sets_;
   std::vector<RawCells> cell_sets_;
   std::vector<RawSides> side_sets_;
+  std::vector<RawLines> line_sets_;
 };
 
 }  // namespace scabo::files

@@ -103,20 +103,20 @@ void SolidGmsh::find_sets(int dimension, const Tags& groups, std::int64_t entity
   last_groups_ = groups;
   sets_.clear();
   const auto at = static_cast<std::size_t>(dimension);
-  constexpr std::array<const char*, 4> of_group{"points", "", "boundary", "region"},
-      of_entity{"point", "", "surface", "volume"};
+  constexpr std::array<const char*, 4> of_group{"points", "curve", "boundary", "region"},
+      of_entity{"point", "curve", "surface", "volume"};
   std::vector<std::string> names;
   for (const std::int64_t tag : groups) names.push_back(group_name(dimension, tag, of_group[at]));
   if (names.empty()) names.push_back(fmt::format("{}_{}", of_entity[at], entity));
   for (const std::string& name : names)
     sets_.push_back(dimension == 3   ? builder_.cell_set(name)
                     : dimension == 2 ? builder_.side_set(name)
+                    : dimension == 1 ? builder_.line_set(name)
                                      : builder_.node_set(name));
 }
 
 void SolidGmsh::add_element(const GmshElement& element, std::int64_t number, const Tags& groups, std::int64_t entity,
                             const Tags& nodes, const FilePlace& at, bool may_be_repeated) {
-  if (element.dimension == 1) return;  // an edge names no face
   find_sets(element.dimension, groups, entity);
   SolidBuilder::CellRange cells;
   if (element.dimension == 3)
@@ -125,6 +125,7 @@ void SolidGmsh::add_element(const GmshElement& element, std::int64_t number, con
   for (const int set : sets_) {
     if (element.dimension == 3) builder_.add_cells_to_set(set, cells);
     if (element.dimension == 2) builder_.add_facet(set, std::span(nodes).first(corners));
+    if (element.dimension == 1) builder_.add_line(set, nodes[0], nodes[1]);
     if (element.dimension == 0) builder_.add_node_to_set(set, nodes.front());
   }
 }

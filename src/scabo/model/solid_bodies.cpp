@@ -129,6 +129,14 @@ void PartOfFile::take_cells() {
       if (const int at = place[static_cast<std::size_t>(node)]; at >= 0) of.nodes.push_back(at);
     if (!of.nodes.empty()) mesh_.node_sets.push_back(std::move(of));
   }
+  for (const files::SolidLineSet& set : file_.line_sets) {
+    files::SolidLineSet of{set.name, {}};
+    for (const auto& [from, to] : set.edges) {
+      const int a = place[static_cast<std::size_t>(from)], b = place[static_cast<std::size_t>(to)];
+      if (a >= 0 && b >= 0) of.edges.push_back({a, b});
+    }
+    if (!of.edges.empty()) mesh_.line_sets.push_back(std::move(of));
+  }
 }
 
 void PartOfFile::take_sets() {

@@ -54,19 +54,28 @@ struct SpaceBody {
   Source source;
 };
 
-/// A surface of the mesh file of a body, the outer facets whose corners are in a set of nodes, or a face of its shape;
-/// none of them: the whole body.
+/// Where something acts. A surface of the mesh file of a body, the outer facets whose corners are in a set of nodes, or
+/// a face of its shape; an edge or a point; none of them: the whole body.
 struct SpaceFace {
   int body = -1;
   int side_set = -1, node_set = -1;  ///< one of them, of `body`'s mesh; or none
   std::string of_shape;              ///< the name of a face of `body`'s shape
+  int line_set = -1;                 ///< a curve of `body`'s mesh
+  std::vector<SpaceFace> meeting;    ///< two faces of the body: the edge where they meet; three: the point
+  /// Of several such edges or points the nearest one; without `meeting` the nearest node.
+  std::optional<Eigen::Vector3d> near;
   /// Only those facets of it, or of the whole boundary, whose outward normals are within 30 degrees of this unit
   /// vector.
   std::optional<Eigen::Vector3d> normal;
   std::string text;  ///< `block.bottom`
   Source source;
 
-  bool is_body() const { return side_set < 0 && node_set < 0 && of_shape.empty() && !normal; }
+  bool is_edge() const { return line_set >= 0 || meeting.size() == 2; }
+  bool is_point() const { return meeting.size() == 3 || (near && meeting.empty()); }
+  bool is_set_of_nodes() const { return node_set >= 0 && !normal; }
+  bool is_body() const {
+    return side_set < 0 && node_set < 0 && of_shape.empty() && !normal && !is_edge() && !is_point();
+  }
   bool is_same(const SpaceFace& other) const {
     return body == other.body && side_set == other.side_set && node_set == other.node_set &&
            of_shape == other.of_shape && normal == other.normal;
@@ -97,34 +106,37 @@ struct SpaceSpring {
   std::string name;  ///< given by the user, or that of the place, made unique
   SpaceFace on;      ///< a face; or a set of nodes, or a rigid body, at whose centroid they act
   bool along_face = true;
-  double normal = 0.0, tangential = 0.0;                ///< of a face, force / length^3
-  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();  ///< of nodes or a body, along the axes, force / length
-  Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();    ///< where they are without force; of a face [along n, 0, 0]
+  double normal = 0.0, tangential = 0.0;  ///< of a face, force / length^3
+  /// Of nodes, a point or a body, along the axes, force / length; of an edge, force / length^2.
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();
+  Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();  ///< where they are without force; of a face [along n, 0, 0]
 };
 
 struct SpaceLoad {
-  /// Force: the total over a face, as a constant traction, or on a rigid body at its centroid. Moment: on a face as the
+  /// Force: the total over a face, as a constant traction, or along an edge, as a constant force per length; at a
+  /// point; or on a rigid body at its centroid. Line load: force per length of an edge. Moment: on a face as the
   /// traction w x (point - centroid of the face), which has no resultant; about the centroid of a rigid body. Nodal
   /// force: at every node of a set.
-  enum class Kind { pressure, traction, force, nodal_force, moment, gravity, temperature, at_rest };
+  enum class Kind { pressure, traction, force, line_load, nodal_force, moment, gravity, temperature, at_rest };
   std::string name;
   Kind kind = Kind::pressure;
   SpaceFace on;           ///< of gravity and temperature a body; without one, all of them
   double pressure = 0.0;  ///< against the outward normal
-  /// Traction, force, moment or acceleration; gradient of a temperature.
+  /// Traction, force, line load, moment or acceleration; gradient of a temperature.
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> at;    ///< of a force: the point through which it acts; none: the centroid
-  double constant = 0.0;                ///< of a change of temperature: at the origin
-  int spring = -1;                      ///< that is at rest elsewhere
-  std::array<SpaceFormula, 3> formula;  ///< of a traction, or the first one of a pressure, instead of the value
+  std::optional<Eigen::Vector3d> at;  ///< of a force: the point through which it acts; none: the centroid
+  double constant = 0.0;              ///< of a change of temperature: at the origin
+  int spring = -1;                    ///< that is at rest elsewhere
+  std::array<SpaceFormula, 3>
+      formula;  ///< of a traction or line load, or the first one of a pressure, instead of the value
 
   bool varies() const { return formula[0] || formula[1] || formula[2]; }
 };
 
 /// A bar as of the plane (model/bar.hpp), along the line between its ends as they are drawn.
 struct SpaceBar {
-  /// A face or a set of nodes, whose mean displacement it has; a point of a body, its node nearest to `at` or the point
-  /// itself if it is rigid; or a point of the ground.
+  /// A face, an edge or a set of nodes, whose mean displacement it has; a point of a body, its node nearest to `at` or
+  /// the point itself if it is rigid; or a point of the ground.
   struct End {
     std::optional<SpaceFace> on;
     int body = -1;  ///< without `on`; -1: the ground
@@ -170,6 +182,18 @@ struct SpacePoint {
   Eigen::Vector3d at;
   int body = -1;  ///< the one that is meant; -1: every body in which it lies
   Source source;
+};
+
+/// `points` equally spaced points from `from` to `to`, both included.
+struct SpaceLine {
+  std::string name;
+  Eigen::Vector3d from, to;
+  int points = 101;  ///< 2 or more
+  int body = -1;     ///< the one that is meant; -1: every body in which a point lies
+  Source source;
+
+  double part_at(int k) const { return static_cast<double>(k) / (points - 1); }
+  Eigen::Vector3d at(int k) const { return k + 1 == points ? to : Eigen::Vector3d(from + part_at(k) * (to - from)); }
 };
 
 /// A plane section of `output: {history: ...}`, whose resultants are wanted.
@@ -244,6 +268,7 @@ struct SpaceModel {
   std::vector<Step> steps;         ///< counted ones
   std::optional<Restart> restart;  ///< of a run at rest
   std::vector<SpacePoint> points;
+  std::vector<SpaceLine> lines;
   std::vector<SpaceSection> sections;
   std::vector<SpaceFaceResultant> resultants;
   std::vector<SpaceDisplacement> displacements;

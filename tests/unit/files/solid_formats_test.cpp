@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <ostream>
 #include <string>
 
@@ -143,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(All, SolidFormats,
                                          SolidFile{"two.vtu", &solids_of_vtk, "region_7", "boundary_1"}));
 
 /// A side between two cells is in its set as that of both, so that each body has it.
-TEST(SolidFormatsOfGmsh, HaveSidesOfBothCellsPointsAndOtherGroups) {
+TEST(SolidFormatsOfGmsh, HaveSidesOfBothCellsCurvesPointsAndOtherGroups) {
   for (const std::string& text : {solids_of_gmsh_2, solids_of_gmsh_4}) {
     const ImportedSolidMesh mesh = parse_solid_mesh(text, "two.msh");
     ASSERT_EQ(mesh.side_sets.size(), 2);
@@ -152,6 +153,9 @@ TEST(SolidFormatsOfGmsh, HaveSidesOfBothCellsPointsAndOtherGroups) {
     ASSERT_EQ(mesh.node_sets.size(), 1);
     EXPECT_EQ(mesh.node_sets[0].name, "apex");
     EXPECT_EQ(mesh.node_sets[0].nodes, std::vector<int>{3});
+    ASSERT_EQ(mesh.line_sets.size(), 1);
+    EXPECT_EQ(mesh.line_sets[0].name, "curve_9");
+    EXPECT_EQ(mesh.line_sets[0].edges, (std::vector<std::array<int, 2>>{{0, 1}}));
     ASSERT_EQ(mesh.cell_sets.size(), 3);
     EXPECT_EQ(mesh.cell_sets[2].name, "region_9");  // a cell in two groups is one cell
     EXPECT_EQ(mesh.cell_sets[2].cells, std::vector<int>{1});

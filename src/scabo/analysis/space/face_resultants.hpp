@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scabo/analysis/space/solid_analysis.hpp"
+#include "scabo/mesh/space/solid_edges.hpp"
 
 namespace scabo::analysis {
 
@@ -27,7 +28,8 @@ struct FaceResultant {
 struct SolidPlaceOfAction {
   int body = -1;
   std::vector<mesh::SolidFacet> facets;
-  std::vector<int> nodes;  ///< all of a set, whether sides have them or not; of a face none
+  std::vector<int> nodes;  ///< all of an edge, or of a set, whether sides have them or not; of a face none
+  std::vector<mesh::SolidEdge> edges = {};
 };
 
 /// What acts on a body through one of its faces.

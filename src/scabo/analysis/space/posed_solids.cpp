@@ -14,10 +14,10 @@
 #include "scabo/analysis/space/body_mesh.hpp"
 #include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_factors.hpp"
+#include "scabo/analysis/space/solid_places.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
-#include "scabo/mesh/space/imported_solid.hpp"
-#include "scabo/mesh/space/shaped_solid.hpp"
 #include "scabo/system/rigid_solid.hpp"
+#include "scabo/system/solid_edges.hpp"
 #include "scabo/system/solid_part.hpp"
 
 namespace scabo::analysis {
@@ -31,10 +31,6 @@ class Posing {
 
  private:
   void add_body(const model::SpaceBody& body);
-  std::vector<mesh::SolidFacet> named_facets(const model::SpaceFace& face);
-  std::vector<mesh::SolidFacet> facets(const model::SpaceFace& face);
-  const std::vector<int>& set_of_nodes(const model::SpaceFace& at) const;
-  std::set<int> held_nodes(const model::SpaceFace& at);
   std::vector<std::size_t> order_of_supports() const;
   const std::pair<std::size_t, double>* hold(std::size_t number, system::Constraint constraint, int key);
   void add_support(std::size_t number);
@@ -45,10 +41,11 @@ class Posing {
   Vector forces_at_rest(const model::SpaceLoad& load);
   void add_load_on_bodies(const model::SpaceLoad& load, std::vector<Vector>& forces);
   Vector load_on_face(const model::SpaceLoad& load);
+  Eigen::Vector3d value_of(const model::SpaceLoad& load, const Eigen::Vector3d& x);
   Vector varying_load(const model::SpaceLoad& load, const std::vector<mesh::SolidFacet>& on);
+  std::optional<Vector> load_on_line(const model::SpaceLoad& load);
   void add_contact(const model::SpaceContact& contact);
   void add_preload(std::size_t body);
-  SolidPlaceOfAction place_of_action(const model::SpaceFace& on);
   void add_resultant(const model::SpaceFaceResultant& of);
   SolidPlaceOfAction place_of_action(const model::SpaceBar::End& end);
   void add_bar(const model::SpaceBar& bar);
@@ -56,12 +53,12 @@ class Posing {
 
   const model::SpaceModel& model_;
   PosedSolids posed_;
-  std::vector<std::vector<mesh::SolidFacet>> boundaries_;                        // of each body
-  std::vector<std::map<std::string, std::vector<mesh::SolidFacet>>> of_shapes_;  // faces of each body with a shape
   /// By body and degree of freedom: its supports, and their displacements at factor 1.
   std::map<std::pair<int, int>, std::vector<std::pair<std::size_t, double>>> held_;
   std::map<int, std::pair<std::size_t, Eigen::Vector3d>> first_on_;  // rigid body: its first support, and its centroid
+  std::set<std::string> without_value_;                              // loads whose formula has none somewhere
   std::vector<Diagnostic> mistakes_;
+  SolidPlaces places_{model_, posed_.model.bodies, mistakes_};
 };
 
 void Posing::add_body(const model::SpaceBody& of) {
@@ -84,51 +81,8 @@ void Posing::add_body(const model::SpaceBody& of) {
     return mistakes_.push_back(
         {of.source, "a cell of it is too flat or distorted for a super-element: change its mesh, or leave out 'kind'"});
   }
-  boundaries_.push_back(of.mesh ? mesh::boundary_facets(body.mesh) : std::vector<mesh::SolidFacet>{});
-  of_shapes_.push_back(std::move(shaped.faces));
+  places_.add_body(body, std::move(shaped.faces));
   posed_.model.bodies.push_back(std::move(body));
-}
-
-/// Those of a face that is named, or of the whole boundary.
-std::vector<mesh::SolidFacet> Posing::named_facets(const model::SpaceFace& face) {
-  const auto& of_shape = of_shapes_[static_cast<std::size_t>(face.body)];
-  if (!face.of_shape.empty()) return of_shape.at(face.of_shape);
-  if (face.side_set < 0 && face.node_set < 0) {
-    std::vector<mesh::SolidFacet> all = boundaries_[static_cast<std::size_t>(face.body)];
-    for (const auto& [name, facets] : of_shape) all.insert(all.end(), facets.begin(), facets.end());
-    return all;
-  }
-  const files::ImportedSolidMesh& mesh = *model_.bodies[static_cast<std::size_t>(face.body)].mesh;
-  std::vector<mesh::SolidFacet> found =
-      face.side_set >= 0
-          ? mesh::facets_of_sides(body(face.body).mesh, mesh.side_sets[static_cast<std::size_t>(face.side_set)].sides)
-          : mesh::facets_among(boundaries_[static_cast<std::size_t>(face.body)],
-                               mesh.node_sets[static_cast<std::size_t>(face.node_set)].nodes);
-  return found;
-}
-
-std::vector<mesh::SolidFacet> Posing::facets(const model::SpaceFace& face) {
-  std::vector<mesh::SolidFacet> found = named_facets(face);
-  const mesh::SolidMesh& mesh = body(face.body).mesh;
-  const bool any = !found.empty();
-  if (face.normal)
-    std::erase_if(found, [&](const mesh::SolidFacet& facet) {
-      const Matrix x = mesh::nodes_of(mesh, facet);
-      const bool triangle = mesh::corners_of(facet) == 3;
-      const Eigen::Vector3d a = x.col(triangle ? 1 : 2) - x.col(0),
-                            b = triangle ? x.col(2) - x.col(0) : x.col(3) - x.col(1), area = a.cross(b);
-      return area.dot(*face.normal) < std::sqrt(0.75) * area.norm();
-    });
-  if (any && found.empty())
-    mistakes_.push_back(
-        {face.source, fmt::format("'{}' has no element whose outward normal is within 30 degrees of this "
-                                  "direction: correct it",
-                                  face.text)});
-  if (!any)
-    mistakes_.push_back({face.source, fmt::format("'{}' has no outer side of an element: name a surface, or a set "
-                                                  "with all nodes of a face",
-                                                  face.text)});
-  return found;
 }
 
 /// A formula without a number there is reported, once.
@@ -143,22 +97,6 @@ std::optional<double> Posing::displacement_at(const model::SpaceSupport& support
        fmt::format("the formula of the displacement along {} has no value at ({:.6g}, {:.6g}, {:.6g}): {}", "xyz"[axis],
                    x.x(), x.y(), x.z(), std::get<std::string>(shape))});
   return {};
-}
-
-const std::vector<int>& Posing::set_of_nodes(const model::SpaceFace& at) const {
-  const files::ImportedSolidMesh& mesh = *model_.bodies[static_cast<std::size_t>(at.body)].mesh;
-  return mesh.node_sets[static_cast<std::size_t>(at.node_set)].nodes;
-}
-
-/// Of a face, or of a set of nodes with the sides whose corners it has.
-std::set<int> Posing::held_nodes(const model::SpaceFace& at) {
-  std::set<int> nodes;
-  const bool is_set = at.node_set >= 0 && !at.normal;
-  if (is_set) nodes.insert(set_of_nodes(at).begin(), set_of_nodes(at).end());
-  const std::vector<mesh::SolidFacet> on =
-      is_set ? mesh::facets_among(boundaries_[static_cast<std::size_t>(at.body)], set_of_nodes(at)) : facets(at);
-  for (const mesh::SolidFacet& facet : on) nodes.insert(facet.begin(), facet.end());
-  return nodes;
 }
 
 /// Those that last, then those that begin or end, each after all that cover it.
@@ -198,7 +136,7 @@ const std::pair<std::size_t, double>* Posing::hold(std::size_t number, system::C
 void Posing::add_support(std::size_t number) {
   const model::SpaceSupport& support = model_.supports[number];
   if (support.on.is_body()) return add_rigid_support(number);
-  for (const int node : held_nodes(support.on))
+  for (const int node : places_.held_nodes(support.on))
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!support.displacement[axis]) continue;
       const auto value = displacement_at(support, axis, node);
@@ -264,25 +202,51 @@ void Posing::add_load_on_bodies(const model::SpaceLoad& load, std::vector<Vector
   }
 }
 
+/// Of a formula; without a number there it is reported, once. A pressure is the first component.
+Eigen::Vector3d Posing::value_of(const model::SpaceLoad& load, const Eigen::Vector3d& x) {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!load.formula[k]) continue;
+    const auto found = load.formula[k](x);
+    if (const double* number = std::get_if<double>(&found))
+      value[static_cast<Eigen::Index>(k)] = *number;
+    else if (without_value_.insert(load.name).second)
+      mistakes_.push_back({load.on.source, fmt::format("the formula of load '{}' has no value at ({:.6g}, {:.6g}, "
+                                                       "{:.6g}): {}",
+                                                       load.name, x.x(), x.y(), x.z(), std::get<std::string>(found))});
+  }
+  return value;
+}
+
 /// A traction or pressure by formula.
 Vector Posing::varying_load(const model::SpaceLoad& load, const std::vector<mesh::SolidFacet>& on) {
-  std::string wrong;
-  const auto value = [&](std::size_t k, const Eigen::Vector3d& x) {
-    if (!load.formula[k]) return 0.0;
-    const auto found = load.formula[k](x);
-    if (const double* number = std::get_if<double>(&found)) return *number;
-    if (wrong.empty())
-      wrong = fmt::format("the formula of load '{}' has no value at ({:.6g}, {:.6g}, {:.6g}): {}", load.name, x.x(),
-                          x.y(), x.z(), std::get<std::string>(found));
-    return 0.0;
-  };
-  Vector forces = system::varying_traction_forces(
+  return system::varying_traction_forces(
       body(load.on.body).mesh, on, [&](const Eigen::Vector3d& x, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
-        if (load.kind == model::SpaceLoad::Kind::pressure) return -value(0, x) * normal;
-        return {value(0, x), value(1, x), value(2, x)};
+        const Eigen::Vector3d value = value_of(load, x);
+        return load.kind == model::SpaceLoad::Kind::pressure ? Eigen::Vector3d(-value[0] * normal) : value;
       });
-  if (!wrong.empty()) mistakes_.push_back({load.on.source, wrong});
-  return forces;
+}
+
+/// A line load, or a force along an edge or at a point; nothing if the place is a face.
+std::optional<Vector> Posing::load_on_line(const model::SpaceLoad& load) {
+  const mesh::SolidMesh& mesh = body(load.on.body).mesh;
+  const bool is_force = load.kind == model::SpaceLoad::Kind::force, is_set = load.on.is_set_of_nodes();
+  if (is_force && (load.on.is_point() || (is_set && places_.set_of_nodes(load.on).size() == 1))) {
+    Vector forces = Vector::Zero(3 * mesh.nodes.cols());
+    for (const int node : places_.single_nodes(load.on)) forces.segment<3>(3 * node) = load.vector;
+    return forces;
+  }
+  const bool may_be_edge = load.on.is_edge() || (is_set && places_.facets_of_set(load.on).empty());
+  if (load.kind != model::SpaceLoad::Kind::line_load && !(is_force && may_be_edge)) return {};
+  const std::vector<mesh::SolidEdge> on = places_.edges(load.on);
+  if (on.empty() && is_set)
+    mistakes_.push_back({load.on.source, fmt::format("'{}' has no edge of an element between two of its nodes: name a "
+                                                     "set with all nodes of an edge or face, or give a 'nodal_force'",
+                                                     load.on.text)});
+  const double length = is_force ? system::length_of_edges(mesh, on) : 1.0;
+  return system::line_load_forces(mesh, on, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return load.varies() ? value_of(load, x) : Eigen::Vector3d(load.vector / length);
+  });
 }
 
 Vector Posing::load_on_face(const model::SpaceLoad& load) {
@@ -295,10 +259,11 @@ Vector Posing::load_on_face(const model::SpaceLoad& load) {
   }
   if (load.kind == Kind::nodal_force) {
     Vector forces = Vector::Zero(3 * mesh.nodes.cols());
-    for (const int node : set_of_nodes(load.on)) forces.segment<3>(3 * node) = load.vector;
+    for (const int node : places_.set_of_nodes(load.on)) forces.segment<3>(3 * node) = load.vector;
     return forces;
   }
-  const std::vector<mesh::SolidFacet> on = facets(load.on);
+  if (auto on_line = load_on_line(load)) return *std::move(on_line);
+  const std::vector<mesh::SolidFacet> on = places_.facets(load.on);
   if (on.empty()) return {};
   if (load.varies()) return varying_load(load, on);
   if (load.kind == Kind::pressure) return system::pressure_forces(mesh, on, load.pressure);
@@ -314,9 +279,10 @@ void Posing::add_spring(const model::SpaceSpring& spring) {
   const mesh::SolidMesh& mesh = body(spring.on.body).mesh;
   posed_.model.springs.push_back(
       {spring.on.body,
-       spring.along_face     ? system::springs_on_facets(mesh, facets(spring.on), spring.normal, spring.tangential)
+       spring.along_face ? system::springs_on_facets(mesh, places_.facets(spring.on), spring.normal, spring.tangential)
+       : spring.on.is_edge() ? system::springs_on_edges(mesh, places_.edges(spring.on), spring.stiffness)
        : spring.on.is_body() ? system::springs_at_centroid(mesh, spring.stiffness)
-                             : system::springs_at_nodes(mesh, set_of_nodes(spring.on), spring.stiffness)});
+                             : system::springs_at_nodes(mesh, places_.single_nodes(spring.on), spring.stiffness)});
 }
 
 /// What springs that are at rest elsewhere exert on a body that stays where it is.
@@ -325,7 +291,8 @@ Vector Posing::forces_at_rest(const model::SpaceLoad& load) {
   SolidSpringOfBody& posed = posed_.model.springs[static_cast<std::size_t>(load.spring)];
   const mesh::SolidMesh& mesh = body(spring.on.body).mesh;
   posed.load = static_cast<int>(posed_.model.loads.size()) - 1;
-  if (spring.along_face) return system::pressure_forces(mesh, facets(spring.on), -spring.normal * spring.at_rest[0]);
+  if (spring.along_face)
+    return system::pressure_forces(mesh, places_.facets(spring.on), -spring.normal * spring.at_rest[0]);
   return posed.spring.times(spring.at_rest.replicate(mesh.nodes.cols(), 1));
 }
 
@@ -344,8 +311,8 @@ void Posing::add_load(const model::SpaceLoad& load) {
 
 void Posing::add_contact(const model::SpaceContact& contact) {
   SolidContact posed;
-  posed.a = {contact.a.body, facets(contact.a)};
-  posed.b = {contact.b.body, facets(contact.b)};
+  posed.a = {contact.a.body, places_.facets(contact.a)};
+  posed.b = {contact.b.body, places_.facets(contact.b)};
   posed.law = contact.law;
   posed.friction_axes = contact.friction_axes;
   posed.gap = contact.gap;
@@ -396,15 +363,8 @@ void Posing::add_preload(std::size_t number) {
   posed_.model.preloads.push_back(std::move(preload));
 }
 
-SolidPlaceOfAction Posing::place_of_action(const model::SpaceFace& on) {
-  if (on.is_body()) return {};  // of a rigid body as a whole
-  if (on.node_set < 0) return {on.body, facets(on), {}};
-  return {on.body, mesh::facets_among(boundaries_[static_cast<std::size_t>(on.body)], set_of_nodes(on)),
-          set_of_nodes(on)};
-}
-
 void Posing::add_resultant(const model::SpaceFaceResultant& of) {
-  FaceActions on_face(of.on.body, facets(of.on), of.about);
+  FaceActions on_face(of.on.body, places_.facets(of.on), of.about);
   const auto share_of = [&](const SolidPlaceOfAction& place, const std::string& what) {
     auto share = on_face.share_of(place);
     if (!share)
@@ -428,19 +388,19 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
     const model::SpaceLoad& load = model_.loads[l];
     if (load.kind != model::SpaceLoad::Kind::gravity && load.kind != model::SpaceLoad::Kind::temperature)
       on_face.add_load(l, body(of.on.body).mesh, posed_.model.loads[l][b],
-                       share_of(place_of_action(load.on), fmt::format("load '{}'", load.name)));
+                       share_of(places_.place_of_action(load.on), fmt::format("load '{}'", load.name)));
   }
   for (std::size_t s = 0; s < model_.supports.size(); ++s)
     on_face.add_reactions(
         posed_.model, static_cast<int>(s),
-        share_of(place_of_action(model_.supports[s].on), fmt::format("support '{}'", model_.supports[s].name)));
+        share_of(places_.place_of_action(model_.supports[s].on), fmt::format("support '{}'", model_.supports[s].name)));
   for (std::size_t s = 0; s < model_.springs.size(); ++s)
     on_face.add_springs(
-        s, share_of(place_of_action(model_.springs[s].on), fmt::format("spring '{}'", model_.springs[s].name)));
+        s, share_of(places_.place_of_action(model_.springs[s].on), fmt::format("spring '{}'", model_.springs[s].name)));
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
     for (const bool on_b : {false, true}) {
       const model::SpaceContact& contact = model_.contacts[c];
-      const auto share = share_of(place_of_action(on_b ? contact.b : contact.a),
+      const auto share = share_of(places_.place_of_action(on_b ? contact.b : contact.a),
                                   fmt::format("{} '{}'", contact.tied ? "tie" : "contact", contact.name));
       if (share.all || !share.nodes.empty()) on_face.add_contact(c, on_b);
     }
@@ -455,8 +415,8 @@ void Posing::add_resultant(const model::SpaceFaceResultant& of) {
 
 SolidPlaceOfAction Posing::place_of_action(const model::SpaceBar::End& end) {
   if (!end.on && (end.body < 0 || body(end.body).rigid_at)) return {};
-  if (!end.on) return {end.body, {}, {node_nearest(body(end.body).mesh, end.at)}};
-  SolidPlaceOfAction place = place_of_action(*end.on);
+  if (!end.on) return {end.body, {}, {node_nearest(body(end.body).mesh, end.at)}, {}};
+  SolidPlaceOfAction place = places_.place_of_action(*end.on);
   if (!place.facets.empty()) place.nodes.clear();  // the mean of a set is that of its sides
   return place;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scabo/analysis/space/prepared_solids.hpp"
+#include "scabo/system/solid_edges.hpp"
 #include "scabo/system/solid_part.hpp"
 
 namespace scabo::analysis {
@@ -34,6 +35,17 @@ SolidBarEnd mean_of_facets(const mesh::SolidMesh& mesh, std::size_t body, const 
   return end;
 }
 
+/// The mean of edges.
+SolidBarEnd mean_of_edges(const mesh::SolidMesh& mesh, std::size_t body, const std::vector<mesh::SolidEdge>& edges) {
+  SolidBarEnd end{{body, {}}, Eigen::Vector3d::Zero()};
+  const Vector weights = system::length_weights_of(mesh, edges) / system::length_of_edges(mesh, edges);
+  for (const int node : mesh::nodes_of_edges(edges)) {
+    end.side.nodes.push_back({node, weights[node]});
+    end.at += weights[node] * mesh.nodes.col(node);
+  }
+  return end;
+}
+
 /// The mean of some nodes.
 SolidBarEnd mean_of_nodes(const mesh::SolidMesh& mesh, std::size_t body, const std::vector<int>& nodes) {
   SolidBarEnd end{{body, {}}, Eigen::Vector3d::Zero()};
@@ -51,6 +63,7 @@ SolidBarEnd end_of_bar(const SolidModel& model, const model::SpaceBar::End& end,
   const auto b = static_cast<std::size_t>(end.of_body());
   const SolidBody& of = model.bodies[b];
   if (!end.on && of.rigid_at) return {side_at(model, end.body, end.at), end.at};
+  if (!place.edges.empty()) return mean_of_edges(of.mesh, b, place.edges);
   return place.facets.empty() ? mean_of_nodes(of.mesh, b, place.nodes) : mean_of_facets(of.mesh, b, place.facets);
 }
 

@@ -12,7 +12,8 @@ namespace {
 constexpr const char* example_of_bar =
     "{between: [cover.washer, [0, 0, 4]], area: 817e-6, young: 210e9, preload: 150e3}";
 constexpr const char* example_of_ends =
-    "[cover.washer, seat.thread], each a face, a set of nodes, {body: seat, at: [6, 3, 1]} or a point [x, y, z] of the "
+    "[cover.washer, seat.thread], each a face, an edge, a set of nodes, {body: seat, at: [6, 3, 1]} or a point [x, y, "
+    "z] of the "
     "ground";
 
 }  // namespace
@@ -28,7 +29,7 @@ std::optional<SpaceBar::End> SpaceReader::bar_end(const Value& value) {
     if (const auto body = map.need("body")) end.body = body_named(*body);
     if (const auto at = map.get("at")) end.at = vector(*at);
   } else {
-    end.on = face(value);
+    end.on = place(value);
   }
   if (report_.count() > before) return {};
   return end;

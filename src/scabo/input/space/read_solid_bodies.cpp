@@ -246,7 +246,8 @@ std::optional<SpaceFace> SpaceReader::face_along(const Value& value, const Eigen
   return face;
 }
 
-std::optional<SpaceFace> SpaceReader::face(const Value& value, const char* or_body) {
+/// A curve of a mesh file too.
+std::optional<SpaceFace> SpaceReader::face_or_curve(const Value& value, const char* or_body) {
   if (value.node->kind == Node::Kind::map) return face_found(value);
   const auto text = read_text(report_, value);
   if (!text) return {};
@@ -295,7 +296,11 @@ void SpaceReader::find_face(const Value& value, const std::string& part, SpaceFa
     known.push_back(name_from(of.mesh->node_sets[i].name));
     if (known.back() == part) face.node_set = static_cast<int>(i);
   }
-  if (face.side_set < 0 && face.node_set < 0)
+  for (std::size_t i = 0; face.side_set < 0 && face.node_set < 0 && i < of.mesh->line_sets.size(); ++i) {
+    known.push_back(name_from(of.mesh->line_sets[i].name));
+    if (known.back() == part) face.line_set = static_cast<int>(i);
+  }
+  if (face.side_set < 0 && face.node_set < 0 && face.line_set < 0)
     report_.error(value, fmt::format("the mesh of body '{}' has no face or set of nodes named {}{}", of.name,
                                      quoted_name(part), suggestion(part, known)));
 }

@@ -116,8 +116,8 @@ void SpaceReader::support(const Value& value) {
     }
   }
   const auto on = map.need("on");
-  const auto place = on ? face(*on, "a support") : std::nullopt;
-  if (place) support.on = *place;
+  const auto found = on ? place(*on, "a support") : std::nullopt;
+  if (found) support.on = *found;
   const auto fix = map.get("fix"), given = map.get("displacement");
   if (fix && given)
     map.refuse("displacement", "does not go together with 'fix': write 0 for the components that are fixed");
@@ -129,14 +129,14 @@ void SpaceReader::support(const Value& value) {
     report_.error(value, "needs 'fix' or 'displacement'");
   if (fix)
     map.refuse("rotation", "does not go together with 'fix': write 'displacement', with null for free components");
-  if (place && body_at(place->body).rigid && place->is_body()) {
+  if (found && body_at(found->body).rigid && found->is_body()) {
     rigid_support(map, support);
-  } else if (place) {
+  } else if (found) {
     for (const char* key : {"rotation", "at"})
       map.refuse(key, "is that of a rigid body as a whole: name the body alone");
-    if (body_at(place->body).rigid)
+    if (body_at(found->body).rigid)
       report_.error(*on, fmt::format("is a face of a rigid body, which is held as a whole: write '{}'",
-                                     body_at(place->body).name));
+                                     body_at(found->body).name));
   }
   model_.supports.push_back(support);
 }
@@ -186,16 +186,18 @@ void SpaceReader::load_value(const std::string& kind, const Value& value, SpaceL
               : kind == "traction"    ? Kind::traction
               : kind == "force"       ? Kind::force
               : kind == "nodal_force" ? Kind::nodal_force
+              : kind == "line_load"   ? Kind::line_load
               : kind == "moment"      ? Kind::moment
                                       : Kind::gravity;
-  if (is_map && (load.kind == Kind::pressure || load.kind == Kind::traction)) {
+  const bool has_formula = load.kind == Kind::pressure || load.kind == Kind::traction || load.kind == Kind::line_load;
+  if (is_map && has_formula) {
     const MapReader map(report_, value, {"formula"},
                         load.kind == Kind::pressure ? R"text({formula: "10e3 * (4 - z)"})text"
                                                     : R"text({formula: ["1e3 * z", 0, 0]})text",
                         only_in_the_plane({"over", "at", "values", "powers", "points"}));
     const auto formula = map.need("formula");
     if (formula && load.kind == Kind::pressure) load.formula[0] = read_formula_in_space(report_, *formula);
-    if (formula && load.kind == Kind::traction) load.formula = formulas(*formula);
+    if (formula && load.kind != Kind::pressure) load.formula = formulas(*formula);
   } else if (load.kind == Kind::pressure) {
     load.pressure = number(value);
   } else {
@@ -208,7 +210,8 @@ void SpaceReader::place_of_load(const MapReader& map, const Entry& entry, SpaceL
   if (load.kind != Kind::gravity && load.kind != Kind::temperature) {
     const auto on = map.need("on");
     const bool of_bodies = load.kind == Kind::force || load.kind == Kind::moment;
-    if (const auto place = on ? face(*on, of_bodies ? "a force or moment" : nullptr) : std::nullopt) load.on = *place;
+    if (const auto found = on ? place(*on, of_bodies ? "a force or moment" : nullptr) : std::nullopt) load.on = *found;
+    if (load.on.body >= 0 && !check_place_of_load(*on, load)) return;
     if (load.kind == Kind::nodal_force && load.on.body >= 0 && (load.on.node_set < 0 || load.on.normal))
       report_.error(*on, "must be a set of nodes of a mesh file: give a face a 'force' or 'traction'");
     if (load.kind == Kind::nodal_force && load.on.body >= 0 && body_at(load.on.body).rigid)
@@ -229,8 +232,8 @@ void SpaceReader::place_of_load(const MapReader& map, const Entry& entry, SpaceL
 }
 
 void SpaceReader::load(const Entry& entry) {
-  const std::vector<std::string> kinds{"pressure", "traction", "force",      "nodal_force",
-                                       "moment",   "gravity",  "temperature"};
+  const std::vector<std::string> kinds{"pressure",    "traction", "force",   "line_load",
+                                       "nodal_force", "moment",   "gravity", "temperature"};
   std::vector<std::string> known = kinds;
   known.insert(known.end(), {"on", "at"});
   const MapReader map(
@@ -248,16 +251,16 @@ void SpaceReader::load(const Entry& entry) {
     if (map.has(kind)) given.push_back(kind);
   if (given.size() == 1) {
     load_value(given.front(), *map.get(given.front()), load);
+    if (const auto at = map.get("at"); at && load.kind == SpaceLoad::Kind::force) load.at = vector(*at);
     place_of_load(map, entry, load);
     if (load.kind != SpaceLoad::Kind::force)
       map.refuse("at", "is the point through which a 'force' acts: leave it out");
-    else if (const auto at = map.get("at"))
-      load.at = vector(*at);
   } else if (given.size() > 1) {
     report_.error(entry.value, fmt::format("has '{}' and '{}': make two loads of them", given[0], given[1]));
   } else if (map.all_known()) {
     report_.error(entry.value,
-                  "needs one of 'pressure', 'traction', 'force', 'nodal_force', 'moment', 'gravity' and 'temperature'");
+                  "needs one of 'pressure', 'traction', 'force', 'line_load', 'nodal_force', 'moment', 'gravity' and "
+                  "'temperature'");
   }
   for (const SpaceSupport& support : model_.supports)
     if (support.named && support.name == load.name)

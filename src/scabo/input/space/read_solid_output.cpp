@@ -1,10 +1,11 @@
-// `output` of models in space: values at points, and resultants over sections.
+// `output` of models in space: values at points and along lines, and resultants over sections.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "scabo/input/space/space_reader.hpp"
 #include "scabo/input/suggestions.hpp"
+#include "scabo/model/limits.hpp"
 #include "scabo/model/wording.hpp"
 
 namespace scabo::input {
@@ -40,6 +41,28 @@ void SpaceReader::point(const Value& value) {
     if (const auto body = map.get("body")) point.body = body_named(*body);
   }
   if (report_.count() == before) model_.points.push_back(std::move(point));
+}
+
+/// `{from: [0, 0, 0], to: [0, 0, 1], points: 101, name: axis, body: post}`.
+void SpaceReader::line(const Value& value) {
+  const std::size_t before = report_.count();
+  const MapReader map(report_, value, {"from", "to", "points", "name", "body"}, "{from: [0, 0, 0], to: [0, 0, 1]}");
+  SpaceLine line;
+  line.source = value.source();
+  line.name = fmt::format("line_{}", model_.lines.size() + 1);
+  line.from = needed_vector(report_, map, "from");
+  line.to = needed_vector(report_, map, "to");
+  if (const auto points = map.get("points"))
+    line.points = static_cast<int>(read_integer(report_, *points, limits::line_points).value_or(line.points));
+  if (const auto name = map.get("name"))
+    if (const auto text = read_text(report_, *name); text && check_name(report_, name->source(), *text))
+      line.name = *text;
+  if (const auto body = map.get("body")) line.body = body_named(*body);
+  if (report_.count() == before && line.from == line.to)
+    report_.error(value, "ends where it starts: give two different points, or use 'points'");
+  for (const SpaceLine& other : model_.lines)
+    if (other.name == line.name) report_.error(value, fmt::format("another line is already named '{}'", line.name));
+  if (report_.count() == before) model_.lines.push_back(std::move(line));
 }
 
 namespace {
@@ -235,11 +258,14 @@ void SpaceReader::section(const Entry& entry, const Value& value) {
 }
 
 void SpaceReader::output(const Value& value) {
-  const MapReader map(
-      report_, value, {"points", "history"}, "{points: [[0, 0, 1]]}",
-      only_in_the_plane({"lines", "grid", "fields", "every", "discrete_problems", "error", "error_of"}));
+  const MapReader map(report_, value, {"points", "lines", "history"}, "{points: [[0, 0, 1]]}",
+                      only_in_the_plane({"grid", "fields", "every", "discrete_problems", "error", "error_of"}));
   if (const auto points = map.get("points"))
     for (const Value& item : read_list(report_, *points, "[[0, 0, 1]]").value_or(std::vector<Value>{})) point(item);
+  if (const auto lines = map.get("lines"))
+    for (const Value& item :
+         read_list(report_, *lines, "[{from: [0, 0, 0], to: [0, 0, 1]}]").value_or(std::vector<Value>{}))
+      line(item);
   if (const auto history = map.get("history"))
     for (const Entry& entry :
          read_named(report_, *history, "quantities", "{cut: {section: {point: [0, 0, 1], normal: [0, 0, 1]}}}"))

@@ -34,8 +34,8 @@ void SpaceReader::spring(const Value& value) {
   const std::size_t before = report_.count();
   SpaceSpring spring;
   const auto on = map.need("on");
-  const auto place = on ? face(*on, "a spring") : std::nullopt;
-  if (place) spring.on = *place;
+  const auto found = on ? place(*on, "a spring") : std::nullopt;
+  if (found) spring.on = *found;
   const bool of_face = map.has("k_n") || map.has("k_t"), of_axes = map.has("k_x") || map.has("k_y") || map.has("k_z");
   spring.along_face = of_face;
   spring.normal = number_from(map.get("k_n"), 0.0, true);
@@ -44,14 +44,20 @@ void SpaceReader::spring(const Value& value) {
     spring.stiffness[k] = number_from(map.get(std::array{"k_x", "k_y", "k_z"}[static_cast<std::size_t>(k)]), 0.0, true);
   if (of_face == of_axes) {
     if (of_face || map.all_known())
-      report_.error(value,
-                    "needs k_n or k_t, on a face (N/m3), or k_x, k_y or k_z, on a set of nodes or a rigid body (N/m)");
-  } else if (place && of_face && place->is_body()) {
+      report_.error(
+          value,
+          "needs k_n or k_t, on a face (N/m3), or k_x, k_y or k_z, on a point, a set of nodes or a rigid body "
+          "(N/m) or an edge (N/m2)");
+  } else if (found && of_face && found->is_body()) {
     report_.error(*on, fmt::format("is a whole body, on which k_x, k_y and k_z act: name a face, as in {}.bottom",
-                                   body_at(place->body).name));
-  } else if (place && of_axes && !place->is_body() && (place->node_set < 0 || place->normal)) {
+                                   body_at(found->body).name));
+  } else if (found && of_face && (found->is_edge() || found->is_point())) {
+    report_.error(*on, "is no face, on which k_n and k_t act: give it k_x, k_y and k_z");
+  } else if (found && of_axes && !found->is_body() && !found->is_set_of_nodes() && !found->is_edge() &&
+             !found->is_point()) {
     report_.error(*on,
-                  "is a face, on which k_n and k_t act: k_x, k_y and k_z are those of a set of nodes or a rigid body");
+                  "is a face, on which k_n and k_t act: k_x, k_y and k_z are those of an edge, a point, a set of "
+                  "nodes or a rigid body");
   } else if (report_.count() == before &&
              std::max({spring.normal, spring.tangential, spring.stiffness.maxCoeff()}) == 0.0) {
     report_.error(value, "has no stiffness above 0: one of them must be");

@@ -45,11 +45,19 @@ class SpaceReader {
   std::optional<int> region_of(const Value& value, const files::ImportedSolidMesh& mesh) const;
   /// A face of a body; or the body, where `or_body` names what may be on a whole one, as in `a load`.
   std::optional<model::SpaceFace> face(const Value& value, const char* or_body = nullptr);
+  std::optional<model::SpaceFace> face_or_curve(const Value& value, const char* or_body);
   std::optional<model::SpaceFace> face_found(const Value& value);
   std::optional<model::SpaceFace> face_near(const Value& near, const Eigen::Vector3d& point, model::SpaceFace face);
   std::optional<model::SpaceFace> face_along(const Value& value, const Eigen::Vector3d& normal,
                                              const std::optional<Value>& part, model::SpaceFace face);
   void find_face(const Value& value, const std::string& part, model::SpaceFace& face);
+
+  // read_solid_places.cpp
+  std::optional<model::SpaceFace> edge_or_point(const Value& value);
+  void meeting_faces(const Value& value, std::size_t count, model::SpaceFace& place);
+  /// A face, an edge or a point; or the body.
+  std::optional<model::SpaceFace> place(const Value& value, const char* or_body = nullptr);
+  bool check_place_of_load(const Value& on, const model::SpaceLoad& load);
 
   // read_solid_conditions.cpp
   Components fixed(const Value& value);
@@ -77,6 +85,7 @@ class SpaceReader {
   // read_solid_output.cpp
   void output(const Value& value);
   void point(const Value& value);
+  void line(const Value& value);
   void section(const Entry& entry, const Value& value);
   void face_resultant(const Entry& entry);
   void displacement_of_point(const Entry& entry);

@@ -29,6 +29,33 @@ std::optional<double> figure_of_point(const SolidPointValues& values, const mode
   return quantity.kind == Kind::principal ? measures.principal[quantity.component] : measures.von_mises;
 }
 
+/// Where a point is that lies in none of the bodies that are meant.
+std::string outside_of(const model::SpaceModel& model, int body) {
+  return body < 0 ? "in no body"
+                  : fmt::format("outside of body '{}'", model.bodies[static_cast<std::size_t>(body)].name);
+}
+
+constexpr const char* columns_at_points =
+    "step,increment,name,body,x,y,z,ux,uy,uz,stress_xx,stress_yy,stress_zz,stress_xy,stress_yz,stress_xz,"
+    "principal_1,principal_2,principal_3,von_mises";
+
+/// From `x` on; no line end.
+void add_values(const Eigen::Vector3d& at, const SolidPointValues& values, fmt::memory_buffer& rows) {
+  const auto add = [&](const auto& numbers) {
+    for (const double value : numbers) fmt::format_to(std::back_inserter(rows), ",{}", value);
+  };
+  add(at);
+  add(values.displacement);
+  if (!values.stress) {
+    fmt::format_to(std::back_inserter(rows), ",,,,,,,,,,");
+    return;
+  }
+  const StressInSpace measures(*values.stress);
+  add(*values.stress);
+  add(measures.principal);
+  fmt::format_to(std::back_inserter(rows), ",{}", measures.von_mises);
+}
+
 }  // namespace
 
 SolidOutputs::SolidOutputs(const model::SpaceModel& model, const analysis::PosedSolids& posed)
@@ -46,13 +73,12 @@ SolidOutputs::SolidOutputs(const model::SpaceModel& model, const analysis::Posed
       places_.push_back(place);
       point_of_.push_back(i);
     }
-    const std::string where =
-        only[i] < 0 ? "in no body"
-                    : fmt::format("outside of body '{}'", model.bodies[static_cast<std::size_t>(only[i])].name);
     if (places[i].empty())
-      mistakes.push_back({model.points[i].source, fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) lies {}: move it",
-                                                              points[i].x(), points[i].y(), points[i].z(), where)});
+      mistakes.push_back(
+          {model.points[i].source, fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) lies {}: move it", points[i].x(),
+                                               points[i].y(), points[i].z(), outside_of(model, only[i]))});
   }
+  place_lines(mistakes);
   for (const model::SpaceSection& section : model.sections) {
     sections_.push_back(section_of(posed.model, section));
     if (sections_.back().points.empty())
@@ -66,6 +92,28 @@ SolidOutputs::SolidOutputs(const model::SpaceModel& model, const analysis::Posed
   for (const model::SpaceQuantity& quantity : model.quantities)
     if (is_of_point(quantity)) find_place(quantity.of, quantity.name, mistakes);
   if (!mistakes.empty()) throw InputError(model.file, std::move(mistakes));
+}
+
+/// One message for a line.
+void SolidOutputs::place_lines(std::vector<Diagnostic>& mistakes) {
+  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    const model::SpaceLine& line = model_.lines[l];
+    std::vector<Eigen::Vector3d> points;
+    for (int k = 0; k < line.points; ++k) points.push_back(line.at(k));
+    const auto places = places_of(posed_.model, points, std::vector<int>(points.size(), line.body));
+    for (int k = 0; k < line.points; ++k)
+      for (const SolidPlace& place : places[static_cast<std::size_t>(k)]) {
+        places_of_lines_.push_back(place);
+        of_lines_.push_back({l, k});
+      }
+    const auto outside = std::find_if(places.begin(), places.end(), [](const auto& in) { return in.empty(); });
+    if (outside == places.end()) continue;
+    const auto k = static_cast<int>(outside - places.begin());
+    const Eigen::Vector3d at = line.at(k);
+    mistakes.push_back(
+        {line.source, fmt::format("point {} of '{}', ({:.6g}, {:.6g}, {:.6g}), lies {}: let the line end in a body",
+                                  k + 1, line.name, at.x(), at.y(), at.z(), outside_of(model_, line.body))});
+  }
 }
 
 void SolidOutputs::find_place(int point, const std::string& of, std::vector<Diagnostic>& mistakes) {
@@ -89,34 +137,37 @@ const SolidPointValues& SolidOutputs::values_of(int point, const std::vector<Sol
   return values[static_cast<std::size_t>(place - point_of_.begin())];
 }
 
-std::string SolidOutputs::header_of_points() const {
-  return "step,increment,name,body,x,y,z,ux,uy,uz,stress_xx,stress_yy,stress_zz,stress_xy,stress_yz,stress_xz,"
-         "principal_1,principal_2,principal_3,von_mises\n";
-}
+std::string SolidOutputs::header_of_points() const { return columns_at_points + std::string("\n"); }
+
+std::string SolidOutputs::header_of_lines() const { return columns_at_points + std::string(",distance\n"); }
 
 std::string SolidOutputs::rows_of_points(const analysis::SolidIncrement& increment, std::size_t number) const {
   const auto& [step, of_step] = posed_.step_and_number[number];
   const std::vector<SolidPointValues> values = values_at(posed_.model, increment, places_);
   fmt::memory_buffer rows;
-  const auto add = [&](const auto& numbers) {
-    for (const double value : numbers) fmt::format_to(std::back_inserter(rows), ",{}", value);
-  };
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i].absent) continue;
     const model::SpacePoint& point = model_.points[point_of_[i]];
     fmt::format_to(std::back_inserter(rows), "{},{},{},{}", step + 1, of_step, csv_quoted(point.name),
                    csv_quoted(model_.bodies[static_cast<std::size_t>(places_[i].body)].name));
-    add(point.at);
-    add(values[i].displacement);
-    if (!values[i].stress) {
-      fmt::format_to(std::back_inserter(rows), ",,,,,,,,,,\n");
-      continue;
-    }
-    const auto& s = *values[i].stress;
-    const StressInSpace measures(s);
-    add(s);
-    add(measures.principal);
-    fmt::format_to(std::back_inserter(rows), ",{}\n", measures.von_mises);
+    add_values(point.at, values[i], rows);
+    rows.push_back('\n');
+  }
+  return fmt::to_string(rows);
+}
+
+std::string SolidOutputs::rows_of_lines(const analysis::SolidIncrement& increment, std::size_t number) const {
+  const auto& [step, of_step] = posed_.step_and_number[number];
+  const std::vector<SolidPointValues> values = values_at(posed_.model, increment, places_of_lines_);
+  fmt::memory_buffer rows;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].absent) continue;
+    const model::SpaceLine& line = model_.lines[of_lines_[i].line];
+    const int k = of_lines_[i].number;
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{}", step + 1, of_step, csv_quoted(line.name),
+                   csv_quoted(model_.bodies[static_cast<std::size_t>(places_of_lines_[i].body)].name));
+    add_values(line.at(k), values[i], rows);
+    fmt::format_to(std::back_inserter(rows), ",{}\n", line.part_at(k) * (line.to - line.from).norm());
   }
   return fmt::to_string(rows);
 }

@@ -319,6 +319,7 @@ void SolidResults::open_files(const analysis::WrittenResults* written) {
   };
   open("contact.csv", table_);
   if (outputs_.has_points()) open("points.csv", points_);
+  if (outputs_.has_lines()) open("lines.csv", lines_);
   if (outputs_.has_history()) open("history.csv", history_);
   open("log.txt", log_);
   open("fields.pvd", collection_);
@@ -326,6 +327,7 @@ void SolidResults::open_files(const analysis::WrittenResults* written) {
   if (written) return;
   table_->append(columns_of_solids);
   if (points_) points_->append(outputs_.header_of_points());
+  if (lines_) lines_->append(outputs_.header_of_lines());
   if (history_) history_->append(outputs_.header_of_history());
   log_->append(log_header(model_, summary_->json));
 }
@@ -333,7 +335,7 @@ void SolidResults::open_files(const analysis::WrittenResults* written) {
 std::vector<GrowingFile*> SolidResults::growing_files() {
   std::vector<GrowingFile*> files{&*table_, &*log_, &collection_->file()};
   if (faces_) files.push_back(&faces_->file());
-  for (std::optional<GrowingFile>* file : {&points_, &history_})
+  for (std::optional<GrowingFile>* file : {&points_, &lines_, &history_})
     if (*file) files.push_back(&**file);
   return files;
 }
@@ -385,6 +387,7 @@ void SolidResults::add_files(const analysis::SolidIncrement& increment) {
     ++finished_;
     table_->append(rows_of(model_, posed_, increment, number));
     if (points_) points_->append(outputs_.rows_of_points(increment, number));
+    if (lines_) lines_->append(outputs_.rows_of_lines(increment, number));
     if (history_) history_->append(outputs_.row_of_history(increment, number));
     add_fields(increment);
   }

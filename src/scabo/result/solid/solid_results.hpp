@@ -63,8 +63,8 @@ class SolidResults {
   DirectoryLock lock_;
   int finished_ = 0;
   SolidOutputs outputs_;
-  std::optional<GrowingFile> table_, log_, points_, history_;  // the last two if the model asks for them
-  std::optional<FieldCollection> collection_, faces_;          // the latter of models with contacts
+  std::optional<GrowingFile> table_, log_, points_, lines_, history_;  // the last three if the model asks for them
+  std::optional<FieldCollection> collection_, faces_;                  // the latter of models with contacts
   std::vector<std::filesystem::path> not_synchronised_;
   std::vector<Warning> warnings_;  // of increments
 };
