@@ -1,5 +1,5 @@
 // The analysis of a model with its steps: Model -> Mesh -> super-elements -> systems -> contact -> results of every
-// increment, on one mesh or on several. No files are written here (result/).
+// increment, on one mesh or on several. Results are written elsewhere (result/); what runs go on from, in state/.
 #pragma once
 
 #include "scabo/analysis/march/options.hpp"

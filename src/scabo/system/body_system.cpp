@@ -74,9 +74,9 @@ std::vector<std::unique_ptr<BodySystem>> elastic_bodies(std::vector<ElasticPart>
     const auto i = static_cast<std::size_t>(k);
     ElasticBody& body = *bodies[distinct[i]];
     const ElasticPart& part = parts[distinct[i]];
-    const auto* const like = dynamic_cast<const ElasticBody*>(part.before);
+    const auto* const like = dynamic_cast<const ElasticBody*>(part.like);
     try {
-      if (!like || !body.factorise_by(*like, part.nodes_before)) body.factorise(options);
+      if (!like || !body.factorise_by(*like, part.nodes_of_like)) body.factorise(options);
     } catch (const linalg::NotPositiveDefinite&) {
       failed[i] = 1;
     }

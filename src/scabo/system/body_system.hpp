@@ -163,8 +163,8 @@ struct ElasticPart {
   std::vector<int> contact_dofs = {};
   /// The body on an earlier mesh, by whose factor a large one is solved where most of its matrix is the same, and the
   /// nodes there; null: none.
-  const BodySystem* before = nullptr;
-  Positions nodes_before = {};
+  const BodySystem* like = nullptr;
+  Positions nodes_of_like = {};
 };
 /// The same for many bodies, on up to `threads` threads. Bodies whose matrices are equal bit for bit, as those of equal
 /// blocks with equal supports are wherever they stand, share stiffness and factor. `before`: bodies, of which those

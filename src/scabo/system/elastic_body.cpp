@@ -116,29 +116,29 @@ void ElasticBody::factorise(linalg::SparseOptions options) {
   }
 }
 
-bool ElasticBody::factorise_by(const ElasticBody& before, const Positions& nodes_before) {
+bool ElasticBody::factorise_by(const ElasticBody& like, const Positions& nodes_of_like) {
   const Positions& nodes = factored_->nodes;
   const auto is_sparse = [](const Stiffness& one) { return !one.dense && !one.divided; };
-  if (!is_large() || !is_sparse(stiffness()) || !is_sparse(before.stiffness()) || nodes.components().dimension != 2)
+  if (!is_large() || !is_sparse(stiffness()) || !is_sparse(like.stiffness()) || nodes.components().dimension != 2)
     return false;
-  const std::vector<int> nodes_there = same_nodes(nodes, nodes_before);
+  const std::vector<int> nodes_there = same_nodes(nodes, nodes_of_like);
   std::vector<int> same, near;
   for (const int dof : dofs_) {
     const int there = nodes_there[static_cast<std::size_t>(plane_components.node_of(dof))];
     const auto place = there < 0 ? -1 : place_of(there, plane_components.component_of(dof));
-    same.push_back(place < 0 ? -1 : before.place_[static_cast<std::size_t>(place)]);
+    same.push_back(place < 0 ? -1 : like.place_[static_cast<std::size_t>(place)]);
   }
   for (const int dof : factored_->contact_dofs)
     if (const int place = place_[static_cast<std::size_t>(dof)]; place >= 0) near.push_back(place);
-  linalg::SparseMatrix whole, whole_before;
+  linalg::SparseMatrix whole, whole_of_like;
   if (!is_whole_alone()) whole = whole_sparse().markAsRValue();
-  if (!before.is_whole_alone()) whole_before = before.whole_sparse().markAsRValue();
+  if (!like.is_whole_alone()) whole_of_like = like.whole_sparse().markAsRValue();
   const linalg::PrincipalPart A{is_whole_alone() ? stiffness().sparse : whole, dofs_, place_},
-      A_before{before.is_whole_alone() ? before.stiffness().sparse : whole_before, before.dofs_, before.place_};
-  auto factor = linalg::factor_by_changes(A, {A_before, {before.factored_, &before.solver()}}, same, near);
+      A_of_like{like.is_whole_alone() ? like.stiffness().sparse : whole_of_like, like.dofs_, like.place_};
+  auto factor = linalg::factor_by_changes(A, {A_of_like, {like.factored_, &like.solver()}}, same, near);
   if (!factor) return false;
   factored_->solver =
-      linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), before.solver().costs());
+      linalg::SymmetricPositiveSolver(static_cast<int>(dofs_.size()), std::move(factor), like.solver().costs());
   return true;
 }
 

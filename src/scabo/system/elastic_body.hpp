@@ -33,7 +33,7 @@ class ElasticBody final : public BodySystem {
   const void* factor() const override { return factored_.get(); }
   void factorise(linalg::SparseOptions options);
   /// By the factor of this body on an earlier mesh; false where that would not pay.
-  bool factorise_by(const ElasticBody& before, const Positions& nodes_before);
+  bool factorise_by(const ElasticBody& like, const Positions& nodes_of_like);
 
   Vector spring_forces(const Vector& u) const override { return -stiffness().springs.times(u); }
   bool is_flexible() const override { return true; }

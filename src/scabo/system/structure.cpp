@@ -201,8 +201,8 @@ Structure make_structure(const model::Model& model, const mesh::Mesh& mesh,
     part.constraints = std::move(constraints[p]);
     part.contact_dofs = std::move(contact_dofs[p]);
     if (!like || like->parts.size() != dofs.parts()) continue;
-    part.before = like->parts[p].get();
-    part.nodes_before = like->dofs.nodes(p);
+    part.like = like->parts[p].get();
+    part.nodes_of_like = like->dofs.nodes(p);
   }
   try {
     auto bodies = elastic_bodies(std::move(parts), threads, options, before ? &before->parts : nullptr);
