@@ -38,6 +38,7 @@ std::string fingerprint_of_support(const SolidModel& model, std::size_t body, st
     if (held.support != static_cast<int>(support)) return;
     for (const double number : {1.0 * held.dof, 1.0 * held.component, held.rotation ? 1.0 : 0.0, held.value})
       of.add(number);
+    if (held.component < 0) of.add(Vector(held.inclined));
   };
   for (const system::Constraint& held : model.bodies[body].supports) add(held);
   for (const SolidHeldPoint& point : model.held_points) add(point.held);

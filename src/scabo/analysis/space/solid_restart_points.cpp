@@ -1,7 +1,9 @@
 #include "scabo/analysis/space/solid_restart_points.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "scabo/system/rigid_solid.hpp"
 
@@ -12,9 +14,20 @@ namespace {
 constexpr const char* reaction_name = "reaction";
 constexpr const char* offset_name = "offset";  // along the direction that is held
 
-/// A degree of freedom of an elastic body, a motion of a rigid one.
-double held_number(const SolidBody& body, const system::Constraint& held) {
-  return body.rigid_at ? system::held_motion(held) : held.dof;
+/// What a constraint holds: the node of an elastic body or the motion of a rigid one, and the direction.
+constexpr std::size_t numbers_of_constraint = 4;
+std::array<double, numbers_of_constraint> described(const SolidBody& body, const system::Constraint& held) {
+  const Eigen::Vector3d along = held.direction_in_space();
+  return {1.0 * (body.rigid_at ? system::held_motion(held) : in_space.node_of(held.dof)), along.x(), along.y(),
+          along.z()};
+}
+
+/// 1 or -1 if a constraint of another run holds the same in the same or the other sense, 0 if it does not.
+double sense_of(const std::array<double, numbers_of_constraint>& wanted, const double* other) {
+  constexpr double parallel = 1e-9;  // sine of the angle
+  const Eigen::Vector3d a(wanted[1], wanted[2], wanted[3]), b(other[1], other[2], other[3]);
+  if (wanted[0] != other[0] || a.cross(b).norm() > parallel) return 0.0;
+  return a.dot(b) > 0.0 ? 1.0 : -1.0;
 }
 
 /// Places of the pairs of a body that are held points.
@@ -49,7 +62,7 @@ std::vector<EndState::Held> solids_held_at_end(const PreparedSolids& now, const 
     held.name = body.name;
     held.u.assign(moved.u[b].begin(), moved.u[b].end());
     const auto add = [&](const system::Constraint& constraint, double reaction, double offset) {
-      held.constraints.push_back(held_number(body, constraint));
+      for (const double number : described(body, constraint)) held.constraints.push_back(number);
       held.fields[reaction_name].push_back(reaction);
       held.fields[offset_name].push_back(offset);
     };
@@ -72,11 +85,14 @@ void continue_held_points(const PreparedSolids& now, const EndState& end, SolidS
     if (now.is_absent(b) || held == end.held.end()) continue;
     for (const Eigen::Index place : points_on(now, b)) {
       const SolidHeldPoint& point = point_at(now, place);
-      const auto known = std::ranges::find(held->constraints, held_number(body, point.held));
-      if (known == held->constraints.end()) continue;
-      const auto k = static_cast<std::size_t>(known - held->constraints.begin());
-      const double offset = kept(held->fields, offset_name).at(k);
-      state.p[in_space.of(place)] = kept(held->fields, reaction_name).at(k) / lever_of(now.model, point);
+      const auto wanted = described(body, point.held);
+      const std::size_t count = held->constraints.size() / numbers_of_constraint;
+      std::size_t k = 0;
+      const auto sense = [&] { return sense_of(wanted, &held->constraints[k * numbers_of_constraint]); };
+      while (k < count && sense() == 0.0) ++k;
+      if (k == count) continue;
+      const double offset = sense() * kept(held->fields, offset_name).at(k);
+      state.p[in_space.of(place)] = sense() * kept(held->fields, reaction_name).at(k) / lever_of(now.model, point);
       state.states[static_cast<std::size_t>(place)] = contact::ContactState::stick;
       if (state.offset.size() == 0 && offset != 0.0) state.offset = Vector::Zero(state.p.size());
       if (state.offset.size() > 0) state.offset[in_space.of(place)] = offset;
