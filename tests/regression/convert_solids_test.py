@@ -161,7 +161,7 @@ class Numbers(support.InTemporaryDirectory):
                         lambda line: f"{line[1]}, " + ", ".join(repr(x) for x in product(turn, [float(line[k]) for k in (2, 3, 4)])), deck)
         first, second = (product(turn, axis) for axis in ([2, 0, 0], [1, 3, 0]))
         turned = turned.replace("*MATERIAL", "".join(f"*TRANSFORM, NSET={name}_{side}\n{', '.join(repr(x) for x in (*first, *second))}\n"
-                                                     for name in ("LOWER", "UPPER") for side in ("BOTTOM", "LEFT", "FRONT")), 1)
+                                                     for name in ("LOWER", "UPPER") for side in ("BOTTOM", "LEFT", "FRONT")) + "*MATERIAL", 1)
         other = self.solve(turned)[-1]
         force = math.hypot(*one["contacts"]["touch"]["normal_force"])
         for kind in ("normal_force", "tangential_force"):
@@ -173,7 +173,7 @@ class Numbers(support.InTemporaryDirectory):
             self.assertAlmostEqual(a, b, delta=1e-8 * force)
         self.assertAlmostEqual(one["energy"]["elastic"], other["energy"]["elastic"], delta=1e-8 * one["energy"]["elastic"])
 
-    TUBE = bricks(tube(1.0, 2.0, ANGLE, 0.5), (3, 2, 1)) + MATERIAL.split("*SOLID")[0] + """*SOLID SECTION, ELSET=ALL, MATERIAL=steel
+    TUBE = bricks(tube(1.0, 2.0, ANGLE, 0.5), (3, 3, 1)) + MATERIAL.split("*SOLID")[0] + """*SOLID SECTION, ELSET=ALL, MATERIAL=steel
 *TRANSFORM, NSET=LOW_2, TYPE=C
 0., 0., 0., 0., 0., 1.
 *TRANSFORM, NSET=HIGH_2, TYPE=C
@@ -190,6 +190,7 @@ HIGH_3, 3
 *DLOAD
 1, P6, 1.
 2, P6, 1.
+3, P6, 1.
 *END STEP
 """
 
