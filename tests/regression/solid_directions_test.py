@@ -251,7 +251,7 @@ bodies: {{base: {{material: m, mesh: {{file: base.inp}}}}, ball: {{material: m, 
 supports:
 """ + "".join(f"  - {text}\n" for text in supports) + f"""  - {{on: ball.HEAD, {drive}, name: drive}}
   - {{on: base.RIGHT, {held("base.RIGHT")}, name: prop{", removed: strike" if "strike" in steps else ""}}}
-springs: [{{on: base.BACK, k_n: 1e8, k_t: 5e7, name: soft}}]
+{self.jack(turn, how) if "strike" in steps else ""}springs: [{{on: base.BACK, k_n: 1e8, k_t: 5e7, name: soft}}]
 bars: {{tie: {{between: [{{body: ball, at: {text_of(moved(turn, [0, 0.25, 0.5]))}}}, {text_of(moved(turn, [0, 1, 1]))}], k: 1e6}}}}
 loads:
   push: {{on: base.BACK, traction: {vector([0, -3e5, 1e5])}}}
@@ -262,8 +262,13 @@ steps: [{steps}]
 output: {{points: [{text_of(moved(turn, [0.3, 0.3, 0.0]))}, {text_of(moved(turn, [0, 0.1, 0.2]))}], history: {{{history}}}}}
 """
 
+    def jack(self, turn, how):
+        """It pulls the right side on from where that is then."""
+        along = {"axes": "[1e-4, null, null]", "normals": "{normal: 1e-4}", "directions": f"{{along: {text_of(product(turn, [-2, 0, 0]))}, value: -1e-4}}"}[how]
+        return f"  - {{on: base.RIGHT, displacement: {along}, name: jack, added: back}}\n"
+
     FIRST = "{name: press, increments: 2, loads: {drive: 1, push: 0, heat: 0}}, {name: push, increments: 2, loads: {push: 1}}"
-    SECOND = "{name: strike, increments: 2, loads: {heat: 1}}, {name: back, loads: {drive: 0.8}}"
+    SECOND = "{name: strike, increments: 2, loads: {heat: 1}}, {name: back, increments: 2, loads: {drive: 0.8, jack: 1}}"
 
     def told(self, summary, turn, name="model"):
         """Of every increment, in the axes of the original: forces, moments about its origin, energies, states, displacements, resultants."""

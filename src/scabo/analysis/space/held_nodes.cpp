@@ -107,7 +107,7 @@ void HeldNodes::add(std::size_t support, int node, const SupportedDirection& alo
   made.component = place == axis ? axis : -1;
   made.inclined = direction;
   made.value = along.value;
-  if (made.component >= 0) made.value *= direction[axis], made.inclined.setZero();
+  if (axis >= 0) made.inclined = Eigen::Vector3d::Unit(axis), made.value *= direction[axis];  // in its own sense
   others.push_back({support, along, place});
   take(support, made);
 }

@@ -1,7 +1,6 @@
 #include "scabo/analysis/space/solid_restart_points.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
@@ -22,12 +21,11 @@ std::array<double, numbers_of_constraint> described(const SolidBody& body, const
           along.z()};
 }
 
-/// 1 or -1 if a constraint of another run holds the same in the same or the other sense, 0 if it does not.
-double sense_of(const std::array<double, numbers_of_constraint>& wanted, const double* other) {
-  constexpr double parallel = 1e-9;  // sine of the angle
+/// Whether a constraint of another run holds the same.
+bool is_same(const std::array<double, numbers_of_constraint>& wanted, const double* other) {
+  constexpr double rounding = 1e-9;
   const Eigen::Vector3d a(wanted[1], wanted[2], wanted[3]), b(other[1], other[2], other[3]);
-  if (wanted[0] != other[0] || a.cross(b).norm() > parallel) return 0.0;
-  return a.dot(b) > 0.0 ? 1.0 : -1.0;
+  return wanted[0] == other[0] && (a - b).norm() <= rounding;
 }
 
 /// Places of the pairs of a body that are held points.
@@ -88,11 +86,10 @@ void continue_held_points(const PreparedSolids& now, const EndState& end, SolidS
       const auto wanted = described(body, point.held);
       const std::size_t count = held->constraints.size() / numbers_of_constraint;
       std::size_t k = 0;
-      const auto sense = [&] { return sense_of(wanted, &held->constraints[k * numbers_of_constraint]); };
-      while (k < count && sense() == 0.0) ++k;
+      while (k < count && !is_same(wanted, &held->constraints[k * numbers_of_constraint])) ++k;
       if (k == count) continue;
-      const double offset = sense() * kept(held->fields, offset_name).at(k);
-      state.p[in_space.of(place)] = sense() * kept(held->fields, reaction_name).at(k) / lever_of(now.model, point);
+      const double offset = kept(held->fields, offset_name).at(k);
+      state.p[in_space.of(place)] = kept(held->fields, reaction_name).at(k) / lever_of(now.model, point);
       state.states[static_cast<std::size_t>(place)] = contact::ContactState::stick;
       if (state.offset.size() == 0 && offset != 0.0) state.offset = Vector::Zero(state.p.size());
       if (state.offset.size() > 0) state.offset[in_space.of(place)] = offset;
