@@ -181,6 +181,17 @@ loads: {{pull: {{on: part.LOW_1, {load}}}}}
                 self.assertEqual(summary["status"], "mechanism" if ends else "solved")
                 self.assertIn(ends or "", summary["reason"] or "")
 
+    def test_parts_of_a_curved_face(self):
+        """Two supports on parts of a wavy face, which is no quadric, are one on all of it, whose normals they have where they meet."""
+        self.deck("part", lambda x, y, z: (x, y, z * (1 + 0.3 * math.sin(2 * x))), (5, 2, 2))
+        whole, parts, axes = (self.sector("part", [*supports, "{on: part.LOW_2, fix: y}"],
+                                          "loads: {pull: {on: part.HIGH_1, traction: [1e-3, 0, 2e-3]}}\n", "tetrahedra")
+                              for supports in (["{on: part.HIGH_3, fix: normal}"],
+                                               [f"{{on: {{body: part, face: HIGH_3, normal: {normal}}}, fix: normal}}" for normal in ("[-0.5, 0, 1]", "[0.1, 0, 1]")],
+                                               ["{on: part.HIGH_3, fix: [x, z]}"]))
+        self.assertAlmostEqual(parts["energy"]["elastic"], whole["energy"]["elastic"], delta=TOLERANCE * whole["energy"]["elastic"])
+        self.assertLess(axes["energy"]["elastic"], 0.99 * whole["energy"]["elastic"])
+
     def test_a_plug_in_a_conical_seat(self):
         """What holds a cone along its normals balances a force along the axis; a moment about the axis turns it."""
         for turn in (IDENTITY, rotation(4)):
