@@ -125,7 +125,7 @@ class DividedPart final : public system::DividedStiffness {
     for (const int dof : dofs) request.solved[static_cast<std::size_t>(order_[dof])] = 1;
     if (!inclined.none())
       for (int node = 0; node < plane_components.node_of(size()); ++node)
-        if (const Mat2* M = inclined.of(node))
+        if (const auto* M = inclined.of(node))
           request.inclined.push_back(
               {plane_components.node_of(order_[place_of(node)]), {(*M)(0, 0), (*M)(0, 1), (*M)(1, 0), (*M)(1, 1)}});
     for (Eigen::Index j = 0; j < springs.cols(); ++j)

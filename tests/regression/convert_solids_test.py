@@ -1,9 +1,12 @@
 """`scabo convert` of decks of solids: models in space, against closed forms."""
+import math
 import re
 import unittest
 
 import support
 from decks import block
+from solid_directions_test import ANGLE, bricks, tube
+from solid_twins_test import product, rotation
 from solids import increments_of_deck
 from support import scabo, summary_of
 
@@ -147,6 +150,77 @@ class Numbers(support.InTemporaryDirectory):
             self.assertEqual(done.returncode, 0, done.stderr)
             increment, = summary_of(self.directory / "results")["increments"]
             self.assertAlmostEqual(increment["contacts"]["touch"]["max_pressure"], 5, delta=1e-8)
+
+    def test_axes_of_nodes(self):
+        """The same blocks turned, with supports along axes of their nodes."""
+        pressure = lambda top: "*DLOAD\n" + "".join(f"{e}, P2, 5.\n" for e in top) + "*BOUNDARY\nUPPER_LEFT, 1, 1, 0.01\n"
+        deck = self.two_blocks("C3D8", pressure).replace("UPPER_LEFT, XSYMM", "UPPER_LEFT, 1")
+        one = self.solve(deck)[-1]
+        turn = rotation(9)
+        turned = re.sub(r"(?m)^(\d+), (\S+), (\S+), (\S+)$",
+                        lambda line: f"{line[1]}, " + ", ".join(repr(x) for x in product(turn, [float(line[k]) for k in (2, 3, 4)])), deck)
+        first, second = (product(turn, axis) for axis in ([2, 0, 0], [1, 3, 0]))
+        turned = turned.replace("*MATERIAL", "".join(f"*TRANSFORM, NSET={name}_{side}\n{', '.join(repr(x) for x in (*first, *second))}\n"
+                                                     for name in ("LOWER", "UPPER") for side in ("BOTTOM", "LEFT", "FRONT")) + "*MATERIAL", 1)
+        other = self.solve(turned)[-1]
+        force = math.hypot(*one["contacts"]["touch"]["normal_force"])
+        for kind in ("normal_force", "tangential_force"):
+            for a, b in zip(product(turn, one["contacts"]["touch"][kind]), other["contacts"]["touch"][kind]):
+                self.assertAlmostEqual(a, b, delta=1e-8 * force)
+        for axis in range(3):
+            a, b = (sum(vector[axis] for vector in reactions) for reactions in
+                    ([product(turn, of) for of in one["reactions"].values()], other["reactions"].values()))
+            self.assertAlmostEqual(a, b, delta=1e-8 * force)
+        self.assertAlmostEqual(one["energy"]["elastic"], other["energy"]["elastic"], delta=1e-8 * one["energy"]["elastic"])
+
+    TUBE = bricks(tube(1.0, 2.0, ANGLE, 0.5), (3, 3, 1)) + MATERIAL.split("*SOLID")[0] + """*SOLID SECTION, ELSET=ALL, MATERIAL=steel
+*TRANSFORM, NSET=LOW_2, TYPE=C
+0., 0., 0., 0., 0., 1.
+*TRANSFORM, NSET=HIGH_2, TYPE=C
+0., 0., 0., 0., 0., 1.
+*TRANSFORM, NSET=HIGH_1, TYPE=C
+0., 0., -3., 0., 0., 7.
+*BOUNDARY
+LOW_2, 2
+HIGH_2, 2
+LOW_3, 3
+HIGH_3, 3
+*STEP
+*STATIC
+*DLOAD
+1, P6, 1.
+2, P6, 1.
+3, P6, 1.
+*END STEP
+"""
+
+    def test_axes_about_a_line(self):
+        """A sector of a tube is held across its two planes, which then have the force of the hoop; its outside in a bearing has no force from it."""
+        increment, = self.solve(self.TUBE)
+        forces = sorted((math.hypot(*force), force) for force in increment["reactions"].values())
+        for size, force in forces[-2:]:
+            self.assertAlmostEqual(size, 0.5, delta=1e-8)
+        self.assertAlmostEqual(sum(force[0] for _, force in forces), -0.5 * math.sin(ANGLE), delta=1e-8)
+        increment, = self.solve(self.TUBE.replace("*STEP", "HIGH_1, 1\n*STEP", 1))
+        self.assertIn("fix: normal", (self.directory / "deck.yaml").read_text(encoding="utf-8"))
+        self.assertAlmostEqual(sum(force[0] for force in increment["reactions"].values()), -0.5 * math.sin(ANGLE), delta=1e-8)
+
+    def test_axes_that_are_refused(self):
+        for old, new, sentence in (
+                ("*DLOAD\n", "*CLOAD\nLOW_2, 1, 3.\n*DLOAD\n", "the force acts along axes of the node by *TRANSFORM, which is not taken"),
+                ("LOW_2, 2\n", "HIGH_1, 2\n", "the axes of 'HIGH_1' by *TRANSFORM turn from node to node"),
+                ("LOW_2, 2\n", "LOW_2, 1\n", "are held along radii by *TRANSFORM, and do not lie on one cylinder"),
+                ("NSET=LOW_2, TYPE=C", "NSET=LOW_2, TYPE=S", "TYPE"),
+                ("NSET=LOW_2, TYPE=C", "NSET=NONE, TYPE=C", "there is no node set 'NONE' with nodes of elements for *TRANSFORM"),
+                ("0., 0., 0., 0., 0., 1.\n", "0., 0., 0., 0., 0., 0.\n", "lies on the axis"),
+                ("0., 0., 0., 0., 0., 1.\n", "0., 0., 0.\n", "a point of *TRANSFORM"),
+                ("*MATERIAL", "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n*MATERIAL", "has axes of its own by *TRANSFORM, which is not taken")):
+            with self.subTest(sentence=sentence):
+                self.assertIn(old, self.TUBE)
+                (self.directory / "deck.inp").write_text(self.TUBE.replace(old, new, 1), encoding="utf-8")
+                done = scabo("convert", self.directory / "deck.inp", "--force")
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertIn(sentence, done.stderr)
 
 
 class Refused(support.InTemporaryDirectory):

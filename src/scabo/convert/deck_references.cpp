@@ -171,7 +171,7 @@ class ReferenceReader {
 
 bool is_of_reference(const std::string& keyword) {
   static const std::set<std::string> known = {"PRE-TENSIONSECTION", "PRETENSIONSECTION", "COUPLING", "KINEMATIC",
-                                              "DISTRIBUTING",       "RIGIDBODY",         "EQUATION"};
+                                              "DISTRIBUTING",       "RIGIDBODY",         "EQUATION", "TRANSFORM"};
   return known.contains(keyword);
 }
 

@@ -59,6 +59,7 @@ void add_mesh_rules(Rules& rules) {
   rules["PART"] = {DataLines::optional, 0, 0, {takes("NAME")}};
   rules["ASSEMBLY"] = {DataLines::optional, 0, 0, {harmless("NAME")}};
   rules["INSTANCE"] = {DataLines::optional, 7, 2, {takes("NAME"), takes("PART")}};
+  rules["TRANSFORM"] = {DataLines::needed, 6, 1, {takes("NSET"), takes("TYPE", "R|C")}};
 }
 
 void add_material_rules(Rules& rules) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scabo/convert/convert_abaqus.hpp"
+#include "scabo/convert/deck_transforms.hpp"
 #include "scabo/convert/solid_bodies_of_deck.hpp"
 #include "scabo/convert/write_model.hpp"
 #include "scabo/convert/write_steps.hpp"
@@ -18,6 +19,7 @@ std::string yaml_vector(const std::array<double, 3>& x);
 struct SolidModelWriter {
   files::AbaqusDeck deck;
   DeckContent content;
+  std::map<int, NodeAxes> axes;  ///< of nodes with axes of their own
   SolidDeckBodies bodies;
   SolidDeckSets sets;
   UniqueNames names, set_names, contact_names;  ///< of loads and supports; of sets; of contacts and ties

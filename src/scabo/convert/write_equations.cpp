@@ -73,6 +73,11 @@ class EquationWriter {
           return to_.remarks.essential(
               of.at, fmt::format("node {} of *EQUATION is not there, or is that of another condition; correct it",
                                  term.number));
+        if (to_.axes.contains(freedom->first))
+          return to_.remarks.essential(of.at,
+                                       fmt::format("node {} of *EQUATION has axes of its own by *TRANSFORM, which "
+                                                   "is not taken; write it along x, y and z",
+                                                   term.number));
         equation.terms.emplace_back(*freedom, term.factor);
       }
       open_.push_back(std::move(equation));

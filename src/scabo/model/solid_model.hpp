@@ -86,9 +86,14 @@ struct SpaceFace {
 using SpaceFormula = std::function<std::variant<double, std::string>(const Eigen::Vector3d&)>;
 
 struct SpaceSupport {
+  /// Along what it holds: the axes; or the outward normals of a face, or one direction, of which `displacement` has the
+  /// first number.
+  enum class Axes { xyz, normal, direction };
   std::string name;
-  bool named = false;                                 ///< by the user, so that steps give it a factor
-  SpaceFace on;                                       ///< a face of an elastic body, or a rigid body
+  bool named = false;  ///< by the user, so that steps give it a factor
+  SpaceFace on;        ///< a face of an elastic body, or a rigid body
+  Axes axes = Axes::xyz;
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();    ///< the direction, of length 1
   std::array<std::optional<double>, 3> displacement;  ///< length, at factor 1; none: free
   std::array<SpaceFormula, 3> shape;  ///< of a face: the displacement at a point is that above times this
   // Of a rigid body; `displacement` is then that of the point `at`.

@@ -31,16 +31,21 @@ namespace scabo::system {
 
 /// The displacement of a point along a direction, which a support holds at a prescribed value.
 struct Constraint {
-  int dof = -1;  ///< elastic body: place of component 0 of the node + that of this constraint there; along x 0, y 1
-  Vec2 point = Vec2::Zero();     ///< rigid body: the point (absolute)
-  int component = 0;             ///< 0: along x, 1: along y, -1: along `inclined`
-  bool rotation = false;         ///< rigid body: its rotation, held by a support on the whole body
-  int support = -1;              ///< index into Model::supports
-  double value = 0.0;            ///< length, at factor 1
-  Vec2 inclined = Vec2::Zero();  ///< unit vector, of component -1
+  /// Elastic body: place of component 0 of the node + that of this constraint there; along x 0, y 1, z 2.
+  int dof = -1;
+  Vec2 point = Vec2::Zero();  ///< rigid body: the point (absolute)
+  int component = 0;          ///< 0: along x, 1: along y, 2: along z, -1: along `inclined`
+  bool rotation = false;      ///< rigid body: its rotation, held by a support on the whole body
+  int support = -1;           ///< index into Model::supports
+  double value = 0.0;         ///< length, at factor 1
+  Eigen::Vector3d inclined = Eigen::Vector3d::Zero();  ///< unit vector, of component -1; in the plane without z
 
   Vec2 direction() const {
-    return component < 0 ? inclined : Vec2(Vec2::Unit(dof >= 0 ? plane_components.component_of(dof) : component));
+    return component < 0 ? Vec2(inclined.head<2>())
+                         : Vec2(Vec2::Unit(dof >= 0 ? plane_components.component_of(dof) : component));
+  }
+  Eigen::Vector3d direction_in_space() const {
+    return component < 0 ? inclined : Eigen::Vector3d(Eigen::Vector3d::Unit(component));
   }
 };
 
@@ -150,7 +155,7 @@ class BodySystem {
 void add_reactions(const std::vector<Constraint>& constraints, const Vector& reactions, Vector& forces);
 
 /// An elastic body, in the plane or in space. `nodes` give the rigid motions; constraints have distinct `dof`s, and two
-/// at one node are not parallel. In space they hold along the axes, and there are no springs.
+/// at one node are not parallel, nor are three in one plane.
 std::unique_ptr<BodySystem> elastic_body(Stiffness stiffness, const Positions& nodes,
                                          std::vector<Constraint> constraints);
 

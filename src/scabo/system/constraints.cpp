@@ -48,8 +48,7 @@ class ConstraintCollector {
     const std::size_t part = dofs_.part_of(support.on.body);
     std::vector<Constraint>& of_part = (support.is_staged() ? staged_ : constraints_)[part];
     if (support.rotation)
-      of_part.push_back(
-          {-1, Vec2::Zero(), 0, true, index, *support.rotation * half_size(model_.bodies[body].outline), Vec2::Zero()});
+      of_part.push_back({-1, Vec2::Zero(), 0, true, index, *support.rotation * half_size(model_.bodies[body].outline)});
     for (int component = 0; component < 2; ++component) {
       const auto value = support.displacement[static_cast<std::size_t>(component)];
       if (!value) continue;
@@ -59,7 +58,7 @@ class ConstraintCollector {
         for (const Vec2& point : points) of_part.push_back(constraint_along(support, component, point, index, *value));
         if (!support.rotation && support.on.kind == model::Place::Kind::body && !dofs_.revolved() &&
             !holds_rotation(of_part, index, support.is_staged()))
-          of_part.push_back({-1, Vec2::Zero(), component, true, index, 0.0, Vec2::Zero()});
+          of_part.push_back({-1, Vec2::Zero(), component, true, index, 0.0});
         continue;
       }
       const std::vector<int> nodes = mesh::nodes_of(support.on, mesh_).nodes;
@@ -116,7 +115,7 @@ class ConstraintCollector {
   /// `normal`: that of the face of a crack; without it, the one of the edge.
   Constraint constraint_along(const model::Support& support, int axis, const Vec2& point, int index, double value,
                               const Vec2* normal = nullptr) const {
-    Constraint made{-1, point, axis, false, index, value, Vec2::Zero()};
+    Constraint made{-1, point, axis, false, index, value};
     if (support.axes == model::SupportAxes::xy) return made;
     Vec2 first = support.along;
     if (normal != nullptr) {
@@ -133,7 +132,7 @@ class ConstraintCollector {
         return made;
       }
     made.component = -1;
-    made.inclined = along;
+    made.inclined << along, 0.0;
     return made;
   }
 
@@ -202,7 +201,7 @@ class ConstraintCollector {
       return plane_components.component_of(constraints_[part][others[k]].dof);
     };
     const int place = others.empty() ? std::max(made.component, 0) : 1 - component_of(0);
-    if (made.component != place) made.inclined = made.direction(), made.component = -1;
+    if (made.component != place) made.inclined << made.direction(), 0.0, made.component = -1;
     made.dof = first + place;
     others.push_back(constraints_[part].size());
     constraints_[part].push_back(made);

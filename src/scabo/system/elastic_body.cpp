@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "scabo/base/components.hpp"
 #include "scabo/base/error.hpp"
@@ -21,7 +22,7 @@ ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const Positions& no
       motions_(nodes, factored_->stiffness.revolved),
       free_(static_cast<std::size_t>(nodes.columns().size()), true) {
   constraints_ = std::move(constraints);
-  inclined_ = InclinedNodes(constraints_);
+  inclined_ = InclinedNodes(constraints_, motions_.components());
   find_rigid_motions(nodes);
   for (const Constraint& constraint : constraints_) free_[static_cast<std::size_t>(constraint.dof)] = false;
   for (const int dof : stiffness().on_axis) free_[static_cast<std::size_t>(dof)] = false;
@@ -35,14 +36,15 @@ ElasticBody::ElasticBody(std::shared_ptr<Factored> factored, const Positions& no
 }
 
 void ElasticBody::find_rigid_motions_in_space(const Matrix& nodes) {
-  ensure(inclined_.none(), "in space supports hold along the axes");
   const RigidMotionsInSpace motions(nodes);
   lever_ = motions.lever();
-  Matrix held(static_cast<Eigen::Index>(constraints_.size()), 6);
-  for (std::size_t c = 0; c < constraints_.size(); ++c)
-    held.row(static_cast<Eigen::Index>(c)) = motions.along(constraints_[c].dof);
   Matrix all(size(), 6);
   for (Eigen::Index dof = 0; dof < size(); ++dof) all.row(dof) = motions.along(dof);
+  Matrix held(static_cast<Eigen::Index>(constraints_.size()), 6);
+  for (std::size_t c = 0; c < constraints_.size(); ++c)
+    held.row(static_cast<Eigen::Index>(c)) =
+        constraints_[c].direction_in_space().transpose() *
+        all.middleRows<3>(motions_.components().first_of_node(constraints_[c].dof));
   rigid_coordinates_ = null_space(held);
   if (has_springs())
     rigid_coordinates_ = at_rest(rigid_coordinates_, all.transpose() * (stiffness().springs.matrix * all));
@@ -175,7 +177,7 @@ Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, c
   std::vector<int> wanted;
   std::vector<char> chosen(place_.size(), 0);
   const auto want = [&](int dof) {
-    for (const int component : both_if_inclined(dof)) {
+    for (const int component : all_if_inclined(dof)) {
       const auto i = static_cast<std::size_t>(component);
       if (place_[i] >= 0 && !chosen[i]) chosen[i] = 1, wanted.push_back(component);
     }
@@ -195,36 +197,39 @@ Vector ElasticBody::displacement_at(const Vector& f, const Vector& prescribed, c
 }
 
 bool ElasticBody::moves(int dof) const {
+  const Components of_nodes = motions_.components();
   return place_[static_cast<std::size_t>(dof)] >= 0 ||
-         (!inclined_.none() && inclined_.of(plane_components.node_of(dof)) != nullptr);
+         (!inclined_.none() && inclined_.of(of_nodes.node_of(dof)) != nullptr);
 }
 
 Matrix ElasticBody::flexibility(const std::vector<int>& dofs, bool refines) const {
+  const Components of_nodes = motions_.components();
   const bool any = !inclined_.none() && std::any_of(dofs.begin(), dofs.end(), [&](int dof) {
-    return inclined_.of(plane_components.node_of(dof)) != nullptr;
+    return inclined_.of(of_nodes.node_of(dof)) != nullptr;
   });
   if (!any) return flexibility_along(dofs, refines);
-  // u = T v on these degrees of freedom, with both of every inclined node.
-  std::vector<int> both;
+  // u = T v on these degrees of freedom, with all of every inclined node.
+  std::vector<int> all;
   std::vector<Eigen::Triplet<double>> entries;
   std::map<int, int> column_of;
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto row = static_cast<int>(i);
-    const int node = plane_components.node_of(dofs[i]);
-    const Mat2* M = inclined_.of(node);
+    const int node = of_nodes.node_of(dofs[i]);
+    const auto* const M = inclined_.of(node);
     if (!M) {
-      entries.emplace_back(row, static_cast<int>(both.size()), 1.0);
-      both.push_back(dofs[i]);
+      entries.emplace_back(row, static_cast<int>(all.size()), 1.0);
+      all.push_back(dofs[i]);
       continue;
     }
-    const auto [at, added] = column_of.emplace(node, static_cast<int>(both.size()));
-    if (added) both.insert(both.end(), {static_cast<int>(place_of(node)), static_cast<int>(place_of(node, 1))});
-    for (int k = 0; k < 2; ++k)
-      entries.emplace_back(row, at->second + k, (*M)(plane_components.component_of(dofs[i]), k));
+    const auto [at, added] = column_of.emplace(node, static_cast<int>(all.size()));
+    for (int k = 0; k < of_nodes.dimension; ++k) {
+      if (added) all.push_back(static_cast<int>(of_nodes.of(node, k)));
+      entries.emplace_back(row, at->second + k, (*M)(of_nodes.component_of(dofs[i]), k));
+    }
   }
-  Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(both.size()));
+  Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(all.size()));
   T.setFromTriplets(entries.begin(), entries.end());
-  const Matrix half = T * flexibility_along(both, refines), A = T * half.transpose();
+  const Matrix half = T * flexibility_along(all, refines), A = T * half.transpose();
   return 0.5 * (A + A.transpose());
 }
 
@@ -266,7 +271,7 @@ Vector ElasticBody::flexed(const std::vector<int>& dofs, const Vector& forces) c
   load = inclined_.components(std::move(load));
   std::vector<int> wanted, places;
   for (const int dof : dofs)
-    for (const int component : both_if_inclined(dof))
+    for (const int component : all_if_inclined(dof))
       if (const int place = place_[static_cast<std::size_t>(component)]; place >= 0)
         wanted.push_back(component), places.push_back(place);
   Vector v = Vector::Zero(size());
@@ -284,16 +289,16 @@ FreeStiffness ElasticBody::free_stiffness() const {
     free.K = Matrix(whole_dense()(free.dofs, free.dofs)).sparseView();
   else
     free.K = principal_part(whole_sparse(), free.dofs, place);
+  const Components of_nodes = motions_.components();
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < free.dofs.size(); ++k) {
     const int dof = free.dofs[k], column = static_cast<int>(k);
-    const Mat2* const M = inclined_.of(plane_components.node_of(dof));
+    const auto* const M = inclined_.of(of_nodes.node_of(dof));
     if (!M)
       entries.emplace_back(dof, column, 1.0);
     else
-      for (int row = 0; row < 2; ++row)
-        entries.emplace_back(plane_components.first_of_node(dof) + row, column,
-                             (*M)(row, plane_components.component_of(dof)));
+      for (int row = 0; row < of_nodes.dimension; ++row)
+        entries.emplace_back(of_nodes.first_of_node(dof) + row, column, (*M)(row, of_nodes.component_of(dof)));
   }
   free.map.resize(size(), static_cast<Eigen::Index>(free.dofs.size()));
   free.map.setFromTriplets(entries.begin(), entries.end());
@@ -385,10 +390,12 @@ linalg::SparseMatrix ElasticBody::whole_sparse() const {
   return inclined_.none() ? K : inclined_.stiffness(K);
 }
 
-std::vector<int> ElasticBody::both_if_inclined(int dof) const {
-  if (!inclined_.of(plane_components.node_of(dof))) return {dof};
-  const auto first = static_cast<int>(plane_components.first_of_node(dof));
-  return {first, first + 1};
+std::vector<int> ElasticBody::all_if_inclined(int dof) const {
+  const Components of_nodes = motions_.components();
+  if (!inclined_.of(of_nodes.node_of(dof))) return {dof};
+  std::vector<int> all(static_cast<std::size_t>(of_nodes.dimension));
+  std::iota(all.begin(), all.end(), static_cast<int>(of_nodes.first_of_node(dof)));
+  return all;
 }
 
 Vector ElasticBody::held_displacement(const Vector& prescribed) const {

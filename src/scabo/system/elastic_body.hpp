@@ -78,8 +78,8 @@ class ElasticBody final : public BodySystem {
   Matrix whole_dense() const;
   linalg::SparseMatrix whole_sparse() const;
   bool is_whole_alone() const { return inclined_.none() && !has_springs(); }  // K itself
-  /// The degree of freedom, or both of its node, if that is inclined.
-  std::vector<int> both_if_inclined(int dof) const;
+  /// The degree of freedom, or all of its node, if that is inclined.
+  std::vector<int> all_if_inclined(int dof) const;
   /// Displacements of the constraints; 0 of everything else.
   Vector held_displacement(const Vector& prescribed) const;
   /// The displacement under f, by the factor alone.

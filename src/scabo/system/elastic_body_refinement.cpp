@@ -36,7 +36,7 @@ double ElasticBody::largest_left(const Vector& unbalanced, const Goal& of) const
   for (const int dof : dofs_) largest = std::max(largest, std::abs(left[dof]));
   for (std::size_t k = 0; k < further_.size(); ++k)
     largest = std::max(largest, std::abs(left[further_[k]] + of.held[static_cast<Eigen::Index>(k)]));
-  Vector free = left;  // without reactions, which at an inclined node have both components
+  Vector free = left;  // without reactions, which at an inclined node have all components
   for (std::size_t i = 0; i < free_.size(); ++i)
     if (!free_[i]) free[static_cast<Eigen::Index>(i)] = 0.0;
   free = inclined_.forces(std::move(free));

@@ -1,41 +1,71 @@
 #include "scabo/system/inclined_nodes.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "scabo/base/components.hpp"
-
 namespace scabo::system {
 
 namespace {
 
-/// The values of every node of `nodes` times its matrix.
-template <typename Nodes, typename MatrixOf>
-Vector multiplied(const Nodes& nodes, Vector values, const MatrixOf& matrix_of) {
-  for (const auto& at : nodes)
-    values.segment<2>(place_of(at.node)) = (matrix_of(at) * values.segment<2>(place_of(at.node))).eval();
-  return values;
+using NodeMatrix = InclinedNodes::NodeMatrix;
+/// Of a node, by their places there; null: none.
+using HeldThere = std::array<const Constraint*, 3>;
+
+NodeMatrix rows_in_plane(const HeldThere& held) {
+  Mat2 rows;
+  for (int k = 0; k < 2; ++k)
+    if (const Constraint* constraint = held[static_cast<std::size_t>(k)]) rows.row(k) = constraint->direction();
+  if (!held[1]) rows.row(1) << -rows(0, 1), rows(0, 0);
+  if (!held[0]) rows.row(0) << rows(1, 1), -rows(1, 0);
+  return rows;
+}
+
+NodeMatrix rows_in_space(const HeldThere& held) {
+  Eigen::Matrix3d rows;
+  std::array<int, 3> places{};  // of those that are held, then the others
+  int count = 0;
+  for (const bool is_held : {true, false})
+    for (int k = 0; k < 3; ++k)
+      if (const Constraint* constraint = held[static_cast<std::size_t>(k)]; (constraint != nullptr) == is_held) {
+        places[static_cast<std::size_t>(count++)] = k;
+        if (is_held) rows.row(k) = constraint->direction_in_space();
+      }
+  const auto row = [&](std::size_t i) { return rows.row(places[i]); };
+  const auto missing = static_cast<int>(std::count(held.begin(), held.end(), nullptr));
+  if (missing == 2) row(1) = Eigen::Vector3d(row(0)).unitOrthogonal();
+  if (missing > 0) row(2) = Eigen::Vector3d(row(0)).cross(Eigen::Vector3d(row(1))).normalized();
+  return rows;
 }
 
 }  // namespace
 
-InclinedNodes::InclinedNodes(const std::vector<Constraint>& constraints) {
-  const auto is_inclined = [](const Constraint& constraint) { return constraint.component < 0; };
-  if (std::none_of(constraints.begin(), constraints.end(), is_inclined)) return;
-  std::map<int, std::array<const Constraint*, 2>> held;
+/// The values of every inclined node times its matrix.
+template <typename MatrixOf>
+Vector InclinedNodes::multiplied(Vector values, const MatrixOf& matrix_of) const {
+  const Eigen::Index n = of_nodes_.dimension;
+  for (const Inclined& at : nodes_) {
+    auto here = values.segment(of_nodes_.of(at.node), n);
+    here = (matrix_of(at) * here).eval();
+  }
+  return values;
+}
+
+InclinedNodes::InclinedNodes(const std::vector<Constraint>& constraints, Components components)
+    : of_nodes_(components) {
+  const auto is_inclined = [](const Constraint* constraint) { return constraint && constraint->component < 0; };
+  if (std::none_of(constraints.begin(), constraints.end(), [](const Constraint& of) { return of.component < 0; }))
+    return;
+  std::map<int, HeldThere> held;
   for (const Constraint& constraint : constraints)
-    held[plane_components.node_of(constraint.dof)]
-        [static_cast<std::size_t>(plane_components.component_of(constraint.dof))] = &constraint;
+    held[of_nodes_.node_of(constraint.dof)][static_cast<std::size_t>(of_nodes_.component_of(constraint.dof))] =
+        &constraint;
   for (const auto& [node, at] : held) {
-    if (!((at[0] && at[0]->component < 0) || (at[1] && at[1]->component < 0))) continue;
-    Mat2 rows;
-    for (int k = 0; k < 2; ++k)
-      if (const Constraint* constraint = at[static_cast<std::size_t>(k)]) rows.row(k) = constraint->direction();
-    if (!at[1]) rows.row(1) << -rows(0, 1), rows(0, 0);
-    if (!at[0]) rows.row(0) << rows(1, 1), -rows(1, 0);
-    nodes_.push_back({node, rows, Mat2(rows.inverse())});
+    if (std::none_of(at.begin(), at.end(), is_inclined)) continue;
+    const NodeMatrix rows = of_nodes_.dimension == 2 ? rows_in_plane(at) : rows_in_space(at);
+    nodes_.push_back({node, rows, rows.inverse()});
   }
 }
 
@@ -44,43 +74,49 @@ bool InclinedNodes::operator==(const InclinedNodes& other) const {
                     [](const Inclined& a, const Inclined& b) { return a.node == b.node && a.rows == b.rows; });
 }
 
-const Mat2* InclinedNodes::of(int node) const {
+const InclinedNodes::NodeMatrix* InclinedNodes::of(int node) const {
   const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), node,
                                    [](const Inclined& inclined, int wanted) { return inclined.node < wanted; });
   return at != nodes_.end() && at->node == node ? &at->M : nullptr;
 }
 
 Vector InclinedNodes::displacements(Vector v) const {
-  return multiplied(nodes_, std::move(v), [](const Inclined& at) { return at.M; });
+  return multiplied(std::move(v), [](const Inclined& at) { return at.M; });
 }
 
 Vector InclinedNodes::along(Vector u) const {
-  return multiplied(nodes_, std::move(u), [](const Inclined& at) { return at.rows; });
+  return multiplied(std::move(u), [](const Inclined& at) { return at.rows; });
 }
 
 Vector InclinedNodes::components(Vector f) const {
-  return multiplied(nodes_, std::move(f), [](const Inclined& at) { return Mat2(at.M.transpose()); });
+  return multiplied(std::move(f), [](const Inclined& at) { return NodeMatrix(at.M.transpose()); });
 }
 
 Vector InclinedNodes::forces(Vector components) const {
-  return multiplied(nodes_, std::move(components), [](const Inclined& at) { return Mat2(at.rows.transpose()); });
+  return multiplied(std::move(components), [](const Inclined& at) { return NodeMatrix(at.rows.transpose()); });
 }
 
 Matrix InclinedNodes::stiffness(Matrix K) const {
-  for (const Inclined& at : nodes_)
-    K.middleCols<2>(place_of(at.node)) = (K.middleCols<2>(place_of(at.node)) * at.M).eval();
-  for (const Inclined& at : nodes_)
-    K.middleRows<2>(place_of(at.node)) = (at.M.transpose() * K.middleRows<2>(place_of(at.node))).eval();
+  const Eigen::Index n = of_nodes_.dimension;
+  for (const Inclined& at : nodes_) {
+    auto columns = K.middleCols(of_nodes_.of(at.node), n);
+    columns = (columns * at.M).eval();
+  }
+  for (const Inclined& at : nodes_) {
+    auto rows = K.middleRows(of_nodes_.of(at.node), n);
+    rows = (at.M.transpose() * rows).eval();
+  }
   return K;
 }
 
 Eigen::SparseMatrix<double> InclinedNodes::stiffness(const Eigen::SparseMatrix<double>& K) const {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int node = 0; node < plane_components.node_of(K.rows()); ++node) {
-    const Mat2* M = of(node);
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j)
-        if (M || i == j) entries.emplace_back(place_of(node, i), place_of(node, j), M ? (*M)(i, j) : 1.0);
+  const int n = of_nodes_.dimension;
+  for (int node = 0; node < of_nodes_.node_of(K.rows()); ++node) {
+    const NodeMatrix* M = of(node);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        if (M || i == j) entries.emplace_back(of_nodes_.of(node, i), of_nodes_.of(node, j), M ? (*M)(i, j) : 1.0);
   }
   Eigen::SparseMatrix<double> T(K.rows(), K.cols());
   T.setFromTriplets(entries.begin(), entries.end());

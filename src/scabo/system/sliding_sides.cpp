@@ -129,7 +129,11 @@ void add_resultants(const Matrix& rigid, const Vector& resultants, Vector& force
     if (forces[i] != 0.0) loaded.push_back(static_cast<int>(i));
   const Matrix motions = rigid(loaded, Eigen::all);
   const Eigen::LDLT<Matrix> squares(motions.transpose() * motions);
-  if (squares.info() == Eigen::Success && squares.rcond() > 1e-6)
+  // Motions across all forces are there by rounding alone.
+  bool moves = !loaded.empty();
+  for (Eigen::Index k = 0; k < rigid.cols() && moves; ++k)
+    moves = motions.col(k).lpNorm<Eigen::Infinity>() > 1e-6 * rigid.col(k).lpNorm<Eigen::Infinity>();
+  if (moves && squares.info() == Eigen::Success && squares.rcond() > 1e-6)
     forces(loaded) += motions * squares.solve(resultants);
   else  // few forces, or parallel ones
     forces += rigid * Matrix(rigid.transpose() * rigid).ldlt().solve(resultants);

@@ -86,8 +86,8 @@ model::Model two_bodies() {
 /// Two nodes of the lower side are held along x and y, one along a slope, and a spring acts at the last node.
 std::unique_ptr<BodySystem> held(Stiffness stiffness, const std::vector<Vec2>& nodes, bool with_spring) {
   std::vector<Constraint> constraints;
-  for (const int dof : {0, 1}) constraints.push_back({dof, Vec2::Zero(), dof, false, 0, 1e-3 * dof, Vec2::Zero()});
-  const Vec2 slope = Vec2(1.0, 2.0).normalized();
+  for (const int dof : {0, 1}) constraints.push_back({dof, Vec2::Zero(), dof, false, 0, 1e-3 * dof});
+  const Eigen::Vector3d slope = Eigen::Vector3d(1.0, 2.0, 0.0).normalized();
   constraints.push_back({10, Vec2::Zero(), -1, false, 0, 0.0, slope});
   if (with_spring) {
     const Eigen::Index n = stiffness.size();

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
+#include <numeric>
 
 #include "scabo/contact/laws/coulomb.hpp"
 #include "scabo/contact/solve.hpp"
@@ -114,6 +116,65 @@ contact::Problem problem_of(const ContactSystem& system, const Structure& struct
         part.rigid_motions().transpose() * forces[p];
   }
   return problem;
+}
+
+/// Node 3 along three directions that are not at right angles, node 0 along two, node 1 along one, against the saddle
+/// system of stiffness and constraints.
+TEST(HeldAlongDirections, AreThoseOfMultipliers) {
+  Matrix nodes(3, 4);
+  nodes << 0, 1, 0, 0.2,  //
+      0, 0.1, 1, 0,       //
+      0.1, 0, 0, -1;
+  std::vector<Constraint> held;
+  const auto hold = [&](int node, int place, const Eigen::Vector3d& along, double value) {
+    Constraint constraint = held_in_space(node, place, value);
+    constraint.component = -1;
+    constraint.inclined = along.normalized();
+    held.push_back(constraint);
+  };
+  hold(3, 0, {1, 0.3, -0.2}, 0.01);
+  hold(3, 2, {0.2, 0.5, 1}, -0.02);
+  hold(3, 1, {-0.4, 1, 0.1}, 0.03);
+  hold(0, 2, {0.3, -0.2, 1}, 0.0);
+  held.push_back(held_in_space(0, 1, 0.015));
+  hold(1, 0, {0.6, 0.8, 0.5}, -0.01);
+  const Matrix K = tetrahedron_stiffness(nodes);
+  const auto count = static_cast<Eigen::Index>(held.size());
+  Matrix saddle = Matrix::Zero(12 + count, 12 + count);
+  saddle.topLeftCorner(12, 12) = K;
+  Vector values(count);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const Constraint& of = held[static_cast<std::size_t>(c)];
+    const Eigen::Vector3d along = of.direction_in_space();
+    saddle.block<3, 1>(space.first_of_node(of.dof), 12 + c) = -along;
+    saddle.block<1, 3>(12 + c, space.first_of_node(of.dof)) = along.transpose();
+    values[c] = of.value;
+  }
+  const Eigen::PartialPivLU<Matrix> multipliers(saddle);
+  const auto body = std::move(elastic_bodies(
+                                  [&] {
+                                    std::vector<ElasticPart> parts;
+                                    parts.push_back(tetrahedron(nodes, held));
+                                    return parts;
+                                  }(),
+                                  1)
+                                  .front());
+  EXPECT_EQ(body->rigid_motions().cols(), 0);
+  Vector right = Vector::Zero(12 + count);
+  for (Eigen::Index i = 0; i < 12; ++i) right[i] = std::sin(1.0 + 2.0 * static_cast<double>(i));
+  right.tail(count) = values;
+  const Vector expected = multipliers.solve(right), f = right.head(12), u = body->displacement(f, values);
+  EXPECT_LT((u - expected.head(12)).norm(), 1e-13 * expected.head(12).norm());
+  EXPECT_LT((body->reactions(u, f) - expected.tail(count)).norm(), 1e-13 * expected.tail(count).norm());
+  EXPECT_LT(body->imbalance(u, f), 1e-13 * f.norm());
+  std::vector<int> dofs(12);
+  std::iota(dofs.begin(), dofs.end(), 0);
+  const Matrix unit = Matrix::Identity(12 + count, 12), A = multipliers.solve(unit).topRows(12);
+  EXPECT_LT((body->flexibility(dofs) - A).norm(), 1e-13 * A.norm());
+  EXPECT_LT((body->flexed(dofs, f) - A * f).norm(), 1e-13 * (A * f).norm());
+  const FreeStiffness free = body->free_stiffness();
+  const Matrix map(free.map), along = map * Matrix(free.K).inverse() * map.transpose();
+  EXPECT_LT((along - A).norm(), 1e-13 * A.norm());
 }
 
 /// By hand, with V = 1/6. The middle of the lower facet is at r = (1/3, 1/3, 1) from node 3, where with the constraints

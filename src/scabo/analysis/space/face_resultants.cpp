@@ -84,7 +84,7 @@ FaceResultant FaceActions::resultant(const SolidModel& model, const SolidIncreme
     sum.moment += factor * at_one.moment;
   }
   const auto add_reaction = [&](const system::Constraint& held, double reaction) {
-    sum.add(mesh.nodes.col(held.dof / 3), reaction * Eigen::Vector3d::Unit(held.component));
+    sum.add(mesh.nodes.col(held.dof / 3), reaction * held.direction_in_space());
   };
   for (const std::size_t c : constraints_)
     add_reaction(model.bodies[b].supports[c], increment.reactions[b][static_cast<Eigen::Index>(c)]);

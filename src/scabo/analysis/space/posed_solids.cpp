@@ -5,17 +5,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <set>
-#include <tuple>
 
 #include "scabo/analysis/space/body_mesh.hpp"
+#include "scabo/analysis/space/held_nodes.hpp"
 #include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_factors.hpp"
 #include "scabo/analysis/space/solid_places.hpp"
 #include "scabo/element/sbfem/ill_posed.hpp"
+#include "scabo/mesh/space/face_normals.hpp"
 #include "scabo/system/rigid_solid.hpp"
 #include "scabo/system/solid_edges.hpp"
 #include "scabo/system/solid_part.hpp"
@@ -24,6 +23,13 @@ namespace scabo::analysis {
 
 namespace {
 
+/// `x`, or `(0.866, 0.5, 0)`.
+std::string text_of_direction(const Eigen::Vector3d& direction) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(direction[k]) == 1.0) return std::string(1, "xyz"[k]);
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", direction.x(), direction.y(), direction.z());
+}
+
 class Posing {
  public:
   explicit Posing(const model::SpaceModel& model) : model_(model) {}
@@ -31,8 +37,8 @@ class Posing {
 
  private:
   void add_body(const model::SpaceBody& body);
-  std::vector<std::size_t> order_of_supports() const;
-  const std::pair<std::size_t, double>* hold(std::size_t number, system::Constraint constraint, int key);
+  using Normals = std::map<int, std::vector<mesh::NodeNormal>>;
+  std::vector<SupportedDirection> held_along(const model::SpaceSupport& support, int node, const Normals& normals);
   void add_support(std::size_t number);
   void add_rigid_support(std::size_t number);
   std::optional<double> displacement_at(const model::SpaceSupport& support, std::size_t axis, int node);
@@ -53,8 +59,7 @@ class Posing {
 
   const model::SpaceModel& model_;
   PosedSolids posed_;
-  /// By body and degree of freedom: its supports, and their displacements at factor 1.
-  std::map<std::pair<int, int>, std::vector<std::pair<std::size_t, double>>> held_;
+  HeldNodes held_{model_, posed_.model};
   std::map<int, std::pair<std::size_t, Eigen::Vector3d>> first_on_;  // rigid body: its first support, and its centroid
   std::set<std::string> without_value_;                              // loads whose formula has none somewhere
   std::vector<Diagnostic> mistakes_;
@@ -85,8 +90,9 @@ void Posing::add_body(const model::SpaceBody& of) {
   posed_.model.bodies.push_back(std::move(body));
 }
 
-/// A formula without a number there is reported, once.
+/// Nothing where it is free, or where a formula has no number, which is reported once.
 std::optional<double> Posing::displacement_at(const model::SpaceSupport& support, std::size_t axis, int node) {
+  if (!support.displacement[axis]) return {};
   const double value = *support.displacement[axis];
   if (!support.shape[axis]) return value;
   const Eigen::Vector3d x = body(support.on.body).mesh.nodes.col(node);
@@ -99,60 +105,51 @@ std::optional<double> Posing::displacement_at(const model::SpaceSupport& support
   return {};
 }
 
-/// Those that last, then those that begin or end, each after all that cover it.
-std::vector<std::size_t> Posing::order_of_supports() const {
-  std::vector<std::size_t> order(model_.supports.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key_of = [&](std::size_t i) {
-    const model::Stay& stay = model_.supports[i].stay;
-    return std::tuple(model_.supports[i].is_staged(), stay.added,
-                      stay.removed < 0 ? -std::numeric_limits<int>::max() : -stay.removed);
-  };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key_of(i) < key_of(j); });
-  return order;
-}
-
-/// Holds a degree of freedom or motion of a body by a support; or gives the support and displacement of another one
-/// that holds it at its times.
-const std::pair<std::size_t, double>* Posing::hold(std::size_t number, system::Constraint constraint, int key) {
-  const model::SpaceSupport& support = model_.supports[number];
-  const int of = support.on.body;
-  std::vector<std::pair<std::size_t, double>>& others = held_[{of, key}];
-  for (const std::pair<std::size_t, double>& other : others) {
-    const model::Stay& stay = model_.supports[other.first].stay;
-    if (!model_.supports[other.first].is_staged() ||
-        (stay.meets(support.stay) && (stay.covers(support.stay) || other.second != constraint.value)))
-      return &other;
-  }
-  constraint.support = static_cast<int>(number);
-  others.emplace_back(number, constraint.value);
-  if (support.is_staged())
-    posed_.model.held_points.push_back({of, constraint, support.stay});
-  else
-    body(of).supports.push_back(constraint);
-  return nullptr;
+/// At a node; `normals`: those of the face, if it is held along them.
+std::vector<SupportedDirection> Posing::held_along(const model::SpaceSupport& support, int node,
+                                                   const Normals& normals) {
+  using Axes = model::SpaceSupport::Axes;
+  using Kind = SupportedDirection::Kind;
+  std::vector<SupportedDirection> along;
+  if (support.axes == Axes::normal)
+    for (const mesh::NodeNormal& at : normals.at(node))
+      along.push_back(
+          {at.n, *support.displacement[0], at.curved ? Kind::normal_of_curved_face : Kind::normal_of_plane});
+  if (support.axes == Axes::direction) along.push_back({support.along, *support.displacement[0]});
+  for (std::size_t axis = 0; axis < 3 && support.axes == Axes::xyz; ++axis)
+    if (const auto value = displacement_at(support, axis, node))
+      along.push_back({Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis)), *value});
+  return along;
 }
 
 void Posing::add_support(std::size_t number) {
   const model::SpaceSupport& support = model_.supports[number];
   if (support.on.is_body()) return add_rigid_support(number);
-  for (const int node : places_.held_nodes(support.on))
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!support.displacement[axis]) continue;
-      const auto value = displacement_at(support, axis, node);
-      if (!value) return;
-      const auto* held = hold(number, system::held_along_axis(node, static_cast<int>(axis), *value),
-                              3 * node + static_cast<int>(axis));
-      if (held == nullptr) continue;
-      if (const auto& other = model_.supports[held->first];
-          held->second != *value || (*value != 0.0 && (other.named || support.named))) {
-        mistakes_.push_back(
-            {support.on.source, fmt::format("support '{}' prescribes another displacement along {} of a node than "
-                                            "support '{}': let only one of them hold it",
-                                            support.name, "xyz"[axis], other.name)});
-        return;
+  const std::size_t before = mistakes_.size();
+  const std::set<int> nodes = places_.held_nodes(support.on);
+  Normals normals;
+  if (support.axes == model::SpaceSupport::Axes::normal) {
+    const mesh::SolidMesh& mesh = body(support.on.body).mesh;
+    normals = mesh::normals_of_face(mesh, places_.place_of_action(support.on).facets, mesh::boundary_facets(mesh));
+    if (normals.size() < nodes.size() && mistakes_.size() == before)
+      return mistakes_.push_back(
+          {support.on.source, fmt::format("'{}' has nodes that no side of an element in it has, so that they have no "
+                                          "normal: name a face, or give the direction by 'along'",
+                                          support.on.text)});
+  }
+  for (const int node : nodes) {
+    if (mistakes_.size() > before) return;
+    for (const SupportedDirection& along : held_along(support, node, normals))
+      if (const auto other = held_.hold(number, node, along)) {
+        const Eigen::Vector3d x = body(support.on.body).mesh.nodes.col(node);
+        return mistakes_.push_back(
+            {support.on.source,
+             fmt::format(
+                 "support '{}' prescribes another displacement along {} of the node at ({:.6g}, {:.6g}, {:.6g}) "
+                 "than support '{}': let only one of them hold it",
+                 support.name, text_of_direction(along.direction), x.x(), x.y(), x.z(), model_.supports[*other].name)});
       }
-    }
+  }
 }
 
 void Posing::add_rigid_support(std::size_t number) {
@@ -172,13 +169,13 @@ void Posing::add_rigid_support(std::size_t number) {
     const auto& value = motion < 3 ? support.displacement[static_cast<std::size_t>(motion)]
                                    : support.rotation[static_cast<std::size_t>(motion - 3)];
     if (!value) continue;
-    if (const auto* held = hold(number, system::held_motion(motion, *value), motion))
+    if (const auto other = held_.hold_motion(number, motion, *value))
       return mistakes_.push_back(
           {support.on.source,
            fmt::format("support '{}' holds the {} {} of body '{}', as does support '{}': let only one "
                        "of them hold it",
                        support.name, motion < 3 ? "displacement along" : "rotation about", "xyz"[motion % 3],
-                       support.on.text, model_.supports[held->first].name)});
+                       support.on.text, model_.supports[*other].name)});
   }
 }
 
@@ -353,9 +350,8 @@ void Posing::add_preload(std::size_t number) {
   std::array<bool, 2> held{};  // along the normal: the part below, that above
   for (std::size_t c = 0; c < at.mesh.cells.size(); ++c)
     for (const int node : at.mesh.cells[c])
-      for (int axis = 0; axis < 3; ++axis)
-        if (given.normal[axis] != 0.0 && held_.count({static_cast<int>(number), 3 * node + axis}) > 0)
-          held[static_cast<std::size_t>(preload.cut.above[c])] = true;
+      if (held_.resists(static_cast<int>(number), node, given.normal))
+        held[static_cast<std::size_t>(preload.cut.above[c])] = true;
   if (held[0] && held[1] && given.force)
     return mistake(
         "lies between supports that hold it along the bolt, so that no force can be set: free one side, or "
@@ -435,7 +431,7 @@ void Posing::add_bar(const model::SpaceBar& bar) {
 PosedSolids Posing::posed() {
   for (const model::SpaceBody& of : model_.bodies) add_body(of);
   if (mistakes_.empty()) {
-    for (const std::size_t s : order_of_supports()) add_support(s);
+    for (const std::size_t s : order_of_supports(model_)) add_support(s);
     for (const model::SpaceSpring& spring : model_.springs) add_spring(spring);
     for (const model::SpaceLoad& load : model_.loads) add_load(load);
     for (const model::SpaceContact& contact : model_.contacts) add_contact(contact);

@@ -1,5 +1,6 @@
 #include "scabo/analysis/space/prepared_solids.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -82,7 +83,11 @@ system::PairPoints points_of_held(const SolidModel& model, const SolidHeldPoint&
                 Vec2::Zero()};
   }
   points.directions = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < 3; ++k) points.directions((axis + k) % 3, k) = 1.0;
+  for (int k = 0; k < 3 && axis >= 0; ++k) points.directions((axis + k) % 3, k) = 1.0;
+  if (axis < 0) {
+    const Eigen::Vector3d n = point.held.inclined, t = n.unitOrthogonal();
+    points.directions << n, t, n.cross(t);
+  }
   return points;
 }
 

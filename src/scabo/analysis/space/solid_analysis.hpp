@@ -35,7 +35,7 @@ namespace scabo::analysis {
 struct SolidBody {
   mesh::SolidMesh mesh;
   double young = 0.0, poisson = 0.0;              ///< force / length^2, > 0; -1 < poisson < 1/2
-  std::vector<system::Constraint> supports = {};  ///< along the axes; `support`: which factor they have
+  std::vector<system::Constraint> supports = {};  ///< `support`: which factor they have
   double expansion = 0.0;                         ///< strain per change of temperature
   /// It does not deform; `supports` are system::held_motion of this point.
   std::optional<Eigen::Vector3d> rigid_at = {};
@@ -86,8 +86,8 @@ struct SolidSpringOfBody {
   int load = -1;  ///< index into SolidModel::loads: its forces on a body that stays
 };
 
-/// What a support that begins or ends in a step holds: a node of an elastic body along an axis, or a motion of a rigid
-/// one. It is a pair of the contact system whose other side is the ground, as a held point of the plane
+/// What a support that begins or ends in a step holds: a node of an elastic body along a direction, or a motion of a
+/// rigid one. It is a pair of the contact system whose other side is the ground, as a held point of the plane
 /// (system/held_points.hpp).
 struct SolidHeldPoint {
   int body = -1;

@@ -36,8 +36,9 @@ std::string fingerprint_of_support(const SolidModel& model, std::size_t body, st
   Fingerprint of;
   const auto add = [&](const system::Constraint& held) {
     if (held.support != static_cast<int>(support)) return;
-    for (const double number : {1.0 * held.dof, 1.0 * held.component, held.rotation ? 1.0 : 0.0, held.value})
-      of.add(number);
+    const int node = held.dof < 0 ? -1 : in_space.node_of(held.dof);
+    for (const double number : {1.0 * node, held.rotation ? 1.0 : 0.0, held.value}) of.add(number);
+    of.add(Vector(held.direction_in_space()));
   };
   for (const system::Constraint& held : model.bodies[body].supports) add(held);
   for (const SolidHeldPoint& point : model.held_points) add(point.held);

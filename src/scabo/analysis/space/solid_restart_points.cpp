@@ -1,6 +1,7 @@
 #include "scabo/analysis/space/solid_restart_points.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "scabo/linalg/decompositions.hpp"
 #include "scabo/system/rigid_solid.hpp"
@@ -12,9 +13,19 @@ namespace {
 constexpr const char* reaction_name = "reaction";
 constexpr const char* offset_name = "offset";  // along the direction that is held
 
-/// A degree of freedom of an elastic body, a motion of a rigid one.
-double held_number(const SolidBody& body, const system::Constraint& held) {
-  return body.rigid_at ? system::held_motion(held) : held.dof;
+/// What a constraint holds: the node of an elastic body or the motion of a rigid one, and the direction.
+constexpr std::size_t numbers_of_constraint = 4;
+std::array<double, numbers_of_constraint> described(const SolidBody& body, const system::Constraint& held) {
+  const Eigen::Vector3d along = held.direction_in_space();
+  return {1.0 * (body.rigid_at ? system::held_motion(held) : in_space.node_of(held.dof)), along.x(), along.y(),
+          along.z()};
+}
+
+/// Whether a constraint of another run holds the same.
+bool is_same(const std::array<double, numbers_of_constraint>& wanted, const double* other) {
+  constexpr double rounding = 1e-9;
+  const Eigen::Vector3d a(wanted[1], wanted[2], wanted[3]), b(other[1], other[2], other[3]);
+  return wanted[0] == other[0] && (a - b).norm() <= rounding;
 }
 
 /// Places of the pairs of a body that are held points.
@@ -49,7 +60,7 @@ std::vector<EndState::Held> solids_held_at_end(const PreparedSolids& now, const 
     held.name = body.name;
     held.u.assign(moved.u[b].begin(), moved.u[b].end());
     const auto add = [&](const system::Constraint& constraint, double reaction, double offset) {
-      held.constraints.push_back(held_number(body, constraint));
+      for (const double number : described(body, constraint)) held.constraints.push_back(number);
       held.fields[reaction_name].push_back(reaction);
       held.fields[offset_name].push_back(offset);
     };
@@ -72,9 +83,11 @@ void continue_held_points(const PreparedSolids& now, const EndState& end, SolidS
     if (now.is_absent(b) || held == end.held.end()) continue;
     for (const Eigen::Index place : points_on(now, b)) {
       const SolidHeldPoint& point = point_at(now, place);
-      const auto known = std::ranges::find(held->constraints, held_number(body, point.held));
-      if (known == held->constraints.end()) continue;
-      const auto k = static_cast<std::size_t>(known - held->constraints.begin());
+      const auto wanted = described(body, point.held);
+      const std::size_t count = held->constraints.size() / numbers_of_constraint;
+      std::size_t k = 0;
+      while (k < count && !is_same(wanted, &held->constraints[k * numbers_of_constraint])) ++k;
+      if (k == count) continue;
       const double offset = kept(held->fields, offset_name).at(k);
       state.p[in_space.of(place)] = kept(held->fields, reaction_name).at(k) / lever_of(now.model, point);
       state.states[static_cast<std::size_t>(place)] = contact::ContactState::stick;

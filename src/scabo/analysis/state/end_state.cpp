@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* end_mark = "scabo_end\n";
-constexpr const char* end_version = "10";
+constexpr const char* end_version = "11";
 
 template <typename Io, typename T, typename Exchange>
 void exchange_list(Io& io, const std::string& path, std::vector<T>& list, const Exchange& exchange) {

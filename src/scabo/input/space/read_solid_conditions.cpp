@@ -17,17 +17,20 @@ namespace {
 
 constexpr std::array<const char*, 3> names_of_axes{"x", "y", "z"};
 
+constexpr const char* fix_forms = "x, y, z or a list of them, normal or {along: [1, 2, 2]}";
+
 }  // namespace
 
 SpaceReader::Components SpaceReader::fixed(const Value& value) {
   Components fixed;
+  const bool is_list = value.node->kind == Node::Kind::sequence;
   std::vector<Value> items{value};
-  if (value.node->kind == Node::Kind::sequence) items = *read_list(report_, value, "[x, y, z]");
-  if (items.empty()) report_.error(value, "must be x, y, z or a list of them, not an empty list");
+  if (is_list) items = *read_list(report_, value, "[x, y, z]");
+  if (items.empty()) report_.error(value, fmt::format("must be {}, not an empty list", fix_forms));
   for (const Value& item : items) {
     const auto name = std::find(names_of_axes.begin(), names_of_axes.end(), item.node->text);
     if (item.node->kind != Node::Kind::scalar || name == names_of_axes.end())
-      report_.error(item, fmt::format("must be x, y, z or a list of them, not {}", describe(*item.node)));
+      report_.error(item, fmt::format("must be {}, not {}", is_list ? "x, y or z" : fix_forms, describe(*item.node)));
     else if (auto& component = fixed[static_cast<std::size_t>(name - names_of_axes.begin())]; component)
       report_.error(item, fmt::format("{} is given twice: remove one of the two", *name));
     else
@@ -63,16 +66,64 @@ SpaceReader::Formulas SpaceReader::formulas(const Value& value) {
   return formulas;
 }
 
-/// `[ux, uy, uz]`, or `{formula: [ux, uy, uz]}` of a face.
+/// `along: [1, 2, 2]`, of any length.
+void SpaceReader::direction_of(const Value& value, SpaceSupport& support) {
+  const std::size_t before = report_.count();
+  support.axes = SpaceSupport::Axes::direction;
+  support.along = vector(value);
+  if (report_.count() == before && support.along.isZero(0.0))
+    report_.error(value, "has no direction: not all of it may be 0");
+  support.along.stableNormalize();
+  if (support.on.body >= 0 && support.on.is_body())
+    report_.error(value, "is that of a face or a set of nodes: a rigid body is held along x, y and z");
+}
+
+/// `normal`, `{along: [1, 2, 2]}`, `x`, or `[x, y, z]`.
+void SpaceReader::fix(const Value& value, SpaceSupport& support) {
+  if (value.node->kind == Node::Kind::map) {
+    const MapReader map(report_, value, {"along"}, "{along: [1, 2, 2]}");
+    if (const auto along = map.need("along")) direction_of(*along, support);
+    support.displacement[0] = 0.0;
+  } else if (value.node->kind == Node::Kind::scalar && value.node->text == "normal") {
+    along_normal(value, support);
+    support.displacement[0] = 0.0;
+  } else {
+    support.displacement = fixed(value);
+  }
+}
+
+void SpaceReader::along_normal(const Value& value, SpaceSupport& support) {
+  support.axes = SpaceSupport::Axes::normal;
+  if (support.on.body >= 0 && support.on.is_body())
+    report_.error(value, "is that of a face: a rigid body is held along x, y and z");
+}
+
+/// `[ux, uy, uz]`, or of a face `{formula: [ux, uy, uz]}`, `{normal: un}` or `{along: [1, 2, 2], value: u}`.
 void SpaceReader::displacement(const Value& value, SpaceSupport& support) {
   if (value.node->kind != Node::Kind::map) {
     support.displacement = components(value, "[ux, uy, uz]");
     return;
   }
-  const MapReader map(report_, value, {"formula"}, R"({formula: ["0.1 * x", null, null]})",
-                      only_in_the_plane({"normal", "tangent", "along", "value"}));
-  const auto given = map.need("formula");
-  if (!given) return;
+  const MapReader map(report_, value, {"formula", "normal", "along", "value"},
+                      "{normal: -1e-3} or {along: [1, 2, 2], value: 1e-3}",
+                      {{"tangent", "a face in space has many of them: give one by 'along' and 'value'"}});
+  if (!map.is_map()) return;
+  const auto normal = map.get("normal"), along = map.get("along"), given = map.get("formula");
+  if (normal || along) {
+    for (const char* other : {"formula", "along", "value"})
+      if (normal || std::string_view(other) == "formula")
+        map.refuse(other, fmt::format("does not go together with '{}': make two supports of them",
+                                      normal ? "normal" : "along"));
+    if (normal) along_normal(*normal, support);
+    if (along && !normal) direction_of(*along, support);
+    support.displacement[0] = number(normal ? normal : map.need("value"));
+    return;
+  }
+  map.refuse("value", "needs 'along', its direction");
+  if (!given) {
+    if (map.all_known() && !map.has("value")) report_.error(value, "needs 'normal', 'formula', or 'along' and 'value'");
+    return;
+  }
   if (support.on.body >= 0 && support.on.is_body())
     map.refuse("formula", "is that of a face: a rigid body has one displacement");
   support.shape = formulas(*given);
@@ -101,7 +152,7 @@ void SpaceReader::support(const Value& value) {
       report_, value, {"on", "fix", "displacement", "rotation", "at", "name", "added", "removed"},
       "{on: block.bottom, fix: [x, y, z]}",
       {{"symmetry",
-        "in space, hold the faces on a plane of symmetry along its normal, as in {on: block.left, fix: x}"}});
+        "in space, hold the faces on a plane of symmetry along its normal, as in {on: block.left, fix: normal}"}});
   if (!map.is_map()) return;
   stages_of_supports_.push_back({model_.supports.size(), map.get("added"), map.get("removed")});
   SpaceSupport support;
@@ -118,16 +169,16 @@ void SpaceReader::support(const Value& value) {
   const auto on = map.need("on");
   const auto found = on ? place(*on, "a support") : std::nullopt;
   if (found) support.on = *found;
-  const auto fix = map.get("fix"), given = map.get("displacement");
-  if (fix && given)
+  const auto fixed_along = map.get("fix"), given = map.get("displacement");
+  if (fixed_along && given)
     map.refuse("displacement", "does not go together with 'fix': write 0 for the components that are fixed");
-  else if (fix)
-    support.displacement = fixed(*fix);
+  else if (fixed_along)
+    fix(*fixed_along, support);
   else if (given)
     displacement(*given, support);
   else if (!map.has("rotation") && map.all_known())
     report_.error(value, "needs 'fix' or 'displacement'");
-  if (fix)
+  if (fixed_along)
     map.refuse("rotation", "does not go together with 'fix': write 'displacement', with null for free components");
   if (found && body_at(found->body).rigid && found->is_body()) {
     rigid_support(map, support);

@@ -62,6 +62,9 @@ class SpaceReader {
   // read_solid_conditions.cpp
   Components fixed(const Value& value);
   Components components(const Value& value, const char* names);
+  void fix(const Value& value, model::SpaceSupport& support);
+  void along_normal(const Value& value, model::SpaceSupport& support);
+  void direction_of(const Value& value, model::SpaceSupport& support);
   void displacement(const Value& value, model::SpaceSupport& support);
   Formulas formulas(const Value& value);
   void support(const Value& value);

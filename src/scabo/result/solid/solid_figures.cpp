@@ -27,7 +27,7 @@ std::vector<SolidReaction> reactions_of(const analysis::PosedSolids& posed, std:
                                         const analysis::SolidIncrement& increment) {
   std::vector<SolidReaction> sums(supports);
   const auto add = [&](const analysis::SolidBody& body, const system::Constraint& held, double reaction) {
-    const Eigen::Vector3d value = reaction * Eigen::Vector3d::Unit(held.component);
+    const Eigen::Vector3d value = reaction * held.direction_in_space();
     SolidReaction& sum = sums[static_cast<std::size_t>(held.support)];
     if (held.rotation) {
       sum.moment += value;

@@ -1,0 +1,343 @@
+"""Supports in space along normals of faces and other directions: symmetry planes that are turned, sectors of tubes and spheres, bearings. Standard library only."""
+import csv
+import itertools
+import math
+import unittest
+
+import support
+from solid_twins_test import IDENTITY, product, rotation, text_of
+from solids import HEAD, bodies_of
+from support import scabo, summary_of
+
+TOLERANCE = 1e-9
+ANGLE = math.pi / 6
+SHIFT = (0.3, -0.2, 0.7)
+EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))  # of a C3D20
+CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+
+
+def moved(turn, x):
+    return [a + b for a, b in zip(product(turn, x), SHIFT if turn is not IDENTITY else (0, 0, 0))]
+
+
+def bricks(place, parts, turn=IDENTITY):
+    """A deck of hexahedra with 20 nodes: those of a cube from 0 to 1, put in `place`. Node sets LOW_1, HIGH_1 and so on of its faces."""
+    number, lines, cells = {}, ["*NODE"], []
+
+    def node(at):
+        if at not in number:
+            number[at] = len(number) + 1
+            point = moved(turn, place(*(0.5 * i / n for i, n in zip(at, parts))))
+            lines.append(f"{number[at]}, " + ", ".join(repr(x) for x in point))
+        return number[at]
+
+    for first in itertools.product(*(range(n) for n in parts)):
+        corners = [tuple(2 * (i + c) for i, c in zip(first, corner)) for corner in CORNERS]
+        middles = [tuple((a + b) // 2 for a, b in zip(corners[i], corners[k])) for i, k in EDGES]
+        cells.append([node(at) for at in (*corners, *middles)])
+    lines += ["*ELEMENT, TYPE=C3D20, ELSET=ALL", *(f"{k + 1}, " + ", ".join(map(str, cell[:15])) + ",\n" + ", ".join(map(str, cell[15:])) for k, cell in enumerate(cells))]
+    for axis, (name, end) in itertools.product(range(3), (("LOW", 0), ("HIGH", 1))):
+        lines += [f"*NSET, NSET={name}_{axis + 1}", *(f"{k}," for at, k in number.items() if at[axis] == 2 * end * parts[axis])]
+    return "\n".join(lines) + "\n"
+
+
+def tube(inner, outer, angle, length):
+    """Radius, angle, height."""
+    return lambda r, t, z: ((inner + (outer - inner) * r) * math.cos(angle * t), (inner + (outer - inner) * r) * math.sin(angle * t), length * z)
+
+
+def sphere(inner, outer, angle):
+    """A part between four planes through its centre; the middles of edges lie on the spheres."""
+    def place(r, a, b):
+        direction = (math.tan(angle * a), math.tan(angle * b), 1.0)
+        size = math.hypot(*direction)
+        return tuple((inner + (outer - inner) * r) * x / size for x in direction)
+    return place
+
+
+def cone(bore, radius, slope, length):
+    """Around a bore, with an outside that opens upwards."""
+    return lambda r, t, z: tuple((bore + (radius + slope * length * z - bore) * r) * f(2 * math.pi * t) for f in (math.cos, math.sin)) + (length * z,)
+
+
+class Running(support.InTemporaryDirectory):
+    def run_model(self, text, name="model", status=0):
+        (self.directory / f"{name}.yaml").write_text(HEAD + text, encoding="utf-8")
+        done = scabo("run", self.directory / f"{name}.yaml", "-o", self.directory / f"{name}.results", "--quiet")
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return summary_of(self.directory / f"{name}.results")
+
+    def rows(self, file, name="model"):
+        with open(self.directory / f"{name}.results" / file, encoding="utf-8", newline="") as opened:
+            return list(csv.DictReader(opened))
+
+    def deck(self, name, *how):
+        (self.directory / f"{name}.inp").write_text(bricks(*how), encoding="utf-8")
+
+
+@unittest.skipIf(support.SANITIZED, "numbers")
+class Directions(Running):
+    def sector(self, file, supports, more, kind="hexahedra"):
+        return self.run_model(f"""materials: {{m: {{young: 1, poisson: 0.3}}}}
+bodies: {{part: {{material: m, mesh: {{file: {file}.inp, kind: {kind}}}}}}}
+supports: [{", ".join(supports)}]
+{more}""")["increments"][-1]
+
+    def assert_work(self, increment):
+        self.assertAlmostEqual(increment["energy"]["external"], increment["energy"]["elastic"], delta=TOLERANCE * increment["energy"]["elastic"])
+
+    def test_a_sector_of_a_thick_sphere(self):
+        """1 to 2, p = 1e-3, E = 1, nu = 0.3, between four planes that meet at edges. All that acts through the faces is in balance."""
+        for turn in (IDENTITY, rotation(3)):
+            self.deck("part", sphere(1.0, 2.0, ANGLE), (5, 3, 3), turn)
+            inside, outside = (text_of(moved(turn, [0, 0, r])) for r in (1.0, 2.0))
+            faces = [f"{side}_{axis}" for side in ("LOW", "HIGH") for axis in (1, 2, 3)]
+            increment = self.sector("part", [f"{{on: part.{face}, fix: normal}}" for face in faces if face[-1] != "1"],
+                                    f"loads: {{press: {{on: part.LOW_1, pressure: 1e-3}}}}\noutput: {{points: [{inside}, {outside}], history: {{" +
+                                    ", ".join(f"{face}: {{face: part.{face}}}" for face in faces) + "}}\n")
+            for row, expected in zip(self.rows("points.csv"), (0.8e-3, 0.3e-3), strict=True):
+                u = product(list(zip(*turn)), [float(row[f"u{axis}"]) for axis in "xyz"])
+                self.assertAlmostEqual(u[2], expected, delta=2e-3 * expected)
+                self.assertLess(math.hypot(*u[:2]), 1e-9 * expected)
+            self.assert_work(increment)
+            row = self.rows("history.csv")[-1]
+            for kind, axis in itertools.product(("force", "moment"), "xyz"):
+                through = [float(row[f"{face}.{kind}_{axis}"]) for face in faces]
+                self.assertLess(abs(sum(through)), TOLERANCE * sum(map(abs, through)))
+
+    def test_a_sector_of_a_thick_tube(self):
+        """Plane strain: Lame's displacement, and the reaction of the planes along their normals, the force p r of the hoop; and a body of revolution."""
+        inner, outer, length, p, poisson = 1.0, 2.0, 0.5, 1e-3, 0.3
+        expected = (1 + poisson) * p * inner / (outer**2 - inner**2) * ((1 - 2 * poisson) * inner**2 + outer**2)
+        self.assertAlmostEqual(self.tube_of_revolution(inner, outer, length, p), expected, delta=1e-5 * expected)
+        for kind, turn in (("hexahedra", IDENTITY), ("hexahedra", rotation(5)), ("tetrahedra", rotation(6))):
+            with self.subTest(kind=kind, turned=turn is not IDENTITY):
+                self.deck("part", tube(inner, outer, ANGLE, length), (6, 3, 1), turn)
+                increment = self.sector("part", [f"{{on: part.{side}_{axis}, fix: normal, name: {side}_{axis}}}" for side in ("LOW", "HIGH") for axis in (2, 3)],
+                                        f"loads: {{press: {{on: part.LOW_1, pressure: {p}}}}}\noutput: {{points: [{text_of(moved(turn, [inner, 0, length / 2]))}]}}\n", kind)
+                back = list(zip(*turn))
+                u = product(back, [float(self.rows("points.csv")[0][f"u{axis}"]) for axis in "xyz"])
+                self.assertAlmostEqual(u[0], expected, delta=1e-3 * expected)
+                self.assertLess(abs(u[1]), TOLERANCE * expected)
+                forces = {name: product(back, force) for name, force in increment["reactions"].items()}
+                for name, normal in (("LOW_2", (0, -1, 0)), ("HIGH_2", (-math.sin(ANGLE), math.cos(ANGLE), 0))):
+                    for component, n in zip(forces[name], normal):
+                        self.assertAlmostEqual(component, p * inner * length * n, delta=TOLERANCE * p)
+                self.assertAlmostEqual(sum(force[2] for force in forces.values()), 0.0, delta=TOLERANCE * p)
+                self.assert_work(increment)
+
+    def tube_of_revolution(self, inner, outer, length, p):
+        (self.directory / "round.yaml").write_text(f"""scabo: 1
+analysis: {{plane: axisymmetric}}
+materials: {{m: {{young: 1, poisson: 0.3}}}}
+bodies: {{tube: {{material: m, shape: {{rectangle: {{corner: [{inner}, 0], size: [{outer - inner}, {length}]}}}}, mesh: {{size: 0.1}}}}}}
+supports: [{{on: tube.bottom, fix: y}}, {{on: tube.top, fix: y}}]
+loads: {{press: {{on: tube.left, pressure: {p}}}}}
+output: {{history: {{moved: tube.bottom_left.ux}}}}
+""", encoding="utf-8")
+        done = scabo("run", self.directory / "round.yaml", "-o", self.directory / "round.results", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return float(self.rows("history.csv", "round")[-1]["moved"])
+
+    def test_a_press_fit_as_a_sector(self):
+        """Two tubes, 1 to 1.5 to 2, whose ends are free: Lame's pressure of the fit."""
+        inner, middle, outer, fit = 1.0, 1.5, 2.0, 1e-3
+        pressure = fit / middle * (middle**2 - inner**2) * (outer**2 - middle**2) / (2 * middle**2 * (outer**2 - inner**2))
+        totals = []
+        for turn in (IDENTITY, rotation(8)):
+            self.deck("hub", tube(middle, outer, ANGLE, 0.5), (4, 4, 2), turn)
+            self.deck("bush", tube(inner, middle, ANGLE, 0.5), (4, 3, 2), turn)
+            increment = self.run_model("""materials: {m: {young: 1, poisson: 0.3}}
+bodies: {hub: {material: m, mesh: {file: hub.inp, kind: hexahedra}}, bush: {material: m, mesh: {file: bush.inp, kind: hexahedra}}}
+supports: [""" + ", ".join(f"{{on: {body}.{face}, fix: normal, name: {body}_{face}}}" for body in ("hub", "bush") for face in ("LOW_2", "HIGH_2", "LOW_3")) + f"""]
+contacts: {{fit: {{between: [hub.LOW_1, bush.HIGH_1], friction: 0, gap: {-fit}}}}}
+""")["increments"][-1]
+            back = list(zip(*turn))
+            fitted = increment["contacts"]["fit"]
+            self.assertEqual(fitted["open"], 0)
+            forces = {name: product(back, force) for name, force in increment["reactions"].items()}
+            force = product(back, fitted["normal_force"])
+            chord = math.hypot(math.sin(ANGLE), 1 - math.cos(ANGLE)) * middle * 0.5
+            self.assertAlmostEqual(math.hypot(*force), pressure * chord, delta=5e-3 * pressure * chord)
+            for body, sense in (("hub", -1), ("bush", 1)):  # what holds a body balances the fit
+                for axis in range(3):
+                    total = sum(forces[f"{body}_{face}"][axis] for face in ("LOW_2", "HIGH_2", "LOW_3")) + sense * force[axis]
+                    self.assertLess(abs(total), TOLERANCE * pressure)
+            totals.append([*force, *(x for name in sorted(forces) for x in forces[name]), increment["energy"]["elastic"]])
+        for one, other in zip(*totals):
+            self.assertAlmostEqual(one, other, delta=TOLERANCE * pressure)
+
+    def test_a_bearing_lets_a_shaft_turn(self):
+        """A tube, slit along a line, whose outside is held along its normals: it turns about its axis and moves along it, and nothing else."""
+        for turn in (IDENTITY, rotation(2)):
+            self.deck("part", tube(0.5, 1.0, 2 * math.pi, 1.0), (2, 12, 2), turn)
+            for load, ends in (("traction: " + text_of(product(turn, [1e-3, 0, 0])), None), ("traction: " + text_of(product(turn, [0, 0, 1e-3])), "translation along"),
+                               ("moment: " + text_of(product(turn, [0, 0, 1e-3])), "rotation about the axis")):
+                summary = self.run_model(f"""materials: {{m: {{young: 1, poisson: 0.3}}}}
+bodies: {{part: {{material: m, mesh: {{file: part.inp}}}}}}
+supports: [{{on: part.HIGH_1, fix: normal}}]
+loads: {{pull: {{on: part.LOW_1, {load}}}}}
+""", status=2 if ends else 0)
+                self.assertEqual(summary["status"], "mechanism" if ends else "solved")
+                self.assertIn(ends or "", summary["reason"] or "")
+
+    def test_parts_of_a_curved_face(self):
+        """Two supports on parts of a wavy face, which is no quadric, are one on all of it, whose normals they have where they meet."""
+        self.deck("part", lambda x, y, z: (x, y, z * (1 + 0.3 * math.sin(2 * x))), (5, 2, 2))
+        whole, parts, axes = (self.sector("part", [*supports, "{on: part.LOW_2, fix: y}"],
+                                          "loads: {pull: {on: part.HIGH_1, traction: [1e-3, 0, 2e-3]}}\n", "tetrahedra")
+                              for supports in (["{on: part.HIGH_3, fix: normal}"],
+                                               [f"{{on: {{body: part, face: HIGH_3, normal: {normal}}}, fix: normal}}" for normal in ("[-0.5, 0, 1]", "[0.1, 0, 1]")],
+                                               ["{on: part.HIGH_3, fix: [x, z]}"]))
+        self.assertAlmostEqual(parts["energy"]["elastic"], whole["energy"]["elastic"], delta=TOLERANCE * whole["energy"]["elastic"])
+        self.assertLess(axes["energy"]["elastic"], 0.99 * whole["energy"]["elastic"])
+
+    def test_a_plug_in_a_conical_seat(self):
+        """What holds a cone along its normals balances a force along the axis; a moment about the axis turns it."""
+        for turn in (IDENTITY, rotation(4)):
+            self.deck("part", cone(0.3, 0.6, 0.4, 0.5), (2, 12, 2), turn)
+            for load, status in (([0, 0, -1e-3], 0), (None, 2)):
+                acts = f"force: {text_of(product(turn, load))}" if load else f"moment: {text_of(product(turn, [0, 0, 1e-3]))}"
+                summary = self.run_model(f"""materials: {{m: {{young: 1, poisson: 0.3}}}}
+bodies: {{part: {{material: m, mesh: {{file: part.inp}}}}}}
+supports: [{{on: part.HIGH_1, fix: normal, name: seat}}]
+loads: {{push: {{on: part.HIGH_3, {acts}}}}}
+""", status=status)
+                if load:
+                    self.assert_work(summary["increments"][-1])
+                    for a, b in zip(summary["increments"][-1]["reactions"]["seat"], product(turn, load)):
+                        self.assertAlmostEqual(a, -b, delta=TOLERANCE * 1e-3)
+                else:
+                    self.assertEqual(summary["status"], "mechanism")
+                    self.assertIn("rotation about the axis", summary["reason"])
+
+
+
+FIX = {"X": ("x", [1, 0, 0]), "Y": ("y", [0, 1, 0]), "BOTTOM": ("z", [0, 0, 1]), "RIGHT": ("x", [1, 0, 0])}
+
+
+@unittest.skipIf(support.SANITIZED, "numbers")
+class Twins(Running):
+    """A quarter of a ball on a block, with friction, springs, a bar, temperature and supports that come and go, turned."""
+
+    def meshes(self):
+        self.run_model("""materials: {m: {young: 1e9, poisson: 0.2, density: 1}}
+bodies:
+  base: {material: m, shape: {box: {corner: [0, 0, -0.4], size: [0.8, 0.7, 0.4]}}, mesh: {size: 0.3, refine: [{near: [0, 0, 0], size: 0.06, growth: 0.5}]}}
+  ball: {material: m, shape: {sphere: {centre: [0, 0, 0.5], radius: 0.5, keep: [+x, +y, -z]}}, mesh: {size: 0.25, refine: [{near: [0, 0, 0], size: 0.06, growth: 0.5}]}}
+loads: {none: {gravity: [0, 0, 0]}}
+""")
+        return bodies_of(self.directory / "model.results" / "fields_0001.vtu", 2)
+
+    def write(self, name, mesh, sets, turn):
+        nodes, cells = mesh
+        lines = ["*NODE", *(f"{k + 1}, " + ", ".join(repr(x) for x in moved(turn, node)) for k, node in enumerate(nodes)), "*ELEMENT, TYPE=C3D10, ELSET=ALL",
+                 *(f"{k + 1}, " + ", ".join(str(node + 1) for node in cell) for k, cell in enumerate(cells))]
+        for set_name, inside in sets.items():
+            lines += [f"*NSET, NSET={set_name}", *(f"{k + 1}," for k, node in enumerate(nodes) if inside(node))]
+        (self.directory / f"{name}.inp").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    def model(self, meshes, turn, how, steps, restart=""):
+        """`how`: axes, normals or directions."""
+        near = {"X": lambda p: abs(p[0]) < 1e-9, "Y": lambda p: abs(p[1]) < 1e-9}
+        self.write("base", meshes[0], {**near, "BOTTOM": lambda p: p[2] < -0.4 + 1e-9, "TOP": lambda p: abs(p[2]) < 1e-9, "RIGHT": lambda p: p[0] > 0.8 - 1e-9,
+                                       "BACK": lambda p: p[1] > 0.7 - 1e-9}, turn)
+        self.write("ball", meshes[1], {**near, "BALL": lambda p: abs(math.dist(p, (0, 0, 0.5)) - 0.5) < 1e-6, "HEAD": lambda p: abs(p[2] - 0.5) < 1e-9}, turn)
+        vector = lambda v: text_of(product(turn, v))
+
+        def held(place):
+            axis, along = FIX[place.split(".")[1]]
+            return {"axes": f"fix: {axis}", "normals": "fix: normal", "directions": f"fix: {{along: {vector([-3 * x for x in along])}}}"}[how]
+
+        drive = {"axes": "displacement: [null, null, -1.5e-2]", "normals": "displacement: {normal: -1.5e-2}",
+                 "directions": f"displacement: {{along: {vector([0, 0, 2])}, value: -1.5e-2}}"}[how]
+        supports = [f"{{on: {place}, {held(place)}, name: {place.replace('.', '_').lower()}}}" for place in ("base.X", "base.Y", "base.BOTTOM", "ball.X", "ball.Y")]
+        slope = product(turn, [10.0, -4.0, 3.0])
+        shift = 20.0 - sum(a * b for a, b in zip(slope, moved(turn, [0, 0, 0])))
+        faces = ("base.X", "base.Y", "base.BOTTOM", "base.RIGHT", "ball.X", "ball.Y", "ball.HEAD")
+        about = text_of(moved(turn, [0, 0, 0]))
+        history = ", ".join(f"{face.replace('.', '_').lower()}: {{face: {face}, about: {about}}}" for face in faces)
+        return f"""materials: {{m: {{young: 1e9, poisson: 0.2, expansion: 1e-5}}}}
+bodies: {{base: {{material: m, mesh: {{file: base.inp}}}}, ball: {{material: m, mesh: {{file: ball.inp}}}}}}
+supports:
+""" + "".join(f"  - {text}\n" for text in supports) + f"""  - {{on: ball.HEAD, {drive}, name: drive}}
+  - {{on: base.RIGHT, {held("base.RIGHT")}, name: prop{", removed: strike" if "strike" in steps else ""}}}
+{self.jack(turn, how) if "strike" in steps else ""}springs: [{{on: base.BACK, k_n: 1e8, k_t: 5e7, name: soft}}]
+bars: {{tie: {{between: [{{body: ball, at: {text_of(moved(turn, [0, 0.25, 0.5]))}}}, {text_of(moved(turn, [0, 1, 1]))}], k: 1e6}}}}
+loads:
+  push: {{on: base.BACK, traction: {vector([0, -3e5, 1e5])}}}
+  heat: {{on: ball, temperature: {{constant: {shift!r}, x: {slope[0]!r}, y: {slope[1]!r}, z: {slope[2]!r}}}}}
+contacts: {{joint: {{between: [base.TOP, ball.BALL], friction: 0.2, about: {about}}}}}
+{restart}
+steps: [{steps}]
+output: {{points: [{text_of(moved(turn, [0.3, 0.3, 0.0]))}, {text_of(moved(turn, [0, 0.1, 0.2]))}], history: {{{history}}}}}
+"""
+
+    def jack(self, turn, how):
+        """It pulls the right side on from where that is then."""
+        along = {"axes": "[1e-4, null, null]", "normals": "{normal: 1e-4}", "directions": f"{{along: {text_of(product(turn, [-2, 0, 0]))}, value: -1e-4}}"}[how]
+        return f"  - {{on: base.RIGHT, displacement: {along}, name: jack, added: back}}\n"
+
+    FIRST = "{name: press, increments: 2, loads: {drive: 1, push: 0, heat: 0}}, {name: push, increments: 2, loads: {push: 1}}"
+    SECOND = "{name: strike, increments: 2, loads: {heat: 1}}, {name: back, increments: 2, loads: {drive: 0.8, jack: 1}}"
+
+    def told(self, summary, turn, name="model"):
+        """Of every increment, in the axes of the original: forces, moments about its origin, energies, states, displacements, resultants."""
+        back, origin, told = list(zip(*turn)), moved(turn, [0, 0, 0]), []
+
+        def moment(of, force):
+            arm = [origin[j] * force[k] - origin[k] * force[j] for j, k in ((1, 2), (2, 0), (0, 1))]
+            return product(back, [a - b for a, b in zip(of, arm)])
+
+        for increment in summary["increments"]:
+            values = []
+            for support_name, force in sorted(increment["reactions"].items()):
+                values += [*product(back, force), *moment(increment["moments"][support_name], force)]
+            joint = increment["contacts"]["joint"]
+            values += [*product(back, joint["normal_force"]), *product(back, joint["tangential_force"]), *product(back, joint["moment"])]
+            values += [*product(back, increment["springs"]["soft"]), increment["bars"]["tie"]["tension"]]
+            values += [1e4 * increment["energy"][kind] for kind in ("external", "elastic", "friction")]
+            told.append((values, [joint[state] for state in ("open", "stick", "slip")]))
+        points = [[1e7 * x for x in product(back, [float(row[f"u{axis}"]) for axis in "xyz"])] for row in self.rows("points.csv", name)]
+        rows = self.rows("history.csv", name)
+        names = sorted({column.rsplit("_", 1)[0] for column in rows[0] if ".force_" in column or ".moment_" in column})
+        faces = [product(back, [float(row[f"{column}_{axis}"]) for axis in "xyz"]) for row in rows for column in names]
+        return told, points, faces
+
+    def assert_same(self, one, other):
+        size = max(abs(x) for values, _ in one[0] for x in values)
+        for (values, states), (others, other_states) in zip(one[0], other[0], strict=True):
+            self.assertEqual(states, other_states)
+            for a, b in zip(values, others, strict=True):
+                self.assertAlmostEqual(a, b, delta=TOLERANCE * size)
+        for kind in (1, 2):
+            size = max(abs(x) for vector in one[kind] for x in vector)
+            for vector, other_vector in zip(one[kind], other[kind], strict=True):
+                for a, b in zip(vector, other_vector, strict=True):
+                    self.assertAlmostEqual(a, b, delta=TOLERANCE * size)
+
+    def test_twins(self):
+        meshes = self.meshes()
+        steps = f"{self.FIRST}, {self.SECOND}"
+        one = self.told(self.run_model(self.model(meshes, IDENTITY, "axes", steps)), IDENTITY)
+        self.assertTrue(any(states[0] and states[1] and states[2] for _, states in one[0]), [states for _, states in one[0]])
+        for turn, how in ((IDENTITY, "normals"), (IDENTITY, "directions"), (rotation(7), "normals"), (rotation(11), "directions")):
+            with self.subTest(turned=turn is not IDENTITY, how=how):
+                self.assert_same(one, self.told(self.run_model(self.model(meshes, turn, how, steps)), turn))
+
+    def test_two_runs_are_one(self):
+        """The second starts where the first ends, and a support of the first ends in it."""
+        meshes, turn = self.meshes(), rotation(7)
+        whole = self.told(self.run_model(self.model(meshes, turn, "normals", f"{self.FIRST}, {self.SECOND}"), "whole"), turn, "whole")
+        self.run_model(self.model(meshes, turn, "normals", self.FIRST), "one")
+        second = "{name: wait, loads: {drive: 1}}, " + self.SECOND
+        later = self.told(self.run_model(self.model(meshes, turn, "normals", second, "restart: one.results"), "two"), turn, "two")
+        for (values, states), (others, other_states) in zip(later[0][1:], whole[0][4:], strict=True):
+            self.assertEqual(states, other_states)
+            size = max(map(abs, others))
+            for a, b in zip(values, others, strict=True):
+                self.assertAlmostEqual(a, b, delta=TOLERANCE * size)
+
+
+if __name__ == "__main__":
+    support.main()
