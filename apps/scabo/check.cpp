@@ -59,6 +59,11 @@ std::string steps_table(const model::Model& model) {
 
 }  // namespace
 
+void warn_of_memory(const run::Plan& plan) {
+  const std::string why = run::why_it_does_not_fit(plan, run::available_memory(), "start the run with --ignore-memory");
+  if (!why.empty()) print_warning(why);
+}
+
 ExitStatus check(const CheckOptions& options) {
   const input::AnyModel read = input::read_any_model(options.model, input::parse_settings(options.settings));
   if (const auto* solids = std::get_if<model::SpaceModel>(&read)) {
@@ -71,8 +76,13 @@ ExitStatus check(const CheckOptions& options) {
   if (model.analysis.type == model::AnalysisType::static_) result::check_sections(model, mesh);
   for (const Warning& warning : model.warnings) print_warning(warning.text);
   std::string text = fmt::format("{}: {}\n", options.model, model.title.empty() ? "(no title)" : model.title);
-  text += model.analysis.type == model::AnalysisType::modal ? run::describe_sizes(run::sizes_of(model, mesh)) + "\n"
-                                                            : run::describe(run::plan_of(model, mesh));
+  if (model.analysis.type == model::AnalysisType::modal) {
+    text += run::describe_sizes(run::sizes_of(model, mesh)) + "\n";
+  } else {
+    const run::Plan plan = run::plan_of(model, mesh);
+    text += run::describe(plan);
+    warn_of_memory(plan);
+  }
   text += "\n" + bodies_table(model, mesh);
   if (!mesh.interfaces.empty()) text += "\n" + contacts_table(model, mesh);
   text += "\n" + steps_table(model) + "\nNo mistakes found.\n";

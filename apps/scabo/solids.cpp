@@ -66,11 +66,13 @@ ExitStatus check_solids(const model::SpaceModel& model) {
       fmt::format("{}: {}\n\n{}", model.file, model.title.empty() ? "(no title)" : model.title, faces_of(model)));
   const analysis::PosedSolids posed = analysis::pose_solids(model);
   const result::SolidOutputs outputs(model, posed);  // checks them
+  const run::Plan plan = run::plan_of(posed);
   print_output(fmt::format("{}\n{}, {}, {}.\n{}No mistakes found.\n", bodies_of(model, posed),
                            model::counted(static_cast<long>(model.contacts.size()), "contact or tie"),
                            model::counted(static_cast<long>(model.steps.size()), "step"),
                            model::counted(static_cast<long>(posed.increments.size()), "increment"),
-                           run::describe(run::plan_of(posed))));
+                           run::describe(plan)));
+  warn_of_memory(plan);
   return ExitStatus::solved;
 }
 

@@ -56,6 +56,8 @@ class Fields:
             import meshio
         except ImportError:
             raise ImportError("to_meshio() needs meshio (python3-meshio): install it") from None
+        from meshio._mesh import topological_dimension
+        topological_dimension.setdefault("wedge15", 3)  # which versions of meshio write and read, and have no dimension of
         blocks = self.cells()
         cells = [(_NAMES[kind], self.connectivity[self.offsets[of][:, None] + np.arange(size)])
                  for (kind, size), of in blocks.items()]

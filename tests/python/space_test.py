@@ -229,6 +229,29 @@ class AsTheProgram(InTemporaryDirectory):
             self.assertTrue(result.plot(what).axes)
 
 
+class HandOver(InTemporaryDirectory):
+    def test_hexahedra_and_wedges_go_to_meshio(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("meshio is not there for this Python")
+        model = stack()
+        model["bodies"]["lower"]["mesh"]["kind"] = model["bodies"]["upper"]["mesh"]["kind"] = "hexahedra"
+        model["bodies"]["upper"]["shape"] = {"extrude": {"profile": {"polygon": {
+            "vertices": [[0, 0], [1, 0], [1, 0.8], [0, 0.8]], "names": {"left": "edge_4", "front": "edge_1"}}},
+            "plane": "xy", "from": 0.3, "to": 0.5}}
+        model = json.loads(json.dumps(model).replace("upper.bottom", "upper.start").replace("upper.top", "upper.end"))
+        scabo.Model(model).run().to_meshio().write(self.directory / "mesh.vtu")
+        mesh = meshio.read(self.directory / "mesh.vtu")
+        edges = {"hexahedron20": ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
+                 "wedge15": ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5))}  # with a node in the middle
+        self.assertEqual({block.type for block in mesh.cells}, set(edges))
+        for block in mesh.cells:
+            x, ends = mesh.points[block.data], np.array(edges[block.type])
+            np.testing.assert_allclose(x[:, -len(ends):], 0.5 * (x[:, ends[:, 0]] + x[:, ends[:, 1]]), atol=1e-12)
+        np.testing.assert_allclose(mesh.point_data["stress"][:, 2], -PRESSURE, rtol=1e-5)
+
+
 class Sections(InTemporaryDirectory):
     def test_history_is_the_same_in_memory_and_in_files(self):
         model = scabo.Model(stack(2))

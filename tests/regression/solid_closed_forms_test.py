@@ -56,40 +56,86 @@ supports:
 
     def test_a_spherical_cavity_under_tension(self):
         """In a sphere of 12 radii under the stress of the tension along z: equator 2.045455, pole -0.681818 times it."""
-        _, values = self.octant("""  pull: {on: shell.OUT, traction: {formula: [null, null, "1e-3 * z / 12"]}}
-""", "{at: [1, 0, 0], name: equator}, {at: [0, 0, 1], name: pole}", inner=1.0, outer=12.0, angular=10, layers=12, growth=1.4)
-        self.assertAlmostEqual(values["equator"]["stress_zz"], 2.045455e-3, delta=0.01e-3)
-        for key in ("stress_xx", "stress_yy"):
-            self.assertAlmostEqual(values["pole"][key], -0.681818e-3, delta=0.02e-3)
+        errors = []
+        for angular, layers, growth in ((5, 6, 1.96), (10, 12, 1.4)):
+            _, values = self.octant("""  pull: {on: shell.OUT, traction: {formula: [null, null, "1e-3 * z / 12"]}}
+""", "{at: [1, 0, 0], name: equator}, {at: [0, 0, 1], name: pole}", inner=1.0, outer=12.0, angular=angular, layers=layers, growth=growth)
+            errors.append([abs(values["equator"]["stress_zz"] / 1e-3 - 2.045455)] + [abs(values["pole"][key] / 1e-3 + 0.681818) for key in ("stress_xx", "stress_yy")])
+        for coarse, fine, bound, order in zip(*errors, (0.01, 0.02, 0.02), (1, 2, 2), strict=True):
+            self.assertLess(fine, bound)
+            self.assertLess(fine, coarse / 2**order)
 
     def test_two_balls_on_each_other(self):
-        """Two balls R = 50, E = 20000, nu = 0.3 (code_aster's SSNV104) as a quarter of two half balls. Hertz's pressure under the force that they carry;
-        the approach is not compared, as half balls that are held on flat faces are stiffer than half spaces."""
-        excess = {}
-        for approach, size, bound in ((0.4, 0.5, 0.01), (4.0, 2.2, 0.05)):
+        """Two balls R = 50, E = 20000, nu = 0.3 (code_aster's SSNV104) as a quarter of two half balls: as bodies of revolution; Hertz's pressure under
+        the force that they carry. Half balls that are held on flat faces are stiffer than half spaces, so that the approach is not Hertz's."""
+        for approach, size, of_hertz in ((0.4, 0.5, 0.01), (4.0, 2.2, 0.01)):
             with self.subTest(approach=approach):
-                excess[approach] = self.excess_of_two_balls(approach, size)
-                self.assertLess(abs(excess[approach]), bound)
-        self.assertGreater(excess[4.0], 0.02)  # as the square of the contact radius over that of the balls
+                joint, exact = self.of_two_balls(approach, size), self.of_revolution(approach)
+                force, pressure = 4 * joint["normal_force"][2], joint["max_pressure"]
+                self.assertAlmostEqual(force, exact["normal_force"], delta=1e-2 * force)
+                self.assertAlmostEqual(pressure, exact["max_pressure"], delta=5e-3 * pressure)
+                self.assertLess(abs(joint["normal_force"][0]), 3e-3 * joint["normal_force"][2])  # 0 in their plane of symmetry
+                stiffness, radius = 20000 / (2 * (1 - 0.3**2)), 25.0
+                self.assertAlmostEqual(pressure, (6 * force * stiffness**2 / (math.pi**3 * radius**2)) ** (1 / 3), delta=of_hertz * pressure)
 
-    def excess_of_two_balls(self, approach, size):
-        """Of the largest pressure over Hertz's, relative; `size` of elements where they touch."""
+    def test_a_ball_on_a_rigid_plane_is_half_of_two(self):
+        """Its normal is that of the contact, though the ball, which leans by a fifth at the edge of the contact, has the pairs."""
+        joint, exact = self.of_two_balls(4.0, 2.2, rigid=True), self.of_revolution(4.0)
+        self.assertAlmostEqual(4 * joint["normal_force"][2], exact["normal_force"], delta=1e-2 * exact["normal_force"])
+        self.assertAlmostEqual(joint["max_pressure"], exact["max_pressure"], delta=5e-3 * exact["max_pressure"])
+        self.assertLess(max(map(abs, joint["normal_force"][:2])), 1e-9 * joint["normal_force"][2])
+
+    def of_two_balls(self, approach, size, rigid=False):
+        """`size` of elements where they touch; `rigid`: the lower one is a rigid half space."""
         radius = 5 * approach**0.5
         near = ", ".join(f"{{near: [{at}, {at}, 0], size: {size}, growth: 0.4}}" for at in (0, 0.63 * radius))
         ball = "{{material: m, shape: {{sphere: {{centre: [0, 0, {}50], radius: 50, keep: [+x, +y, {}z]}}}}, mesh: {{size: 25, refine: [{}]}}}}"
+        lower = "{rigid: true, shape: {box: {corner: [0, 0, -10], size: [60, 60, 10]}}, mesh: {size: 60}}" if rigid else ball.format("-", "+", near)
+        elastic = ["upper"] if rigid else ["lower", "upper"]
         increment, _ = self.solve(f"""materials: {{m: {{young: 20000, poisson: 0.3}}}}
 bodies:
-  lower: {ball.format("-", "+", near)}
+  lower: {lower}
   upper: {ball.format("", "-", near)}
 supports:
-""" + "".join(f"  - {{on: {body}.cut_{axis}, fix: {axis}}}\n" for body in ("lower", "upper") for axis in "xy") + f"""  - {{on: lower.cut_z, displacement: [null, null, {approach / 2}]}}
+""" + "".join(f"  - {{on: {body}.cut_{axis}, fix: {axis}}}\n" for body in elastic for axis in "xy") + f"""  - {"{on: lower, fix: [x, y, z]}" if rigid else
+ f"{{on: lower.cut_z, displacement: [null, null, {approach / 2}]}}"}
   - {{on: upper.cut_z, displacement: [null, null, {-approach / 2}]}}
-contacts: {{joint: {{between: [lower.surface, upper.surface], friction: 0}}}}
+contacts: {{joint: {{between: [{"lower.top" if rigid else "lower.surface"}, upper.surface], friction: 0}}}}
 """)
-        joint = increment["contacts"]["joint"]
-        stiffness, radius = 20000 / (2 * (1 - 0.3**2)), 25.0
-        pressure = (6 * 4 * joint["normal_force"][2] * stiffness**2 / (math.pi**3 * radius**2)) ** (1 / 3)
-        return joint["max_pressure"] / pressure - 1
+        return increment["contacts"]["joint"]
+
+    def of_revolution(self, approach):
+        """The same two balls, with elements of a fortieth of the radius of the contact."""
+        radius = 5 * approach**0.5
+        mesh = f"{{size: 5, refine: [{{near: [0, 0], size: {radius / 40}, growth: 0.1}}, {{near: [{radius}, 0], size: {radius / 40}, growth: 0.1}}]}}"
+        (self.directory / "revolution.yaml").write_text(f"""scabo: 1
+analysis: {{plane: axisymmetric}}
+materials: {{m: {{young: 20000, poisson: 0.3}}}}
+bodies:
+  lower:
+    material: m
+    shape:
+      outline:
+        - {{arc: {{from: [50, -50], to: [0, 0], centre: [0, -50]}}, name: surface}}
+        - {{line: {{to: [0, -50]}}}}
+        - {{line: {{to: [50, -50]}}, name: cut}}
+    mesh: {mesh}
+  upper:
+    material: m
+    shape:
+      outline:
+        - {{arc: {{from: [0, 0], to: [50, 50], centre: [0, 50]}}, name: surface}}
+        - {{line: {{to: [0, 50]}}, name: cut}}
+        - {{line: {{to: [0, 0]}}}}
+    mesh: {mesh}
+supports:
+  - {{on: lower.cut, displacement: [null, {approach / 2}]}}
+  - {{on: upper.cut, displacement: [null, {-approach / 2}]}}
+contacts: {{joint: {{between: [lower.surface, upper.surface], friction: 0}}}}
+""", encoding="utf-8")
+        done = support.scabo("run", self.directory / "revolution.yaml", "-o", self.directory / "revolution", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return support.summary_of(self.directory / "revolution")["increments"][-1]["contacts"]["joint"]
 
 
 if __name__ == "__main__":

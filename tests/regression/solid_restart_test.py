@@ -206,6 +206,19 @@ steps: [{steps}]
         end.write_bytes(content[:-40] + b"x" * 40)
         self.assertIn("the state at the end of one.results is damaged: run that model again", self.run_model("two", there, 1))
 
+    def test_directions_of_friction_must_not_change(self):
+        axes = "{direction: [1, DIRECTION, 0], along: 0.3, across: ACROSS}"
+
+        def of(direction, across):
+            return axes.replace("DIRECTION", direction).replace("ACROSS", across)
+
+        self.run_model("one", model(FIRST, later=False, friction=of("0", "0.2")))
+        self.run_model("two", model(SECOND, restart="one.results", friction=of("0", "0.2")))
+        for friction in (of("0.5", "0.2"), of("0", "0.25"), "0.3"):
+            with self.subTest(friction=friction):
+                said = self.run_model("three", model(SECOND, restart="one.results", friction=friction), 1)
+                self.assertRegex(said, r"three.yaml:\d+:\d+: restart: contact 'slide' is not the same as in one.results")
+
     def test_runs_of_the_plane_are_refused_and_refuse(self):
         plane = """scabo: 1
 materials: {steel: {young: 200e9, poisson: 0.3}}

@@ -359,6 +359,10 @@ class BlocksInSpace(support.InTemporaryDirectory):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertRegex(done.stderr, r"not enough memory: the analysis needs about .* GB, and `ulimit -v` leaves .*--ignore-memory")
         self.assertFalse((self.directory / "results").exists())
+        done = subprocess.run([support.SCABO, "check", ROOT / "examples" / "35_ball_on_block" / "model.yaml", "--set", "parameters.fine=3e-5"],
+                              capture_output=True, text=True, timeout=support.PATIENCE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"warning: not enough memory: the analysis needs about .* GB, and `ulimit -v` leaves .*--ignore-memory")
 
     def test_events_tell_the_plan(self):
         done = scabo("run", EXAMPLE / "model.yaml", "-o", self.directory / "results", "--json-lines")

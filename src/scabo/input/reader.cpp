@@ -130,7 +130,9 @@ std::optional<bool> read_flag(Report& report, const Value& value) {
     if (node.text == "true") return true;
     if (node.text == "false") return false;
   }
-  report.error(value, fmt::format("must be true or false, not {}", describe(node)));
+  const bool quoted = node.quoted && (node.text == "true" || node.text == "false");
+  report.error(value, fmt::format("must be true or false, {} {}", quoted ? "without the quotation marks of" : "not",
+                                  describe(node)));
   return {};
 }
 
@@ -349,7 +351,7 @@ std::vector<Entry> read_named(Report& report, const Value& value, std::string_vi
   }
   for (const MapEntry& entry : node.entries) {
     const Source at = source_of_key(value, entry);
-    if (!check_name(report, at, entry.key)) continue;
+    check_name(report, at, entry.key);  // what is meant by it elsewhere is there all the same
     entries.push_back({entry.key, at, {entry.value, join_path(value.path, entry.key)}});
   }
   return entries;

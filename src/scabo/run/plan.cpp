@@ -97,9 +97,10 @@ double left_in_group() {
 }
 
 std::string size_text(double bytes) {
-  if (bytes >= 0.995e9) return fmt::format("{:.2g} GB", bytes / 1e9);
-  const double megabytes = std::max(bytes / 1e6, 10.0), unit = megabytes >= 100.0 ? 10.0 : 1.0;
-  return fmt::format("{:.0f} MB", unit * std::round(megabytes / unit));  // two digits
+  const bool large = bytes >= 0.995e9;
+  const double size = large ? bytes / 1e9 : std::max(bytes / 1e6, 10.0);
+  const double unit = std::pow(10.0, std::floor(std::log10(size)) - 1.0);  // of the second digit
+  return fmt::format("{:g} {}", unit * std::round(size / unit), large ? "GB" : "MB");
 }
 
 }  // namespace

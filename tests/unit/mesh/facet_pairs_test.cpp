@@ -177,6 +177,25 @@ TEST(CurvedFaces, HaveTheGapOfTheirSurfaces) {
   EXPECT_NEAR(area, 2.0 * std::numbers::pi * 0.6, 0.02 * area);
 }
 
+/// A ball of radius 1 on a plane: at a distance x from the axis it leans by x. Of a rigid plane the normals are those.
+TEST(CurvedFaces, AreSeenAlongTheLineThatBisectsTheirNormals) {
+  const ShapedSolid block = solid_of_shape(model::SolidBox{{-1, -1, -1}, {2, 2, 1}}, {0.3, {}}),
+                    ball = solid_of_shape(model::SolidSphere{{0, 0, 1}, 1.0, {}}, {0.2, {}});
+  for (const bool rigid : {false, true}) {
+    std::size_t near = 0;
+    for (const FacetPair& pair :
+         facet_pairs({block.mesh, block.faces.at("top"), rigid}, {ball.mesh, ball.faces.at("surface")})) {
+      if (pair.point.head<2>().norm() > 0.4) continue;
+      ++near;
+      const Eigen::Vector3d n = pair.directions.col(0);
+      const Eigen::Vector2d leaning = -pair.point.head<2>() / pair.point.head<2>().norm() * (rigid ? 0.0 : 1.0),
+                            half = std::tan(0.5 * std::asin(pair.point.head<2>().norm())) * leaning;
+      EXPECT_LT((n.head<2>() / n.z() - half).norm(), rigid ? 1e-12 : 0.02);
+    }
+    EXPECT_GT(near, 8U);
+  }
+}
+
 TEST(SideOfThePairs, DoesNotChangeWithTheOrderOfTheFaces) {
   const TwoBlocks blocks(10, 0.2);
   EXPECT_TRUE(has_pairs_on_second(blocks.a(), blocks.b()));

@@ -24,11 +24,8 @@ const SolidBody& body_of(const SolidModel& model, const SolidContact::Side& side
 }
 
 /// A rigid side has pairs only against another one.
-bool has_pairs_on_first(const SolidModel& model, const SolidContact& contact, const mesh::Face& a,
-                        const mesh::Face& b) {
-  const bool rigid_a = body_of(model, contact.a).rigid_at.has_value(),
-             rigid_b = body_of(model, contact.b).rigid_at.has_value();
-  return rigid_a == rigid_b ? !mesh::has_pairs_on_second(a, b) : rigid_b;
+bool has_pairs_on_first(const mesh::Face& a, const mesh::Face& b) {
+  return a.rigid == b.rigid ? !mesh::has_pairs_on_second(a, b) : b.rigid;
 }
 
 /// Tangents along and across the direction of friction axes. The cone of friction becomes round where the tangent
@@ -99,10 +96,10 @@ PairedFaces paired_faces(const SolidModel& model) {
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const SolidContact& contact = model.contacts[c];
     const auto face_of = [&](const SolidContact::Side& side) {
-      return mesh::Face{body_of(model, side).mesh, side.facets};
+      return mesh::Face{body_of(model, side).mesh, side.facets, body_of(model, side).rigid_at.has_value()};
     };
     const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
-    const bool turned = has_pairs_on_first(model, contact, a, b);
+    const bool turned = has_pairs_on_first(a, b);
     const std::vector<mesh::FacetPair> found =
         turned ? mesh::facet_pairs(b, a, contact.law.bond) : mesh::facet_pairs(a, b, contact.law.bond);
     const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),

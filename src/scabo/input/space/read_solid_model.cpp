@@ -14,6 +14,8 @@ using namespace model;
 void SpaceReader::analysis(const Value& value) {
   const MapReader map(report_, value, {"space", "type"}, "{space: true}",
                       only_in_the_plane({"plane", "thickness", "modes"}));
+  if (const auto space = map.get("space"); space && read_flag(report_, *space) == false)
+    report_.error(*space, "is false, but the shape of a body is one of a model in space: leave it out");
   if (const auto type = map.get("type"))
     read_choice(report_, *type, {"static"},
                 {{"dynamic", "a model in space is static"}, {"modal", "a model in space is static"}});
@@ -107,7 +109,7 @@ bool is_in_space(const Node& root) {
     return entry == nullptr ? nullptr : entry->value.get();
   };
   if (const Node* analysis = in(root, "analysis"))
-    if (const Node* space = in(*analysis, "space")) return space->text == "true";
+    if (const Node* space = in(*analysis, "space"); space && space->text != "false") return true;
   const Node* bodies = in(root, "bodies");
   if (bodies == nullptr || bodies->kind != Node::Kind::map) return false;
   return std::any_of(bodies->entries.begin(), bodies->entries.end(), [&](const MapEntry& body) {

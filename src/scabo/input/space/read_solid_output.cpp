@@ -40,6 +40,9 @@ void SpaceReader::point(const Value& value) {
         point.name = *text;
     if (const auto body = map.get("body")) point.body = body_named(*body);
   }
+  const auto is_named_so = [&](const SpacePoint& other) { return other.name == point.name; };
+  if (std::any_of(model_.points.begin(), model_.points.end(), is_named_so))
+    report_.error(value, fmt::format("another point is already named '{}': rename one of them", point.name));
   if (report_.count() == before) model_.points.push_back(std::move(point));
 }
 

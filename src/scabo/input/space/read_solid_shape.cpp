@@ -35,10 +35,12 @@ void check_extent(Report& report, const Value& value, const Vector3d& at, std::i
 SolidBox solid_box_of(Report& report, const Value& value) {
   const MapReader map(report, value, {"corner", "size"}, "{corner: [0, 0, 0], size: [1, 1, 1]}");
   SolidBox box{needed_vector(report, map, "corner"), Vector3d::Zero()};
-  const auto size = map.need("size");
-  if (size) box.size = read_vector_in_space(report, *size);
-  if (size && size->node->kind == Node::Kind::sequence && size->node->items.size() == 3 && !(box.size.minCoeff() > 0.0))
-    report.error(*size, "the three sides must be greater than 0");
+  if (const auto size = map.need("size")) {
+    const std::size_t before = report.count();
+    box.size = read_vector_in_space(report, *size);
+    if (report.count() == before && !(box.size.minCoeff() > 0.0))
+      report.error(*size, "the three sides must be greater than 0");
+  }
   check_extent(report, value, box.corner, {box.size.x(), box.size.y(), box.size.z()});
   return box;
 }

@@ -15,6 +15,7 @@ using namespace model;
 
 void SpaceReader::curves(const Value& value) {
   constexpr double most_periods = 10'000.0;
+  const std::size_t before = report_.count();
   for (const Entry& entry :
        read_named(report_, value, "curves", "{cycle: {table: [[0, 0], [1, 1], [3, -1], [4, 0]]}}")) {
     const MapReader map(report_, entry.value, {"table", "ramp", "sine"}, "{sine: {amplitude: 1, periods: 3}}",
@@ -31,6 +32,7 @@ void SpaceReader::curves(const Value& value) {
       report_.error(entry.value, fmt::format("'periods' must be more than 0 and at most {:g}", most_periods));
     model_.curves.push_back(std::move(curve));
   }
+  curves_known_ = report_.count() == before;
 }
 
 void SpaceReader::factor(const Entry& entry, Step& step) {
@@ -59,11 +61,10 @@ void SpaceReader::factor(const Entry& entry, Step& step) {
     known.push_back(model_.curves[i].name);
     if (known.back() == node.text) *curve = static_cast<int>(i);
   }
-  if (*curve < 0)
+  if (*curve < 0 && curves_known_)
     report_.error(entry.value, fmt::format("must be a number or the name of a curve, not {}{}", quoted_name(node.text),
                                            known.empty() ? "; the model has no curves" : suggestion(node.text, known)));
-  else
-    *value = value_of(model_.curves[static_cast<std::size_t>(*curve)], 1.0);
+  if (*curve >= 0) *value = value_of(model_.curves[static_cast<std::size_t>(*curve)], 1.0);
 }
 
 void SpaceReader::friction(const Value& value, Step& step) {

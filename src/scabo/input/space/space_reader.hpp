@@ -128,6 +128,7 @@ class SpaceReader {
   Value root_;
   model::SpaceModel model_;
   ContactProperties properties_;
+  bool curves_known_ = true;  ///< false: some could not be read
   std::map<std::pair<std::string, bool>, std::shared_ptr<const files::ImportedSolidMesh>> meshes_;
   std::vector<std::pair<std::size_t, Value>> fits_;            ///< contacts, and the names of the steps of `fit_in`
   std::vector<std::pair<std::size_t, Value>> tightened_;       ///< bodies, and the names of the steps of their preloads

@@ -22,9 +22,9 @@
 // Plane faces with straight edges are seen along their common normal. There displacements are polynomials, the
 // integrals are exact (on quadrilaterals that are no parallelograms to rounding), and forces of the pairs have the same
 // resultant and moment on both sides if the faces lie on each other: a constant stress passes exactly. Of other faces
-// every facet of B sees those of A along the normal of its corners; the gap is that of the quadratic surfaces, and the
-// normal of a pair is the mean of those of its facets. Then errors are those of the curved edges, which are seen as
-// straight.
+// every facet of B sees those of A along the line that bisects their normals, so that neither side is preferred, or
+// along those of A where A alone is rigid; the gap is that of the quadratic surfaces, and the normal of a pair is the
+// mean of these lines over its facets. Then errors are those of the curved edges, which are seen as straight.
 #pragma once
 
 #include <optional>
@@ -53,6 +53,7 @@ struct FacetPair {
 struct Face {
   const SolidMesh& mesh;
   std::vector<SolidFacet> facets;
+  bool rigid = false;  ///< the other side takes its form
 };
 
 /// Why two faces have no pairs: one is empty, or they are plane and not parallel and opposite.
