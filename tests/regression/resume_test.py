@@ -241,6 +241,19 @@ class Resume(unittest.TestCase):
                     self.assertEqual(run.returncode, 0, run.stderr)
                     self.assert_same(whole)
 
+    def test_killed_while_a_crack_grows_through_polygons(self):
+        """Whose mesh keeps what it can of the one before, so that all of them are made again."""
+        self.model.write_text(GROWTH.replace("quadtree", "polygons").replace("LAW", "toughness: {K_Ic: 1e6}"), encoding="utf-8")
+        run = scabo("run", self.model, "-o", self.directory / "whole", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        whole = content(self.directory / "whole")
+        for checkpoints in ((4,) if SANITIZED else (4, 9)):  # two of them of increments before growth
+            shutil.rmtree(self.results, ignore_errors=True)
+            self.assertTrue(self.killed(after_checkpoints=checkpoints), "the run was too fast")
+            run = scabo("resume", self.results, "--quiet")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assert_same(whole)
+
     def test_killed_while_a_crack_grows_in_a_large_body(self):
         """Whose states are solved by the factor of an earlier one: of 21, those of the first and of the seventeenth."""
         large = GROWTH.replace("size: 0.125", "size: 0.0125, order: 1").replace(

@@ -101,7 +101,7 @@ def draw_displacement(axis, tips, units):
     factor, value = of_states(tips, "displacement")
     scale = units.scale("energy", np.nanmax(np.abs(value)))
     draw(axis, [(scale.factor * value, factor)], [""])
-    axis.set(xlabel=scale.label("displacement of the load,\nwork at factor 1"), ylabel="load factor", ylim=(0, 1.1 * max(0.0, factor.max())),
+    axis.set(xlabel=scale.label("displacement of the load,\nwork at factor 1", "\n"), ylabel="load factor", ylim=(0, 1.1 * max(0.0, factor.max())),
              xlim=(min(0.0, axis.get_xlim()[0]), None))
 
 

@@ -16,6 +16,7 @@
 #include "scabo/mesh/plane/divide.hpp"
 #include "scabo/mesh/plane/division.hpp"
 #include "scabo/mesh/plane/fan.hpp"
+#include "scabo/mesh/plane/former_vertices.hpp"
 #include "scabo/mesh/plane/grid.hpp"
 #include "scabo/mesh/plane/imported_cells.hpp"
 #include "scabo/mesh/plane/interface.hpp"
@@ -147,9 +148,9 @@ std::vector<Diagnostic> divided_faces(const model::Model& model, int body, BodyM
   return {};
 }
 
-/// Divides every body by itself, and adds what is wrong with them to `mistakes`.
+/// Divides every body by itself, and adds what is wrong with them to `mistakes`. `former`: one for each, or null.
 Mesh divide_bodies(const model::Model& model, const Division& division, const Sizes& sizes,
-                   std::vector<Diagnostic>& mistakes) {
+                   std::vector<FormerVertices>* former, std::vector<Diagnostic>& mistakes) {
   Mesh mesh;
   const auto add = [&](std::vector<Diagnostic> more) {
     std::move(more.begin(), more.end(), std::back_inserter(mistakes));
@@ -169,7 +170,8 @@ Mesh divide_bodies(const model::Model& model, const Division& division, const Si
     if (model::is_divided_inside(body)) {
       const SizeField& wanted = sizes.empty() ? no_limit : sizes[b];
       auto divided = body.imported ? cells_of_file(body, wanted, model::limits::model_nodes - nodes)
-                                   : divide_into_cells(body, wanted, model::limits::model_nodes - nodes);
+                                   : divide_into_cells(body, wanted, model::limits::model_nodes - nodes,
+                                                       former ? &(*former)[b] : nullptr);
       if (const Diagnostic* wrong = std::get_if<Diagnostic>(&divided)) {
         mistakes.push_back(*wrong);
         continue;
@@ -224,11 +226,10 @@ std::vector<Diagnostic> match_and_pair(const model::Model& model, Mesh& mesh) {
   return faults.mistakes.empty() ? unlike_sides(model, mesh, faults.unlike) : faults.mistakes;
 }
 
-}  // namespace
-
-Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes) {
+Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes,
+               std::vector<FormerVertices>* former) {
   std::vector<Diagnostic> mistakes;
-  Mesh mesh = divide_bodies(model, division, sizes, mistakes);
+  Mesh mesh = divide_bodies(model, division, sizes, former, mistakes);
   const auto add = [&](std::vector<Diagnostic> more) {
     std::move(more.begin(), more.end(), std::back_inserter(mistakes));
   };
@@ -241,9 +242,24 @@ Mesh make_mesh(const model::Model& model, const Division& division, const Sizes&
   return mesh;
 }
 
+}  // namespace
+
+Mesh make_mesh(const model::Model& model, const Division& division, const Sizes& sizes) {
+  return make_mesh(model, division, sizes, nullptr);
+}
+
+Mesh make_mesh(const model::Model& model, std::vector<FormerVertices>& former) {
+  return make_mesh(model, Division(model.bodies.size()), {}, &former);
+}
+
+bool has_polygons(const model::Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const model::Body& body) { return body.mesh.kind == model::MeshKind::polygons; });
+}
+
 std::vector<BodyMesh> divided_bodies(const model::Model& model) {
   std::vector<Diagnostic> mistakes;
-  Mesh mesh = divide_bodies(model, Division(model.bodies.size()), {}, mistakes);
+  Mesh mesh = divide_bodies(model, Division(model.bodies.size()), {}, nullptr, mistakes);
   if (!mistakes.empty()) throw InputError(model.file, without_repetitions(std::move(mistakes)));
   return std::move(mesh.bodies);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "domains.hpp"
 #include "scabo/base/error.hpp"
@@ -33,6 +34,12 @@ Domain with_hole(std::vector<DomainLine> hole, double size) {
   Domain domain = domain_of(unit_square, size);
   domain.lines.insert(domain.lines.end(), hole.begin(), hole.end());
   return domain;
+}
+
+double vertices_inside(const Domain& domain) {
+  FormerVertices vertices;
+  polygon_mesh(domain, vertices);
+  return static_cast<double>(vertices.inside.points.size());
 }
 
 DomainLine crack(const Vec2& a, const Vec2& b, int facets) {
@@ -302,6 +309,44 @@ TEST(Polygons, UnitsDoNotMatter) {
 
 TEST(Polygons, FarFromTheOrigin) {
   mesh_and_check(domain_of({{1e4, 1e4}, {1e4 + 1, 1e4}, {1e4 + 1, 1e4 + 1}, {1e4, 1e4 + 1}}, 0.1), "far");
+}
+
+// Of the vertices before all stay, so that the mesh of the same domain is the same to the last bit.
+TEST(Polygons, WhatStaysOfTheSameDomainIsAllOfIt) {
+  Domain domain = with_hole({arc({0.5, 0.5}, 0.2, 0.3, -2 * pi, 32)}, 0.03);
+  domain.size = [](const Vec2& x) { return 0.03 + 0.2 * x.norm(); };
+  FormerVertices former;
+  const PolygonMesh a = polygon_mesh(domain, former), b = polygon_mesh(domain, former);
+  ASSERT_GT(a.cells.size(), 100u);
+  EXPECT_EQ(former.inside.kept, former.inside.points.size());
+  EXPECT_EQ(a.nodes, b.nodes);
+  ASSERT_EQ(a.cells.size(), b.cells.size());
+  for (std::size_t c = 0; c < a.cells.size(); ++c) {
+    EXPECT_EQ(a.cells[c].nodes, b.cells[c].nodes);
+    EXPECT_EQ(a.cells[c].centre, b.cells[c].centre);
+  }
+}
+
+// A crack that goes round in a square by short pieces, with small cells at its tip: every mesh is one that its domain
+// may have, with cells that are seen as well as those of a mesh made at once.
+TEST(Polygons, EveryMeshOfACrackThatGrowsIsValid) {
+  FormerVertices former;
+  Domain domain = domain_of(unit_square, 0.1);
+  Vec2 tip(0.8, 0.5);
+  for (int k = 0; k < 60; ++k) {
+    const double angle = 2 * pi * (k + 1) / 80.0;
+    const Vec2 next(0.5 + 0.3 * std::cos(angle), 0.5 + 0.3 * std::sin(angle));
+    domain.lines.push_back(crack(tip, next, 2));
+    tip = next;
+    domain.centres = {Vec2(0.8, 0.5), tip};
+    domain.size = [tip](const Vec2& x) { return std::min(0.1, 0.01 + 0.3 * (x - tip).norm()); };
+    const MeshFigures figures = expect_valid(domain, polygon_mesh(domain, former), "piece " + std::to_string(k));
+    EXPECT_GT(figures.visibility, 0.03) << k;
+    if (k > 0) {
+      EXPECT_GT(former.inside.kept, former.inside.points.size() / 2) << k;
+    }
+  }
+  EXPECT_LT(former.inside.points.size(), 1.3 * vertices_inside(domain));
 }
 
 TEST(Polygons, SameInputSameMesh) {

@@ -15,6 +15,7 @@
 #include "scabo/analysis/march/reports.hpp"
 #include "scabo/analysis/state/continuation.hpp"
 #include "scabo/base/stopwatch.hpp"
+#include "scabo/mesh/plane/former_vertices.hpp"
 
 namespace scabo::analysis {
 
@@ -70,12 +71,14 @@ class Growing {
         tips_(growing_tips(solution.model)),
         all_tips_(tips_),
         first_cells_(solution.cells),
+        vertices_(solution.model.bodies.size()),
         first_(solution.increments.size()),
         from_(std::move(before)) {
     factorised_.structure = solution.structure;
     factorised_.cells = solution.cells;
     for (const model::Body& body : solution.model.bodies) sizes_.push_back(body.mesh.refine);
     for (const Tip& tip : tips_) first_length_ = std::max(first_length_, length_of(crack_of(solution.model, tip)));
+    if (mesh::has_polygons(model())) mesh::make_mesh(with_fine_tips(solution.model), vertices_);
   }
 
   /// Goes back to the last of the increments that the run continues from; its number.
@@ -89,7 +92,7 @@ class Growing {
   const model::GrowthStep& growth() const { return *model().steps.back().growth; }
   model::Model longer(const std::vector<Vec2>& directions, const GrowthResult& at, const std::vector<double>& lengths,
                       double part = 1.0) const;
-  Discretisation divided(model::Model model);
+  Discretisation divided(model::Model model, std::vector<mesh::FormerVertices>& former);
   Discretisation divided_for(model::Model model, int number);
   void go_on(Discretisation longer);
   bool has_contacts() const { return !model().contacts.empty(); }
@@ -115,6 +118,7 @@ class Growing {
   const std::vector<Tip> all_tips_;                      // at first
   const std::vector<element::SolvedCells> first_cells_;  // of the first state: equal ones take their solutions
   Discretisation factorised_;                            // structure and cells of the last state factorised as a whole
+  std::vector<mesh::FormerVertices> vertices_;           // of the present mesh, of every body
   std::size_t first_ = 0;                                // increments of the steps before
   std::vector<std::vector<model::LocalSize>> sizes_;     // given by the user
   double first_length_ = 0.0;
@@ -132,15 +136,15 @@ model::Model Growing::longer(const std::vector<Vec2>& directions, const GrowthRe
   return longer;
 }
 
-Discretisation Growing::divided(model::Model model) {
-  mesh::Mesh mesh = timed(solution_.timing.mesh, [&] { return mesh::make_mesh(model); });
+Discretisation Growing::divided(model::Model model, std::vector<mesh::FormerVertices>& former) {
+  mesh::Mesh mesh = timed(solution_.timing.mesh, [&] { return mesh::make_mesh(model, former); });
   return remesh(solution_, std::move(model), std::move(mesh), solution_.timing, &factorised_);
 }
 
 Discretisation Growing::divided_for(model::Model model, int number) {
   const bool is_first = (number - 1) % states_of_a_factor == 0;
   if (is_first) factorised_.structure.reset(), factorised_.cells = first_cells_;
-  Discretisation of = divided(std::move(model));
+  Discretisation of = divided(std::move(model), vertices_);
   if (is_first) factorised_.structure = of.structure, factorised_.cells = of.cells;
   return of;
 }
@@ -159,23 +163,18 @@ int Growing::restore(const Continuation& from) {
   model::Model longer = model();
   first_ = from.increments.size() - static_cast<std::size_t>(number);
   for (std::size_t i = first_; i + 1 < from.increments.size(); ++i) {
-    const GrowthResult& here = *from.increments[i].growth;
-    std::vector<std::optional<Vec2>> met;
-    for (const TipResult& tip : here.tips) met.push_back(tip.meets);
-    const bool meets = std::any_of(met.begin(), met.end(), [](const auto& at) { return at.has_value(); });
-    for (std::size_t t = 0; t < tips_.size(); ++t) {
-      if (met[t])
-        extend(longer, tips_[t], *met[t]);
-      else if (here.tips[t].grows && !meets)
-        extend(longer, tips_[t], from.increments[i + 1].growth->tips[t].position);
-    }
-    tips_ = without_met(tips_, met);
+    follow(longer, tips_, *from.increments[i].growth, *from.increments[i + 1].growth);
     const int next = static_cast<int>(i - first_) + 2;
-    if (next != number && ((next - 1) % states_of_a_factor != 0 || number - next >= states_of_a_factor)) continue;
+    const bool is_wanted =
+        next == number || ((next - 1) % states_of_a_factor == 0 && number - next < states_of_a_factor);
     model::Model refined = longer;
     refine_at_tips(refined, tips_, sizes_);
-    Discretisation of = divided_for(std::move(refined), next);
-    if (next == number) go_on(std::move(of));
+    if (is_wanted) {
+      Discretisation of = divided_for(std::move(refined), next);
+      if (next == number) go_on(std::move(of));
+    } else if (mesh::has_polygons(model())) {
+      mesh::make_mesh(refined, vertices_);  // of which parts stay
+    }
   }
   solution_.pairings = number - 1;
   return number;
@@ -251,7 +250,8 @@ std::optional<GrowthEnergy> Growing::energy_until(const Prepared& prepared, cons
 std::variant<Middle, std::string> Growing::middle(const Prepared& prepared, const Sought& now, const State& state,
                                                   const std::vector<Vec2>& directions,
                                                   const std::vector<double>& lengths) {
-  const Discretisation half = divided(longer(directions, now.at, lengths, 0.5));
+  std::vector<mesh::FormerVertices> former = vertices_;
+  const Discretisation half = divided(longer(directions, now.at, lengths, 0.5), former);
   const Prepared there(half);
   Middle middle;
   const State from = has_contacts() ? on_longer(there, prepared, state, tips_) : initial_state(there);

@@ -104,6 +104,19 @@ std::vector<Tip> without_met(const std::vector<Tip>& tips, const std::vector<std
   return left;
 }
 
+void follow(model::Model& model, std::vector<Tip>& tips, const GrowthResult& here, const GrowthResult& next) {
+  std::vector<std::optional<Vec2>> met;
+  for (const TipResult& tip : here.tips) met.push_back(tip.meets);
+  const bool meets = std::any_of(met.begin(), met.end(), [](const auto& at) { return at.has_value(); });
+  for (std::size_t t = 0; t < tips.size(); ++t) {
+    if (met[t])
+      extend(model, tips[t], *met[t]);
+    else if (here.tips[t].grows && !meets)
+      extend(model, tips[t], next.tips[t].position);
+  }
+  tips = without_met(tips, met);
+}
+
 double length_until(const Meetings& met, const GrowthResult& at) {
   double sum = 0.0;
   for (std::size_t t = 0; t < met.at.size(); ++t)

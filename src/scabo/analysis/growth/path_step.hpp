@@ -41,6 +41,9 @@ std::optional<Meetings> meetings(const model::Model& model, const std::vector<Ti
 /// The tips that go on.
 std::vector<Tip> without_met(const std::vector<Tip>& tips, const std::vector<std::optional<Vec2>>& met);
 
+/// From the cracks of one state, `here`, to those of the `next`, as both were reported.
+void follow(model::Model& model, std::vector<Tip>& tips, const GrowthResult& here, const GrowthResult& next);
+
 /// How far tips go until they meet something, and in which direction: in place of `lengths`.
 double length_until(const Meetings& met, const GrowthResult& at);
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "scabo/mesh/plane/distinct_points.hpp"
 #include "scabo/mesh/plane/interior_points.hpp"
@@ -118,10 +120,9 @@ std::vector<int> regions_of(const Domain& domain, const DualVertices& vertices,
   return region;
 }
 
-// Moves every vertex inside to the centroid of the triangles around it, weighted by the density of points.
-void smooth(DualTriangulation& dual) {
+// Moves the vertices from `first` on to the centroid of the triangles around them, weighted by the density of points.
+void smooth(DualTriangulation& dual, int first) {
   DualVertices& vertices = dual.vertices;
-  const int first = vertices.on_lines;
   const std::size_t count = vertices.points.size() - index_of(first);
   std::vector<Vec2> moment(count, Vec2::Zero());
   std::vector<double> weight(count, 0.0);
@@ -159,6 +160,48 @@ void smooth(DualTriangulation& dual) {
     }
   for (std::size_t i = 0; i < count; ++i)
     if (!stays[i]) vertices.points[index_of(first) + i] = moved[i];
+}
+
+// Triangles in the order of their vertices, the least of which comes first.
+std::vector<Triangle> in_order(std::vector<Triangle> triangles) {
+  for (Triangle& triangle : triangles) {
+    const auto least = std::min_element(triangle.vertices.begin(), triangle.vertices.end()) - triangle.vertices.begin();
+    std::rotate(triangle.vertices.begin(), triangle.vertices.begin() + least, triangle.vertices.end());
+    std::rotate(triangle.neighbours.begin(), triangle.neighbours.begin() + least, triangle.neighbours.end());
+    std::rotate(triangle.constrained.begin(), triangle.constrained.begin() + least, triangle.constrained.end());
+  }
+  std::vector<std::size_t> order(triangles.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return triangles[a].vertices < triangles[b].vertices; });
+  std::vector<int> place(triangles.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<int>(k);
+  std::vector<Triangle> sorted;
+  sorted.reserve(triangles.size());
+  for (const std::size_t k : order) {
+    sorted.push_back(triangles[k]);
+    for (int& neighbour : sorted.back().neighbours)
+      if (neighbour >= 0) neighbour = place[index_of(neighbour)];
+  }
+  return sorted;
+}
+
+// Vertices inside: those that stay in their order, then those that are new. `former` becomes them, as they are before
+// they are smoothed.
+void add_inside(DualVertices& vertices, InteriorPoints inside, InteriorPoints& former) {
+  const auto from = inside.points.begin() + static_cast<std::ptrdiff_t>(inside.kept);
+  std::vector<std::size_t> order(inside.kept);
+  std::iota(order.begin(), order.end(), 0);
+  for (const std::size_t i : spatial_order(std::vector<Vec2>(from, inside.points.end())))
+    order.push_back(inside.kept + i);
+  former = {{}, {}, {}, inside.kept};
+  for (const std::size_t i : order) {
+    vertices.points.push_back(inside.points[i]);
+    vertices.spacing.push_back(inside.spacing[i]);
+    former.points.push_back(inside.points[i]);
+    former.spacing.push_back(inside.spacing[i]);
+    former.angles.push_back(inside.angles[i]);
+  }
 }
 
 }  // namespace
@@ -228,33 +271,36 @@ int corner_at(const DualVertices& vertices, const Vec2& place) {
   return least <= 1e-9 * vertices.spacing[index_of(nearest)] ? nearest : -1;
 }
 
-DualTriangulation triangulate_domain(const Domain& domain, DualVertices vertices) {
+DualTriangulation triangulate_domain(const Domain& domain, DualVertices vertices, FormerVertices& former) {
   std::vector<BorderSegment> borders;
+  std::vector<std::array<double, 4>> segments;
   vertices.spacing.assign(index_of(vertices.on_lines), std::numeric_limits<double>::infinity());
   for (const LinePiece& piece : vertices.pieces) {
     const DomainLine& line = domain.lines[index_of(piece.line)];
     for (std::size_t j = 0; j + 1 < piece.vertices.size(); ++j) {
       const std::size_t a = index_of(piece.vertices[j]), b = index_of(piece.vertices[j + 1]);
       const double facet = facet_at(line, piece, static_cast<int>(j));
-      borders.push_back({vertices.points[a], vertices.points[b], facet, line.left >= 0, line.right >= 0});
+      segments.push_back(FormerVertices::segment(vertices.points[a], vertices.points[b]));
+      borders.push_back({vertices.points[a], vertices.points[b], facet, line.left >= 0, line.right >= 0,
+                         !former.has(segments.back())});
       for (const std::size_t v : {a, b}) vertices.spacing[v] = std::min(vertices.spacing[v], spacing_per_size * facet);
     }
   }
   const auto spacing = [&](const Vec2& p) { return spacing_per_size * domain.size(p); };
-  const InteriorPoints inside = interior_points(borders, spacing);
-  for (const std::size_t i : spatial_order(inside.points)) {
-    vertices.points.push_back(inside.points[i]);
-    vertices.spacing.push_back(inside.spacing[i]);
-  }
+  add_inside(vertices, interior_points(borders, spacing, former.inside), former.inside);
+  std::sort(segments.begin(), segments.end());
+  former.segments = std::move(segments);
 
   DualTriangulation dual{std::move(vertices), {}, {}};
   const std::vector<std::size_t> order = spatial_order(dual.vertices.points);
   for (int round = 0;; ++round) {
-    dual.triangles = triangulate(dual.vertices.points, dual.vertices.segments, order);
+    dual.triangles = in_order(triangulate(dual.vertices.points, dual.vertices.segments, order));
     dual.region = regions_of(domain, dual.vertices, dual.triangles);
-    if (round == rounds_of_smoothing) return dual;
-    smooth(dual);
+    if (round == rounds_of_smoothing) break;
+    smooth(dual, dual.vertices.on_lines + static_cast<int>(former.inside.kept));
   }
+  former.inside.points.assign(dual.vertices.points.begin() + dual.vertices.on_lines, dual.vertices.points.end());
+  return dual;
 }
 
 }  // namespace scabo::mesh

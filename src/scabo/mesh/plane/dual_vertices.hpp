@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scabo/mesh/plane/domain.hpp"
+#include "scabo/mesh/plane/former_vertices.hpp"
 #include "scabo/mesh/plane/triangulation.hpp"
 
 namespace scabo::mesh {
@@ -54,7 +55,8 @@ struct DualTriangulation {
   std::vector<int> region;  ///< of each triangle; -1: outside
 };
 
-/// Adds the vertices inside, triangulates and smooths.
-DualTriangulation triangulate_domain(const Domain& domain, DualVertices vertices);
+/// Adds the vertices inside, triangulates and smooths. The order of the triangles follows from that of their vertices.
+/// `former`: segments and vertices before, which become those of this triangulation; empty: none stay.
+DualTriangulation triangulate_domain(const Domain& domain, DualVertices vertices, FormerVertices& former);
 
 }  // namespace scabo::mesh

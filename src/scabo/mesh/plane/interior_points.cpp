@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -18,6 +19,7 @@ namespace {
 constexpr double from_points = 0.72;   // least distance of a new point from others, per spacing
 constexpr double from_lines = 0.55;    // the same from lines
 constexpr double from_segments = 0.3;  // and per length of the segment: long facets have no crowd of points before them
+constexpr double beside_new = 2.0;     // points that stay are so many spacings from new segments
 /// Spacings by which points take their turn differ by more than rounding, which has no say in the mesh.
 double rounded(double spacing) { return static_cast<double>(static_cast<float>(spacing)); }
 
@@ -186,12 +188,59 @@ class PointBoxes {
   int lowest_ = std::numeric_limits<int>::max(), highest_ = std::numeric_limits<int>::min();
 };
 
+// The room of points that are no longer there: all that is nearer to them than to those that stay.
+class Room {
+ public:
+  explicit Room(const InteriorPoints& former) : points_(former.points), tree_(boxes_of(former.points)) {
+    stays_.assign(points_.size(), false);
+  }
+
+  void stay(std::size_t point) { stays_[point] = true; }
+
+  // Whether a point may lie there; anywhere, if there were none before.
+  bool has(const Vec2& p) const {
+    if (points_.empty()) return true;
+    double least = infinity;
+    std::size_t nearest = 0;
+    const auto matters = [&](std::size_t node) { return geometry::distance_to(tree_.nodes()[node].box, p) < least; };
+    tree_.visit_from(p, matters, [&](std::size_t i) {
+      if (const double distance = (points_[i] - p).norm(); distance < least) least = distance, nearest = i;
+    });
+    return !stays_[nearest];
+  }
+
+ private:
+  static std::vector<geometry::Box> boxes_of(const std::vector<Vec2>& points) {
+    std::vector<geometry::Box> boxes(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) boxes[i].add(points[i]);
+    return boxes;
+  }
+
+  const std::vector<Vec2>& points_;
+  geometry::BoxTree tree_;
+  std::vector<bool> stays_;
+};
+
+std::vector<BorderSegment> new_ones_of(const std::vector<BorderSegment>& segments) {
+  std::vector<BorderSegment> found;
+  std::copy_if(segments.begin(), segments.end(), std::back_inserter(found),
+               [](const BorderSegment& segment) { return segment.is_new; });
+  return found;
+}
+
 class Growth {
  public:
-  Growth(const std::vector<BorderSegment>& segments, const std::function<double(const Vec2&)>& spacing)
-      : segments_(segments), spacing_(spacing), tree_(segments), boxes_(origin_of(segments)) {}
+  Growth(const std::vector<BorderSegment>& segments, const std::function<double(const Vec2&)>& spacing,
+         const InteriorPoints& former)
+      : segments_(segments),
+        spacing_(spacing),
+        tree_(segments),
+        boxes_(origin_of(segments)),
+        former_(former),
+        room_(former) {}
 
   InteriorPoints run() {
+    keep();
     struct Seed {
       std::size_t segment;
       double spacing;
@@ -242,6 +291,31 @@ class Growth {
     return wanted;
   }
 
+  // Takes over what stays of the points before.
+  void keep() {
+    const std::vector<BorderSegment> new_ones = new_ones_of(segments_);
+    const SegmentTree near(new_ones);
+    for (std::size_t i = 0; i < former_.points.size(); ++i) {
+      const Vec2& point = former_.points[i];
+      const Surroundings around = tree_.around(point);
+      const double wanted = std::min(wanted_at(point), around.spacing);
+      if (!is_near(former_.spacing[i], wanted) || near.around(point).distance < beside_new * wanted) continue;
+      room_.stay(i);
+      add(point, former_.spacing[i], wanted, around, former_.angles[i]);
+    }
+    result_.kept = result_.points.size();
+  }
+
+  // `wanted`: of new points there.
+  void add(const Vec2& point, double spacing, double wanted, const Surroundings& around, double angle) {
+    boxes_.add(point, wanted);
+    result_.points.push_back(point);
+    result_.spacing.push_back(spacing);
+    result_.angles.push_back(angle);
+    surroundings_.push_back(around);
+    waiting_.push({rounded(wanted), static_cast<int>(result_.points.size()) - 1});
+  }
+
   // Adds the point at `distance` from `from` if there is room for it; a little nearer or farther, if it adapts and the
   // wanted spacing changes on the way.
   void propose(const Vec2& from, double spacing, const Surroundings& around_from, const Vec2& direction,
@@ -263,13 +337,8 @@ class Growth {
       wanted = std::min(wanted, around.spacing);
       if (around.distance < from_lines * wanted || around.clearance < 0.0 || tree_.crosses(from, point)) return;
     }
-    if (boxes_.any_within(result_.points, point, wanted, from_points * wanted)) return;
-    boxes_.add(point, wanted);
-    result_.points.push_back(point);
-    result_.spacing.push_back(wanted);
-    surroundings_.push_back(around);
-    angles_.push_back(angle);
-    waiting_.push({rounded(wanted), static_cast<int>(result_.points.size()) - 1});
+    if (boxes_.any_within(result_.points, point, wanted, from_points * wanted) || !room_.has(point)) return;
+    add(point, wanted, wanted, around, angle);
   }
 
   void grow() {
@@ -277,7 +346,7 @@ class Growth {
       const auto i = static_cast<std::size_t>(waiting_.top().point);
       waiting_.pop();
       const Vec2 from = result_.points[i];
-      const double spacing = result_.spacing[i], angle = angles_[i];
+      const double spacing = result_.spacing[i], angle = result_.angles[i];
       const Surroundings around = surroundings_[i];
       for (int k = 0; k < 6; ++k) {
         const double direction = angle + k * std::numbers::pi / 3.0;
@@ -290,17 +359,18 @@ class Growth {
   const std::function<double(const Vec2&)>& spacing_;
   SegmentTree tree_;
   PointBoxes boxes_;
+  const InteriorPoints& former_;
+  Room room_;
   InteriorPoints result_;
   std::vector<Surroundings> surroundings_;  // lower bounds, for each point
-  std::vector<double> angles_;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting_;
 };
 
 }  // namespace
 
 InteriorPoints interior_points(const std::vector<BorderSegment>& segments,
-                               const std::function<double(const Vec2&)>& spacing) {
-  return Growth(segments, spacing).run();
+                               const std::function<double(const Vec2&)>& spacing, const InteriorPoints& former) {
+  return Growth(segments, spacing, former).run();
 }
 
 }  // namespace scabo::mesh

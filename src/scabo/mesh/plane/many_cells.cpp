@@ -66,6 +66,41 @@ std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge, 
   return breaks;
 }
 
+bool is_same(const geometry::Edge& a, const geometry::Edge& b) {
+  const auto arc_of = [](const geometry::Edge& edge) {
+    const geometry::Arc arc = edge.arc.value_or(geometry::Arc());
+    return std::array<double, 5>{arc.centre.x(), arc.centre.y(), arc.radius, arc.start_angle, arc.sweep};
+  };
+  return a.start == b.start && a.end == b.end && a.points == b.points && arc_of(a) == arc_of(b);
+}
+
+/// As it was divided before, if it was; elements that are too coarse or too fine now are divided anew, where several
+/// follow each other together.
+std::vector<double> breaks_of(const Sizing& sizing, const geometry::Edge& edge, int least_count,
+                              const std::vector<FormerLine>& former) {
+  const auto before =
+      std::find_if(former.begin(), former.end(), [&](const FormerLine& line) { return is_same(line.edge, edge); });
+  if (before == former.end()) return breaks_of(sizing, edge, least_count);
+  const std::vector<double>& old = before->breaks;
+  const auto stays = [&](std::size_t k) {
+    return is_near((old[k + 1] - old[k]) * edge.length(), sizing.at(edge.at(0.5 * (old[k] + old[k + 1]))));
+  };
+  std::vector<double> breaks{0.0};
+  for (std::size_t k = 0, last; k + 1 < old.size(); k = last) {
+    last = k + 1;
+    if (stays(k)) {
+      breaks.push_back(old[last]);
+      continue;
+    }
+    while (last + 1 < old.size() && !stays(last)) ++last;
+    const std::vector<double> anew =
+        graded_breaks(edge, {old[k], old[last]}, sizing.at,
+                      {1.0, sizing.turn, rounding_of(sizing.largest), std::numeric_limits<double>::infinity()});
+    breaks.insert(breaks.end(), anew.begin() + 1, anew.end());
+  }
+  return breaks;
+}
+
 /// The part of an edge from fraction `from` to `to`.
 DomainLine part_of(const geometry::Edge& edge, const std::vector<double>& breaks, std::size_t from, std::size_t to) {
   DomainLine line;
@@ -79,8 +114,7 @@ DomainLine part_of(const geometry::Edge& edge, const std::vector<double>& breaks
 }
 
 /// Lines of an edge: one, or two halves of a long arc.
-std::vector<DomainLine> lines_of(const Sizing& sizing, const geometry::Edge& edge, int least_count = 1) {
-  const std::vector<double> breaks = breaks_of(sizing, edge, least_count);
+std::vector<DomainLine> lines_of(const geometry::Edge& edge, const std::vector<double>& breaks) {
   const std::size_t last = breaks.size() - 1;
   if (!edge.arc || std::abs(edge.arc->sweep) < std::numbers::pi) return {part_of(edge, breaks, 0, last)};
   return {part_of(edge, breaks, 0, last / 2), part_of(edge, breaks, last / 2, last)};
@@ -106,12 +140,13 @@ bool is_folded(const Cell& triangle, const std::vector<Vec2>& nodes) {
   return false;
 }
 
-/// `turn`, `curved_sides`: of a quadtree (QuadtreeOptions).
-PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double turn, bool curved_sides) {
+/// `turn`, `curved_sides`: of a quadtree (QuadtreeOptions); `former`: of polygons.
+PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double turn, bool curved_sides,
+                        FormerVertices& former) {
   const auto size_of_options = [&body](const Vec2& x) { return wanted_size(body, {}, x); };
   switch (body.mesh.kind) {
     case model::MeshKind::polygons:
-      return polygon_mesh(domain);
+      return polygon_mesh(domain, former);
     case model::MeshKind::quadtree:
       return quadtree_mesh(domain, {.min_size = body.mesh.min_size,
                                     .turn = turn,
@@ -130,7 +165,8 @@ PolygonMesh polygons_of(const Domain& domain, const model::Body& body, double tu
 
 }  // namespace
 
-BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options) {
+BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options,
+                     const std::vector<FormerLine>& former) {
   BodyDomain made;
   const CrackNet cracks(body);
   const std::vector<NetLine> net = line_net(body, cracks);
@@ -145,8 +181,9 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
   }
   made.lines_of_edge.resize(body.outline.edges.size());
   made.lines_of_crack.resize(cracks.paths().size());
-  for (const NetLine& of : net)
-    for (DomainLine& line : lines_of(sizing, of.edge, least_elements(body, of))) {
+  for (const NetLine& of : net) {
+    made.divided.push_back({of.edge, breaks_of(sizing, of.edge, least_elements(body, of), former)});
+    for (DomainLine& line : lines_of(of.edge, made.divided.back().breaks)) {
       line.left = of.left;
       line.right = of.right;
       line.crack = of.crack;
@@ -156,6 +193,7 @@ BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const Narr
       made.domain.lines.push_back(std::move(line));
       made.sources.push_back(of);
     }
+  }
   made.domain.centres = cracks.tips();
   made.domain.size = sizing.at;
   return made;
@@ -344,19 +382,22 @@ std::vector<Attempt> attempts_for(const model::MeshOptions& options) {
   return attempts;
 }
 
-BodyDomain domain_for(const Attempt& attempt, const UnitFree& own, double most_nodes) {
+BodyDomain domain_for(const Attempt& attempt, const UnitFree& own, double most_nodes,
+                      const std::vector<FormerLine>& former) {
   return domain_of(own.body(), own.sizes(),
                    {.sizes_per_width = attempt.sizes_per_width,
                     .gaps = attempt.narrow,
                     .arcs = attempt.narrow && own.body().mesh.kind == model::MeshKind::quadtree,
                     .most = most_nodes,
-                    .finer_arcs = attempt.finer_arcs});
+                    .finer_arcs = attempt.finer_arcs},
+                   former);
 }
 
-/// The cells of a domain in the units of the model; of finite elements with open cracks. Throws Refusal.
+/// The cells of a domain in the units of the model; of finite elements with open cracks. Throws Refusal. `former`: as
+/// of divide_into_cells().
 std::variant<BodyMesh, Diagnostic> cells_in(const BodyDomain& of, const Attempt& attempt, const UnitFree& own,
-                                            const model::Body& body) {
-  const PolygonMesh polygons = polygons_of(of.domain, own.body(), attempt.turn, attempt.curved_sides);
+                                            const model::Body& body, FormerVertices& former) {
+  const PolygonMesh polygons = polygons_of(of.domain, own.body(), attempt.turn, attempt.curved_sides, former);
   std::vector<BorderNodes> borders;
   for (std::size_t l = 0; l < of.sources.size(); ++l)
     if (of.sources[l].region >= 0)
@@ -412,8 +453,8 @@ Diagnostic not_divided(const model::Body& body, const Refusal& refusal, const Un
 
 }  // namespace
 
-std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes,
-                                                     double most_nodes) {
+std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes, double most_nodes,
+                                                     FormerVertices* former) {
   if (body.image) {
     try {
       return divide_image(body, most_nodes);
@@ -425,11 +466,16 @@ std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, co
   const UnitFree own(body, sizes);
   const std::vector<Attempt> attempts = attempts_for(body.mesh);
   for (std::size_t a = 0;; ++a) {
-    const BodyDomain of = domain_for(attempts[a], own, most_nodes);
+    FormerVertices kept;
+    if (former && former->attempt == static_cast<int>(a)) kept = *former;
+    const BodyDomain of = domain_for(attempts[a], own, most_nodes, kept.lines);
     const Narrowest narrowest(of, own);
     if (of.narrow.cells > most_nodes) return too_narrow(body, narrowest, most_nodes);
     try {
-      return cells_in(of, attempts[a], own, body);
+      auto made = cells_in(of, attempts[a], own, body, kept);
+      if (former && body.mesh.kind == model::MeshKind::polygons)
+        *former = {static_cast<int>(a), of.divided, std::move(kept.segments), std::move(kept.inside)};
+      return made;
     } catch (const Refusal& refusal) {
       if (a + 1 == attempts.size()) return not_divided(body, refusal, own, narrowest);
     }

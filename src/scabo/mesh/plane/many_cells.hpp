@@ -5,6 +5,7 @@
 
 #include "scabo/mesh/mesh.hpp"
 #include "scabo/mesh/plane/domain.hpp"
+#include "scabo/mesh/plane/former_vertices.hpp"
 #include "scabo/mesh/plane/graded_edge.hpp"
 #include "scabo/mesh/plane/narrow_places.hpp"
 #include "scabo/mesh/plane/size_field.hpp"
@@ -18,14 +19,17 @@ struct BodyDomain {
   std::vector<std::vector<std::size_t>> lines_of_edge;   ///< the lines of each edge of the outline, in its direction
   std::vector<std::vector<std::size_t>> lines_of_crack;  ///< the lines of each crack, in the direction of its path
   std::vector<NetLine> sources;                          ///< what each line is a part of
+  std::vector<FormerLine> divided;                       ///< how whole lines were divided
   NarrowPlaces narrow;
 };
-BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options);
+/// `former`: lines that were divided before, and stay so where that is fine enough.
+BodyDomain domain_of(const model::Body& body, const SizeField& sizes, const NarrowOptions& options,
+                     const std::vector<FormerLine>& former = {});
 
 /// Divides a body into cells, of polynomial order mesh.order; or says why this is not possible. `most_nodes`: at most
-/// about as many nodes.
-std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes,
-                                                     double most_nodes);
+/// about as many nodes. `former`: of polygons, from what those before were made; becomes that of these.
+std::variant<BodyMesh, Diagnostic> divide_into_cells(const model::Body& body, const SizeField& sizes, double most_nodes,
+                                                     FormerVertices* former = nullptr);
 
 /// Line elements of the given order on the sides of polygons; sides on arcs are curved. `of`: the domain of the body,
 /// in which polygons were made.

@@ -24,6 +24,7 @@
 #pragma once
 
 #include "scabo/mesh/plane/domain.hpp"
+#include "scabo/mesh/plane/former_vertices.hpp"
 
 namespace scabo::mesh {
 
@@ -36,5 +37,7 @@ constexpr double spacing_per_size = 1.0745699318235418;
 /// a file, if lines cross or touch between their ends, if a scaling centre is not the end of a line, or if the facets
 /// given are too long for the shape.
 PolygonMesh polygon_mesh(const Domain& domain);
+/// The same, with what stays of `former`, whose segments and vertices become those of this mesh.
+PolygonMesh polygon_mesh(const Domain& domain, FormerVertices& former);
 
 }  // namespace scabo::mesh
