@@ -83,8 +83,7 @@ class BDifferentiableEquations {
   /// H'(z; d), exact also at ties: it does not depend on the branches followed there.
   Vector derivative(const Residual& at, const Vector& d) const;
 
-  /// At ties: follows the branches that d itself takes from now on, `at.along` being its motions. Returns the number of
-  /// pairs whose branch changes.
+  /// At ties: follows the branches that d, with the motions `at.along`, takes from now on. The number that changes.
   int follow(Residual& at, const Vector& d) const;
 
   /// Coefficient of friction of pair `i` on the branch followed.
