@@ -118,7 +118,7 @@ struct InteriorConstants {
   double lagging = 0.9;         ///< ... beyond it sigma is at least this: y must not vanish before the motions come
   double settled = 1e-13;       ///< of the loads: what lacks less is rounding
   double least_of_mean = 1e-6;  ///< of the mean W_ii: least by which a pair is scaled; what is held does not give way
-  double held = 1e-12;          ///< D of equations, E, over W_ii = 1: holds what nothing determines
+  double held = 1e-12;          ///< in D and E, over W_ii = 1: holds what nothing determines
   double no_friction = 1e-12;   ///< coefficients up to it are 0: their cone would have no inside
 };
 inline constexpr InteriorConstants interior_constants;

@@ -18,14 +18,20 @@ bool GeneralSolver::factorise(Matrix& A, Eigen::Index n) {
 
 double GeneralSolver::reciprocal_condition() const {
   if (n_ == 0) return 1.0;
-  if (static_cast<Eigen::Index>(work_.size()) < 4 * n_) {
-    work_.resize(static_cast<std::size_t>(4 * factor_->cols()));
+  if (static_cast<Eigen::Index>(whole_work_.size()) < n_) {
+    work_.resize(static_cast<std::size_t>(2 * factor_->cols()));
     whole_work_.resize(static_cast<std::size_t>(factor_->cols()));
   }
-  double reciprocal = 0.0;
-  LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', static_cast<int>(n_), factor_->data(),
-                      static_cast<int>(factor_->outerStride()), norm_, &reciprocal, work_.data(), whole_work_.data());
-  return reciprocal;
+  const auto n = static_cast<int>(n_);
+  double *const x = work_.data(), *const v = x + n_;
+  double norm_of_inverse = 0.0;
+  int asked = 0, saved[3];
+  while (true) {
+    LAPACKE_dlacn2_work(n, v, x, whole_work_.data(), &norm_of_inverse, &asked, saved);
+    if (asked == 0) return 1.0 / (norm_ * norm_of_inverse);
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, asked == 1 ? 'N' : 'T', n, 1, factor_->data(),
+                        static_cast<int>(factor_->outerStride()), pivots_.data(), x, n);
+  }
 }
 
 void GeneralSolver::solve_in_place(Vector& x) const {

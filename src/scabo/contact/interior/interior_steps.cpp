@@ -231,7 +231,7 @@ template <int d>
 void InteriorSteps<d>::lay_out() {
   for (Index i = 0; i < problem_.pairs(); ++i) {
     const Index row = first_[static_cast<std::size_t>(i)];
-    if (opens(i)) rows_.D[row] = at_.y[i] / at_.x[i];
+    if (opens(i)) rows_.D[row] = interior_constants.held + at_.y[i] / at_.x[i];
     if (!has_cone(i)) continue;
     const V h = part(scaling_.phi, i).cwiseAbs2();
     const TT& directions = scaling_.directions[static_cast<std::size_t>(i)];
@@ -241,8 +241,8 @@ void InteriorSteps<d>::lay_out() {
           directions.col(k);
     const double follows = (forward * h[0] - backward * h[1]) / (h[0] + h[1]);  // mu'
     rows_.C.col(row).template segment<d - 1>(1) = -follows * directions.col(0);
-    rows_.D[row + 1] = 0.5 * (h[0] + h[1]);
-    if constexpr (d == 3) rows_.D[row + 2] = h[2];
+    rows_.D[row + 1] = interior_constants.held + 0.5 * (h[0] + h[1]);
+    if constexpr (d == 3) rows_.D[row + 2] = interior_constants.held + h[2];
     if (lifts_.size() == 0) continue;
     rows_.L.col(row) = rows_.C.col(row);
     const double both = forward + backward;

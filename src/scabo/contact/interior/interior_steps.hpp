@@ -21,10 +21,11 @@
 //
 //     D_n = y / x,   D_e = (h_1 + h_2) / 2,   mu' = (mu_f h_1 - mu_b h_2) / (h_1 + h_2),   D across e: h_3
 //
-// h = phi^2. What slips or is open has a large D and stands alone in its row. Of the two ways to dx and dy, through the
-// product or through the equations of motion, each is taken where it loses no digits. A predictor with r for m = 0
-// comes first, then the corrector for sigma m, sigma = (m reached / m)^3, with the products of the predictor's changes
-// (Mehrotra, SIAM J. Optim. 2 (1992) 575).
+// h = phi^2; D has a little more, by which forces that move nothing are held (Friedlander and Orban, Math. Program.
+// Comput. 4 (2012) 71). What slips or is open has a large D and stands alone in its row. Of the two ways to dx and dy,
+// through the product or through the equations of motion, each is taken where it loses no digits. A predictor with r
+// for m = 0 comes first, then the corrector for sigma m, sigma = (m reached / m)^3, with the products of the
+// predictor's changes (Mehrotra, SIAM J. Optim. 2 (1992) 575).
 //
 // The problem is not convex. With the slips held it is (held_slips.hpp): then u_n = y + beta.Y - lift, lift the beta.Y
 // of slips that are given, which makes the matrix symmetric.

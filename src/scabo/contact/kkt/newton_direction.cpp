@@ -121,7 +121,7 @@ void NewtonDirection::lay_out(const Residual& at, double regularisation) {
   }
 }
 
-bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d) {
+bool NewtonDirection::solve(Residual& at, double regularisation, Vector& d) {
   const Problem& problem = equations_.problem();
   lay_out(at, regularisation);
   const Eigen::Index size = rows_.size(), m = problem.G.cols(), forces = known_.size();
@@ -142,7 +142,9 @@ bool NewtonDirection::solve(const Residual& at, double regularisation, Vector& d
   d.head(forces) = known_;
   rows_.add_forces(y_, problem.dimension, d);
   d.tail(m) = y_.segment(size, m);
-  return d.allFinite();
+  if (!d.allFinite()) return false;
+  equations_.motion_along(d, at.along);
+  return true;
 }
 
 /// By the cheapest of the systems that do.

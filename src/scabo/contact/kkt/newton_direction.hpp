@@ -38,12 +38,12 @@ class NewtonDirection {
   explicit NewtonDirection(const BDifferentiableEquations& equations);
   ~NewtonDirection();
 
-  /// d = [dp; da] for the branches of `at`; at ties they may be changed, of few bodies to those of d, of many to the
-  /// ones that hold least. False where there is none.
+  /// d = [dp; da] for the branches of `at`, and its motions `at.along`; at ties the branches may be changed, of few
+  /// bodies to those of d, of many to the ones that hold least. False where there is none.
   bool find(Residual& at, double regularisation, Vector& d);
 
  private:
-  bool solve(const Residual& at, double regularisation, Vector& d);
+  bool solve(Residual& at, double regularisation, Vector& d);
   bool solve_in_turn();
   void lay_out(const Residual& at, double regularisation);
   void add_unknown(int pair, const Eigen::Vector3d& row, const Eigen::Vector3d& column, double scale, double own);

@@ -248,9 +248,6 @@ double BDifferentiableEquations::followed_mu(Eigen::Index i, const Branch& branc
 
 int BDifferentiableEquations::follow(Residual& at, const Vector& direction) const {
   const Eigen::Index N = problem_.pairs(), d = problem_.dimension;
-  if (std::none_of(at.branches.begin(), at.branches.end(), [](const Branch& branch) { return branch.tied(); }))
-    return 0;
-  motion_along(direction, at.along);
   const Vector& du = at.along;
   int changed = 0;
   for (Eigen::Index i = 0; i < N; ++i) {

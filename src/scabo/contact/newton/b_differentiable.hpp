@@ -53,7 +53,7 @@ struct Branch {
 /// H and related quantities at one point; memory is reused from point to point.
 struct Residual {
   Vector motion;                 // dN, u
-  Vector along;                  // dN, workspace for the change of u along a direction
+  Vector along;                  // dN, change of u along the direction that was found last
   Vector H;                      // dN + m: [H2, H3] of every pair, HR
   std::vector<Branch> branches;  // N
   double merit() const { return 0.5 * H.squaredNorm(); }
@@ -83,7 +83,7 @@ class BDifferentiableEquations {
   /// H'(z; d), exact also at ties: it does not depend on the branches followed there.
   Vector derivative(const Residual& at, const Vector& d) const;
 
-  /// At ties: follows the branches that d itself takes from now on. Returns the number of pairs whose branch changes.
+  /// At ties: follows the branches that d, with the motions `at.along`, takes from now on. The number that changes.
   int follow(Residual& at, const Vector& d) const;
 
   /// Coefficient of friction of pair `i` on the branch followed.

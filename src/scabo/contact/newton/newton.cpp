@@ -84,11 +84,10 @@ class Newton {
   /// The longest step 2^-k along d that passes the search; 0 where there is none.
   double passing_step() {
     const double largest = *std::max_element(progress_.merits.begin(), progress_.merits.end()), merit = at_.merit();
-    equations_.motion_along(d_, change_);
     double step = 1.0;
     for (int k = 0; k <= newton_constants.halvings; ++k, step *= 0.5) {
       trial_p_ = at_point_.p + step * d_.head(at_point_.p.size());
-      trial_.motion = at_.motion + step * change_;
+      trial_.motion = at_.motion + step * at_.along;
       equations_.evaluate_at_motion(trial_p_, trial_);
       if (trial_.merit() <= largest - 2.0 * newton_constants.sufficient * step * merit)
         return step;  // theta'(z; d) = -2 theta
@@ -151,7 +150,7 @@ class Newton {
   NewtonDirection direction_;
   Point at_point_;
   Residual at_, trial_;
-  Vector d_, change_, trial_p_;  // memory that is kept
+  Vector d_, trial_p_;  // memory that is kept
   std::vector<Branch> before_;
   Progress progress_;
   NewtonEnd end_;
