@@ -227,9 +227,15 @@ void check_until(Checking& checking, const std::string& path, const GrowthStep& 
                            return one.body == static_cast<int>(b) && one.crack == static_cast<int>(c);
                          });
       if (!grows || !(growth.step > left * (1.0 + 1e-9))) continue;
-      checking.error(path, "step",
-                     fmt::format("is longer than what is left until the length {} of crack '{}', which is {:.6g} long",
-                                 number_text(*growth.length), crack.name, length_of(crack.path)));
+      if (left > 0.0)
+        checking.error(
+            path, "step",
+            fmt::format("is longer than what is left until the length {} of crack '{}', which is {:.6g} long",
+                        number_text(*growth.length), crack.name, length_of(crack.path)));
+      else
+        checking.error(path, "until.length",
+                       fmt::format("is no more than crack '{}' has at the beginning, {:.6g}: give a larger one",
+                                   crack.name, length_of(crack.path)));
       return;
     }
 }

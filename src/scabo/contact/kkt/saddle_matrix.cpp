@@ -53,10 +53,10 @@ void assemble_dense(const Problem& problem, const SaddleRows& rows, Vector& move
   };
   for (Index j = 0; j < n; ++j) {
     const Index from = d * rows.pair[static_cast<std::size_t>(j)];
-    Index k = 0;
-    while (k + 1 < d && rows.C(k, j) == 0.0) ++k;
-    moved.noalias() = (factor * rows.C(k, j)) * W.col(from + k);
-    while (++k < d)
+    Index first = 0;
+    while (first + 1 < d && rows.C(first, j) == 0.0) ++first;
+    moved.noalias() = (factor * rows.C(first, j)) * W.col(from + first);
+    for (Index k = first + 1; k < d; ++k)
       if (rows.C(k, j) != 0.0) moved.noalias() += (factor * rows.C(k, j)) * W.col(from + k);
     gather(j);
     A(j, j) += static_cast<Scalar>(rows.D[j]);
