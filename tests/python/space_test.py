@@ -158,7 +158,7 @@ class ConstantStress(unittest.TestCase):
         self.assertIsNone(self.result.mechanism)
         self.assertIsNone(self.result.limit)
         self.assertEqual((self.result.cracks, self.result.history), ({}, {}))  # it asks for no sections
-        with self.assertRaisesRegex(ValueError, "what must be stress, contact or mechanism"):
+        with self.assertRaisesRegex(ValueError, "what must be stress, contact, lines or mechanism"):
             self.result.plot("mesh")
 
     def test_notebook(self):
