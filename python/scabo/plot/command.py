@@ -128,15 +128,21 @@ def view_of(text):
     return azimuth, elevation
 
 
+def six_numbers(text):
+    """Those of `0,0,0.1,1,0,0`; None of anything else."""
+    try:
+        numbers = list(map(float, text.split(",")))
+    except ValueError:
+        return None
+    return numbers if len(numbers) == 6 and all(map(math.isfinite, numbers)) else None
+
+
 def cut_of(text):
     from .results import ResultsError
     if text is None:
         return None
-    try:
-        numbers = list(map(float, text.split(",")))
-    except ValueError:
-        numbers = []
-    if len(numbers) != 6 or not all(map(math.isfinite, numbers)) or not any(numbers[3:]):
+    numbers = six_numbers(text)
+    if numbers is None or not any(numbers[3:]):
         raise ResultsError(f"--cut {text}: give a point of the plane and its normal, as in --cut 0,0,0.1,1,0,0")
     return numbers[:3], numbers[3:]
 
@@ -145,11 +151,8 @@ def along_of(text):
     from .results import ResultsError
     if text is None:
         return None
-    try:
-        numbers = list(map(float, text.split(",")))
-    except ValueError:
-        numbers = []
-    if len(numbers) != 6 or not all(map(math.isfinite, numbers)) or numbers[:3] == numbers[3:]:
+    numbers = six_numbers(text)
+    if numbers is None or numbers[:3] == numbers[3:]:
         raise ResultsError(f"--along {text}: give both ends of a line, as in --along 0,0,0,1,0,0")
     return numbers[:3], numbers[3:]
 
