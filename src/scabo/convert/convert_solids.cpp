@@ -199,8 +199,9 @@ class SolidConverter {
     std::map<std::pair<int, std::string>, int> directions;
     for (const auto& [key, of] : held) {
       const auto radius = [&](int node) { return to_.axes.at(node).radius; };
-      if (std::get<1>(key) == radial && std::any_of(of.nodes.begin(), of.nodes.end(), [&](int node) {
-            return std::abs(radius(node) - radius(of.nodes.front())) > 1e-6 * radius(of.nodes.front());
+      if (std::get<1>(key) == radial &&
+          std::any_of(of.nodes.begin(), of.nodes.end(), [&, first = of.nodes.front()](int node) {
+            return std::abs(radius(node) - radius(first)) > 1e-6 * radius(first);
           }))
         to_.remarks.essential(of.at,
                               fmt::format("nodes of '{}' are held along radii by *TRANSFORM, and do not lie on one "

@@ -14,15 +14,15 @@ constexpr const char* reaction_name = "reaction";
 constexpr const char* offset_name = "offset";  // along the direction that is held
 
 /// What a constraint holds: the node of an elastic body or the motion of a rigid one, and the direction.
-constexpr std::size_t numbers_of_constraint = 4;
-std::array<double, numbers_of_constraint> described(const SolidBody& body, const system::Constraint& held) {
+constexpr std::size_t numbers_of_held = 4;
+std::array<double, numbers_of_held> described(const SolidBody& body, const system::Constraint& held) {
   const Eigen::Vector3d along = held.direction_in_space();
   return {1.0 * (body.rigid_at ? system::held_motion(held) : in_space.node_of(held.dof)), along.x(), along.y(),
           along.z()};
 }
 
 /// Whether a constraint of another run holds the same.
-bool is_same(const std::array<double, numbers_of_constraint>& wanted, const double* other) {
+bool is_same(const std::array<double, numbers_of_held>& wanted, const double* other) {
   constexpr double rounding = 1e-9;
   const Eigen::Vector3d a(wanted[1], wanted[2], wanted[3]), b(other[1], other[2], other[3]);
   return wanted[0] == other[0] && (a - b).norm() <= rounding;
@@ -84,9 +84,9 @@ void continue_held_points(const PreparedSolids& now, const EndState& end, SolidS
     for (const Eigen::Index place : points_on(now, b)) {
       const SolidHeldPoint& point = point_at(now, place);
       const auto wanted = described(body, point.held);
-      const std::size_t count = held->constraints.size() / numbers_of_constraint;
+      const std::size_t count = held->constraints.size() / numbers_of_held;
       std::size_t k = 0;
-      while (k < count && !is_same(wanted, &held->constraints[k * numbers_of_constraint])) ++k;
+      while (k < count && !is_same(wanted, &held->constraints[k * numbers_of_held])) ++k;
       if (k == count) continue;
       const double offset = kept(held->fields, offset_name).at(k);
       state.p[in_space.of(place)] = kept(held->fields, reaction_name).at(k) / lever_of(now.model, point);
