@@ -250,8 +250,13 @@ def write(options):
 def write_along(options, results, increment):
     """Values along lines as a table."""
     from . import paths
+    from .results import ResultsError
     along = along_of(options.along)
+    if options.units is not None:
+        raise ResultsError("--units: a table has the units of the model; leave it out")
     if options.what == "contact":
+        if options.component is not None:
+            raise ResultsError("--component: the table of a contact has all of pressure, shear, gap and slip; leave it out")
         paths.write_contact_table(results, increment, options.contact, along, options.output)
     else:
         paths.write_table(results, increment, options.component, along, options.output)

@@ -57,6 +57,8 @@ def paths_of(results, number):
         values = {key: table[of][rows] for key, of in column.items() if of in table}
         values["displacement"] = np.sqrt(sum(table[f"u{axis}"][rows]**2 for axis in axes))
         paths.append(Path(f"{name}, {body}" if name in several else name, table["distance"][rows], np.column_stack([table[axis][rows] for axis in axes]), values))
+    if not paths:
+        raise NothingToDraw(f"{results.directory}: no line of lines.csv meets a body that is there at {results.name_of(number)}")
     return paths
 
 

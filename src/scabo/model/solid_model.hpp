@@ -3,6 +3,7 @@
 // (analysis/space/posed_solids.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -78,7 +79,9 @@ struct SpaceFace {
   }
   bool is_same(const SpaceFace& other) const {
     return body == other.body && side_set == other.side_set && node_set == other.node_set &&
-           of_shape == other.of_shape && normal == other.normal;
+           of_shape == other.of_shape && normal == other.normal && line_set == other.line_set && near == other.near &&
+           std::equal(meeting.begin(), meeting.end(), other.meeting.begin(), other.meeting.end(),
+                      [](const SpaceFace& one, const SpaceFace& two) { return one.is_same(two); });
   }
 };
 
@@ -91,7 +94,7 @@ struct SpaceSupport {
   enum class Axes { xyz, normal, direction };
   std::string name;
   bool named = false;  ///< by the user, so that steps give it a factor
-  SpaceFace on;        ///< a face of an elastic body, or a rigid body
+  SpaceFace on;        ///< a face, an edge, a point or a set of nodes of an elastic body; or a rigid body
   Axes axes = Axes::xyz;
   Eigen::Vector3d along = Eigen::Vector3d::Zero();    ///< the direction, of length 1
   std::array<std::optional<double>, 3> displacement;  ///< length, at factor 1; none: free
@@ -109,7 +112,7 @@ struct SpaceSupport {
 /// Springs between a body and the ground.
 struct SpaceSpring {
   std::string name;  ///< given by the user, or that of the place, made unique
-  SpaceFace on;      ///< a face; or a set of nodes, or a rigid body, at whose centroid they act
+  SpaceFace on;      ///< a face, an edge, a point or a set of nodes; or a rigid body, at whose centroid they act
   bool along_face = true;
   double normal = 0.0, tangential = 0.0;  ///< of a face, force / length^3
   /// Of nodes, a point or a body, along the axes, force / length; of an edge, force / length^2.

@@ -1,6 +1,5 @@
 #include "scabo/analysis/space/held_nodes.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <tuple>
 
 #include "scabo/analysis/space/prepared_solids.hpp"
+#include "scabo/linalg/decompositions.hpp"
 #include "scabo/mesh/space/face_normals.hpp"
 #include "scabo/system/rigid_solid.hpp"
 
@@ -40,12 +40,20 @@ std::vector<std::size_t> order_of_supports(const model::SpaceModel& model) {
   return order;
 }
 
-std::optional<HeldNodes::Follows> HeldNodes::follows(const std::vector<const Held*>& others,
+bool HeldNodes::Follows::agrees(double wanted) const {
+  constexpr double same = 1e-9;
+  const double all = size + std::abs(wanted);
+  return std::abs(value - wanted) <= same * all && (all == 0.0 || !has_factor);
+}
+
+std::optional<HeldNodes::Follows> HeldNodes::follows(const std::vector<const Held*>& others, std::size_t support,
                                                      const SupportedDirection& along) const {
+  const auto has_factor = [&](const Held& other) {
+    return other.support != support && (model_.supports[other.support].named || model_.supports[support].named);
+  };
   for (const Held* other : others)
     if (is_smooth(other->along, along))
-      return Follows{other->along.value, std::abs(other->along.value), model_.supports[other->support].named,
-                     other->support};
+      return Follows{other->along.value, std::abs(other->along.value), has_factor(*other), other->support};
   if (others.empty()) return {};
   Matrix directions(3, static_cast<Eigen::Index>(others.size()));
   for (std::size_t k = 0; k < others.size(); ++k)
@@ -60,31 +68,31 @@ std::optional<HeldNodes::Follows> HeldNodes::follows(const std::vector<const Hel
     const double part = parts[static_cast<Eigen::Index>(k)], value = others[k]->along.value;
     found.value += part * value;
     found.size += std::abs(part * value);
-    if (std::abs(part) > parallel && model_.supports[others[k]->support].named) found.with_name = true;
+    if (std::abs(part) > parallel && has_factor(*others[k])) found.has_factor = true;
   }
   return found;
 }
 
 std::optional<std::size_t> HeldNodes::hold(std::size_t support, int node, const SupportedDirection& along) {
   const model::SpaceSupport& of = model_.supports[support];
-  std::vector<const Held*> always;  // when this support is there
+  std::vector<const Held*> always, at_times;  // when this support is there
   for (const Held& other : held_[{of.on.body, node}]) {
     const model::Stay& stay = model_.supports[other.support].stay;
     if (!model_.supports[other.support].is_staged() || stay.covers(of.stay))
       always.push_back(&other);
-    else if (const auto there = follows({&other}, along); stay.meets(of.stay) && there && there->value != along.value)
-      return other.support;
+    else if (stay.meets(of.stay))
+      at_times.push_back(&other);
   }
-  const auto known = follows(always, along);
-  if (!known) {
-    add(support, node, along);
-    return {};
+  if (const auto known = follows(always, support, along))
+    return known->agrees(along.value) ? std::nullopt : std::optional(known->first);
+  for (const Held* other : at_times) {
+    always.push_back(other);
+    const auto there = follows(always, support, along);
+    if (there && !there->agrees(along.value)) return other->support;
+    always.pop_back();
   }
-  constexpr double same = 1e-9;
-  const double size = known->size + std::abs(along.value);
-  const bool agrees =
-      std::abs(known->value - along.value) <= same * size && (size == 0.0 || !(known->with_name || of.named));
-  return agrees ? std::nullopt : std::optional(known->first);
+  add(support, node, along);
+  return {};
 }
 
 void HeldNodes::add(std::size_t support, int node, const SupportedDirection& along) {

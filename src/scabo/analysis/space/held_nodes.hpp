@@ -47,11 +47,13 @@ class HeldNodes {
   };
   struct Follows {
     double value, size;  // what others hold along a direction, and the sum of the absolute values of its parts
-    bool with_name;      // of one of them
-    std::size_t first;   // the one with the largest part
+    bool has_factor;     // one of another support, if either has a name: factors of steps may then differ
+    std::size_t first;   // the support with the largest part
+    bool agrees(double wanted) const;
   };
-  /// Nothing: the direction is not in their span.
-  std::optional<Follows> follows(const std::vector<const Held*>& others, const SupportedDirection& along) const;
+  /// What `others` make of a direction of this support; nothing: it is not in their span.
+  std::optional<Follows> follows(const std::vector<const Held*>& others, std::size_t support,
+                                 const SupportedDirection& along) const;
   void add(std::size_t support, int node, const SupportedDirection& along);
 
   void take(std::size_t support, system::Constraint constraint);

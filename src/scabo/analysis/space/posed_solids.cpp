@@ -10,6 +10,7 @@
 
 #include "scabo/analysis/space/body_mesh.hpp"
 #include "scabo/analysis/space/held_nodes.hpp"
+#include "scabo/analysis/space/prepared_solids.hpp"
 #include "scabo/analysis/space/solid_bars.hpp"
 #include "scabo/analysis/space/solid_factors.hpp"
 #include "scabo/analysis/space/solid_places.hpp"
@@ -127,11 +128,12 @@ void Posing::add_support(std::size_t number) {
   if (support.on.is_body()) return add_rigid_support(number);
   const std::size_t before = mistakes_.size();
   const std::set<int> nodes = places_.held_nodes(support.on);
+  if (mistakes_.size() > before) return;
   Normals normals;
   if (support.axes == model::SpaceSupport::Axes::normal) {
     const mesh::SolidMesh& mesh = body(support.on.body).mesh;
     normals = mesh::normals_of_face(mesh, places_.place_of_action(support.on).facets, mesh::boundary_facets(mesh));
-    if (normals.size() < nodes.size() && mistakes_.size() == before)
+    if (normals.size() < nodes.size())
       return mistakes_.push_back(
           {support.on.source, fmt::format("'{}' has nodes that no side of an element in it has, so that they have no "
                                           "normal: name a face, or give the direction by 'along'",
@@ -227,19 +229,31 @@ Vector Posing::varying_load(const model::SpaceLoad& load, const std::vector<mesh
 /// A line load, or a force along an edge or at a point; nothing if the place is a face.
 std::optional<Vector> Posing::load_on_line(const model::SpaceLoad& load) {
   const mesh::SolidMesh& mesh = body(load.on.body).mesh;
-  const bool is_force = load.kind == model::SpaceLoad::Kind::force, is_set = load.on.is_set_of_nodes();
+  using Kind = model::SpaceLoad::Kind;
+  const bool is_force = load.kind == Kind::force, is_line = load.kind == Kind::line_load;
+  const bool is_set = load.on.is_set_of_nodes();
+  const bool is_set_of_face = is_set && !places_.facets_of_set(load.on).empty();
+  if (!is_line && !(is_force && (load.on.is_edge() || load.on.is_point() || (is_set && !is_set_of_face)))) return {};
+  const auto refused = [&](std::string_view why) -> Vector {
+    mistakes_.push_back({load.on.source, fmt::format("'{}' {}", load.on.text, why)});
+    return Vector::Zero(3 * mesh.nodes.cols());
+  };
+  if (is_set_of_face)
+    return refused(
+        "has sides of elements, and a 'line_load' acts along an edge: name a set without them, or give a "
+        "'traction'");
+  if (is_set && load.at)
+    return refused("has no side of an element, so that a force on it acts at its nodes: leave 'at' out");
   if (is_force && (load.on.is_point() || (is_set && places_.set_of_nodes(load.on).size() == 1))) {
     Vector forces = Vector::Zero(3 * mesh.nodes.cols());
     for (const int node : places_.single_nodes(load.on)) forces.segment<3>(3 * node) = load.vector;
     return forces;
   }
-  const bool may_be_edge = load.on.is_edge() || (is_set && places_.facets_of_set(load.on).empty());
-  if (load.kind != model::SpaceLoad::Kind::line_load && !(is_force && may_be_edge)) return {};
   const std::vector<mesh::SolidEdge> on = places_.edges(load.on);
   if (on.empty() && is_set)
-    mistakes_.push_back({load.on.source, fmt::format("'{}' has no edge of an element between two of its nodes: name a "
-                                                     "set with all nodes of an edge or face, or give a 'nodal_force'",
-                                                     load.on.text)});
+    return refused(
+        "has no edge of an element between two of its nodes: name a set with all nodes of an edge, or give a "
+        "'nodal_force'");
   const double length = is_force ? system::length_of_edges(mesh, on) : 1.0;
   return system::line_load_forces(mesh, on, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     return load.varies() ? value_of(load, x) : Eigen::Vector3d(load.vector / length);
@@ -316,19 +330,19 @@ void Posing::add_contact(const model::SpaceContact& contact) {
   if (posed.a.facets.empty() || posed.b.facets.empty()) return;
   const mesh::Face a{body(contact.a.body).mesh, posed.a.facets}, b{body(contact.b.body).mesh, posed.b.facets};
   if (const auto why = mesh::why_no_pairs(a, b))
-    mistakes_.push_back({contact.b.source,
-                         fmt::format("'{}' and '{}' form no contact pairs: {}", contact.a.text, contact.b.text, *why)});
-  else if (mesh::facet_pairs(a, b).empty())
+    return mistakes_.push_back({contact.b.source, fmt::format("'{}' and '{}' form no contact pairs: {}", contact.a.text,
+                                                              contact.b.text, *why)});
+  const std::vector<mesh::FacetPair> pairs = pairs_of(posed_.model, posed).pairs;
+  if (pairs.empty())
     mistakes_.push_back({contact.b.source, fmt::format("'{}' and '{}' have nothing in common, seen along their normal: "
                                                        "name faces that lie opposite each other",
                                                        contact.a.text, contact.b.text)});
-  if (contact.friction_axes)
-    for (const mesh::FacetPair& pair : mesh::facet_pairs(a, b))
-      if (pair.directions.col(0).cross(contact.friction_axes->direction).norm() < 0.1)
-        return mistakes_.push_back(
-            {contact.b.source, fmt::format("the 'direction' of the friction of contact '{}' is along the normal of its "
-                                           "faces at ({:.6g}, {:.6g}, {:.6g}): give one along the faces",
-                                           contact.name, pair.point.x(), pair.point.y(), pair.point.z())});
+  for (const mesh::FacetPair& pair : pairs)
+    if (contact.friction_axes && pair.directions.col(0).cross(contact.friction_axes->direction).norm() < 0.1)
+      return mistakes_.push_back(
+          {contact.b.source, fmt::format("the 'direction' of the friction of contact '{}' is along the normal of its "
+                                         "faces at ({:.6g}, {:.6g}, {:.6g}): give one along the faces",
+                                         contact.name, pair.point.x(), pair.point.y(), pair.point.z())});
   posed_.model.contacts.push_back(std::move(posed));
 }
 

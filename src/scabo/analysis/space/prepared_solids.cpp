@@ -90,18 +90,21 @@ system::PairPoints points_of_held(const SolidModel& model, const SolidHeldPoint&
 
 }  // namespace
 
+PairsOfFaces pairs_of(const SolidModel& model, const SolidContact& contact) {
+  const auto face_of = [&](const SolidContact::Side& side) {
+    return mesh::Face{body_of(model, side).mesh, side.facets, body_of(model, side).rigid_at.has_value()};
+  };
+  const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
+  const bool turned = has_pairs_on_first(a, b);
+  return {turned ? mesh::facet_pairs(b, a, contact.law.bond) : mesh::facet_pairs(a, b, contact.law.bond), turned};
+}
+
 PairedFaces paired_faces(const SolidModel& model) {
   PairedFaces paired;
   std::vector<double> areas;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const SolidContact& contact = model.contacts[c];
-    const auto face_of = [&](const SolidContact::Side& side) {
-      return mesh::Face{body_of(model, side).mesh, side.facets, body_of(model, side).rigid_at.has_value()};
-    };
-    const mesh::Face a = face_of(contact.a), b = face_of(contact.b);
-    const bool turned = has_pairs_on_first(a, b);
-    const std::vector<mesh::FacetPair> found =
-        turned ? mesh::facet_pairs(b, a, contact.law.bond) : mesh::facet_pairs(a, b, contact.law.bond);
+    const auto [found, turned] = pairs_of(model, contact);
     const auto first = static_cast<std::size_t>(turned ? contact.b.body : contact.a.body),
                second = static_cast<std::size_t>(turned ? contact.a.body : contact.b.body);
     const system::LawPointer law = system::law_of(contact.law);

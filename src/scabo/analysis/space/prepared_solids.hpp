@@ -21,6 +21,13 @@ struct PairedFaces {
 
 PairedFaces paired_faces(const SolidModel& model);
 
+/// Those of one contact; turned: the corners are on its side a, and directions point away from its side b.
+struct PairsOfFaces {
+  std::vector<mesh::FacetPair> pairs;
+  bool turned;
+};
+PairsOfFaces pairs_of(const SolidModel& model, const SolidContact& contact);
+
 /// A point that moves with a rigid body: of all means of its nodes that lie there the one with the least squares of
 /// weights.
 system::PairSide side_at(const SolidModel& model, int body, const Eigen::Vector3d& at);

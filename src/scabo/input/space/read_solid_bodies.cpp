@@ -240,6 +240,7 @@ std::optional<SpaceFace> SpaceReader::face_along(const Value& value, const Eigen
   if (const auto name = part ? read_text(report_, *part) : std::nullopt) {
     face.text += "." + *name;
     find_face(*part, *name, face);
+    if (face.line_set >= 0) report_.error(*part, "is a curve of the mesh file, which has no normal: name a face");
   }
   if (report_.count() > before) return {};
   face.text += fmt::format(" along ({:.4g}, {:.4g}, {:.4g})", normal.x(), normal.y(), normal.z());
@@ -301,7 +302,7 @@ void SpaceReader::find_face(const Value& value, const std::string& part, SpaceFa
     if (known.back() == part) face.line_set = static_cast<int>(i);
   }
   if (face.side_set < 0 && face.node_set < 0 && face.line_set < 0)
-    report_.error(value, fmt::format("the mesh of body '{}' has no face or set of nodes named {}{}", of.name,
+    report_.error(value, fmt::format("the mesh of body '{}' has no face, curve or set of nodes named {}{}", of.name,
                                      quoted_name(part), suggestion(part, known)));
 }
 
