@@ -201,7 +201,10 @@ class ConstraintCollector {
       return plane_components.component_of(constraints_[part][others[k]].dof);
     };
     const int place = others.empty() ? std::max(made.component, 0) : 1 - component_of(0);
-    if (made.component != place) made.inclined << made.direction(), 0.0, made.component = -1;
+    if (made.component != place) {
+      made.inclined << made.direction(), 0.0;
+      made.component = -1;
+    }
     made.dof = first + place;
     others.push_back(constraints_[part].size());
     constraints_[part].push_back(made);
