@@ -205,6 +205,72 @@ HIGH_3, 3
         self.assertIn("fix: normal", (self.directory / "deck.yaml").read_text(encoding="utf-8"))
         self.assertAlmostEqual(sum(force[0] for force in increment["reactions"].values()), -0.5 * math.sin(ANGLE), delta=1e-8)
 
+    def test_several_axes_of_clamped_nodes(self):
+        """Axes of two systems under one label, which is driven along the one that they share; at the other end all is fixed, and axes do not matter."""
+        text, _, _ = block("C3D10", (2, 2, 2), (2, 2, 1), 0, 1, "LOWER")
+        deck = text + MATERIAL.split("*SOLID")[0] + "*SOLID SECTION, ELSET=LOWER, MATERIAL=steel\n*BOUNDARY\nLOWER_TOP, 1, 3\nLOWER_BOTTOM, 1, 3\n*STEP\n*STATIC\n*BOUNDARY\nLOWER_BOTTOM, 3, 3, 0.01\n*END STEP\n"
+        energy = self.solve(deck)[-1]["energy"]["elastic"]
+        self.assertGreater(energy, 0.5 * 1000 * 4 * 0.01**2)  # that of a bar with free ends, and more
+        axes = "".join(f"*TRANSFORM, NSET=LOWER_{side}\n{math.cos(angle)!r}, {math.sin(angle)!r}, 0., {-math.sin(angle)!r}, {math.cos(angle)!r}, 0.\n"
+                       for side, angle in (("LEFT", 0.2), ("RIGHT", 0.5)))
+        turned = self.solve(deck.replace("*MATERIAL", axes + "*MATERIAL", 1))[-1]["energy"]["elastic"]
+        self.assertAlmostEqual(turned, energy, delta=1e-9 * energy)
+        text = (self.directory / "deck.yaml").read_text(encoding="utf-8")
+        self.assertEqual(text.count("along: ["), 4, text)
+
+    def test_a_clamped_flange(self):
+        """The end of a tube is fixed in all directions: radii, which turn from node to node, do not matter there, and the bearing around it goes on to its edge."""
+        head, tail = self.TUBE.split("*TRANSFORM", 1)
+        tail = tail[tail.index("*STEP"):]
+        axes = "*TRANSFORM, NSET={}, TYPE=C\n0., 0., 0., 0., 0., 1.\n"
+        text = {}
+        for name, transforms, bearing in (("free", "", ""), ("flange", axes.format("HIGH_3"), ""), ("bearing", axes.format("HIGH_1"), "HIGH_1, 1\n"),
+                                          ("both", axes.format("HIGH_1") + axes.format("HIGH_3"), "HIGH_1, 1\n")):
+            self.solve(head + transforms + "*BOUNDARY\nHIGH_3, 1, 3\n" + bearing + tail)
+            text[name] = (self.directory / "deck.yaml").read_text(encoding="utf-8")
+        self.assertIn("HIGH_3, fix: [x, y, z], name: HIGH_3}", text["free"])
+        self.assertEqual(text["flange"], text["free"])
+        self.assertEqual(text["both"], text["bearing"])
+        self.assertIn("HIGH_1, fix: normal, name: HIGH_1}", text["both"])
+        mesh = (self.directory / "deck_mesh.inp").read_text(encoding="utf-8")
+        self.assertEqual(len(re.search(r"NAME=HIGH_1, TYPE=ELEMENT\n((?:\d+, S\d\n)+)", mesh)[1].splitlines()), 6)  # of three quadrilaterals
+
+    def test_a_shaft_in_a_bearing(self):
+        """A prism on an octagon whose nodes all lie on one cylinder: held along the radii, it is pressed in uniaxial strain, and its ends, between nodes of the rim alone, move."""
+        levels, number = 3, lambda level, k: 1 + 8 * level + k
+        deck = "*NODE\n" + "".join(f"{number(level, k)}, {math.cos(k * math.pi / 4)!r}, {math.sin(k * math.pi / 4)!r}, {level!r}.\n" for level in range(levels) for k in range(8))
+        wedges = [[number(level + up, k) for up in (0, 1) for k in (0, i, i + 1)] for level in range(levels - 1) for i in range(1, 7)]
+        deck += "*ELEMENT, TYPE=C3D6, ELSET=SHAFT\n" + "".join(f"{e + 1}, " + ", ".join(map(str, nodes)) + "\n" for e, nodes in enumerate(wedges))
+        deck += "".join(f"*NSET, NSET={name}, GENERATE\n{first}, {last}\n" for name, first, last in (("RIM", 1, 8 * levels), ("BOTTOM", 1, 8), ("TOP", 8 * levels - 7, 8 * levels)))
+        deck += MATERIAL.split("*SOLID")[0] + ("*SOLID SECTION, ELSET=SHAFT, MATERIAL=steel\n*TRANSFORM, NSET=RIM, TYPE=C\n0., 0., 0., 0., 0., 1.\n*BOUNDARY\nRIM, 1\nBOTTOM, 3\n*STEP\n*STATIC\n*DLOAD\n"
+                                              + "".join(f"{e}, P2, 6.\n" for e in range(len(wedges) - 5, len(wedges) + 1)) + "*END STEP\n")
+        increment, = self.solve(deck)
+        area, modulus = 2 * math.sqrt(2), 1000 * 0.75 / (1.25 * 0.5)
+        self.assertAlmostEqual(sum(force[2] for force in increment["reactions"].values()), 6 * area, delta=1e-8)
+        energy = 0.5 * 6**2 / modulus * area * (levels - 1)
+        self.assertAlmostEqual(increment["energy"]["elastic"], energy, delta=1e-8 * energy)
+        (self.directory / "deck.inp").write_text(deck.replace("RIM, 1\n", "TOP, 1\n"), encoding="utf-8")  # no side is held along its normal
+        done = scabo("convert", self.directory / "deck.inp", "--force")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.directory / "deck.yaml").read_text(encoding="utf-8")
+        self.assertNotIn("fix: normal", text)
+        self.assertEqual(text.count("fix: {along: ["), 2, text)  # and along x and y
+
+    def test_axes_of_a_reference_node(self):
+        """Alone or beside nodes of elements: what *BOUNDARY means there is not lost in silence."""
+        text, _, _ = block("C3D8", (2, 2, 1), (2, 2, 1), 0, 1, "LOWER")
+        deck = (text + "*NODE, NSET=REF\n9999, 1., 1., 3.\n*NSET, NSET=BOTH\nLOWER_TOP, 9999\n*SURFACE, NAME=ROOF, TYPE=NODE\nLOWER_TOP\n" + MATERIAL.split("*SOLID")[0]
+                + "*SOLID SECTION, ELSET=LOWER, MATERIAL=steel\n*COUPLING, CONSTRAINT NAME=c, REF NODE=9999, SURFACE=ROOF\n*KINEMATIC\n1, 3\n*BOUNDARY\nLOWER_BOTTOM, 1, 3\n9999, 1, 6\n"
+                "*STEP\n*STATIC\n*BOUNDARY\n9999, 1, 1, 0.01\n*END STEP\n")
+        self.solve(deck)
+        for nodes in ("REF", "9999", "BOTH"):
+            with self.subTest(nodes=nodes):
+                (self.directory / "deck.inp").write_text(deck.replace("*COUPLING", f"*TRANSFORM, NSET={nodes}\n0., 1., 0., -1., 0., 0.\n*COUPLING", 1), encoding="utf-8")
+                done = scabo("convert", self.directory / "deck.inp", "--force")
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertIn("node 9999 of *TRANSFORM is a reference node, whose axes are not taken", done.stderr)
+                self.assertNotIn("there is no node set", done.stderr)
+
     def test_axes_that_are_refused(self):
         for old, new, sentence in (
                 ("*DLOAD\n", "*CLOAD\nLOW_2, 1, 3.\n*DLOAD\n", "the force acts along axes of the node by *TRANSFORM, which is not taken"),

@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include "scabo/convert/contact_softness.hpp"
 #include "scabo/convert/deck_content.hpp"
@@ -21,7 +20,7 @@
 #include "scabo/convert/write_model.hpp"
 #include "scabo/convert/write_references.hpp"
 #include "scabo/convert/write_steps.hpp"
-#include "scabo/files/abaqus_lines.hpp"
+#include "scabo/convert/write_supports.hpp"
 #include "scabo/files/text_cursor.hpp"
 #include "scabo/model/wording.hpp"
 
@@ -29,7 +28,6 @@ namespace scabo::convert {
 
 namespace {
 
-using files::upper;
 using model::number_text;
 
 class SolidConverter {
@@ -41,7 +39,7 @@ class SolidConverter {
 
   Conversion convert(bool rigid_contact) {
     to_.content = read_content(to_.deck, rigid_contact, to_.remarks);
-    to_.axes = transforms_of(to_.deck, to_.remarks);
+    to_.axes = transforms_of(to_.deck, to_.content.references, to_.remarks);
     tell_elements();
     GivenMaterials materials = materials_of(to_.deck, to_.content, model::Plane::strain, to_.remarks);
     to_.parts.materials = std::move(materials.lines);
@@ -56,7 +54,7 @@ class SolidConverter {
     write_joints();
     write_equations(to_);
     write_references(to_);
-    write_supports();
+    write_supports(to_);
     write_forces();
     write_pressures();
     write_body_loads();
@@ -97,121 +95,10 @@ class SolidConverter {
     }
   }
 
-  // ---- supports and loads
+  // ---- loads
 
   std::size_t body_of(int node) const {
     return static_cast<std::size_t>(to_.bodies.of_node[static_cast<std::size_t>(node)]);
-  }
-
-  /// Instead of a direction: nodes of a cylinder that are fixed along its radii, and so along its normals.
-  static constexpr std::array<double, 3> radial{};
-
-  /// Nodes of a body that are held alike.
-  struct HeldAlike {
-    std::vector<int> nodes;
-    std::string label;
-    files::DeckPlace at;
-  };
-
-  void write_supports() {
-    using Key = std::tuple<int, std::array<double, 3>, Course>;  // body, direction, course
-    std::map<Key, HeldAlike> held;
-    for (const auto& [at, given] : to_.content.displacements) {
-      to_.tell_stages(given);
-      if (to_.bodies.bodies[body_of(at.first)].rigid) {
-        to_.remarks.essential(given.at, "the support holds nodes of a rigid body; hold its reference node");
-        continue;
-      }
-      std::vector<int> bodies{to_.bodies.of_node[static_cast<std::size_t>(at.first)]};
-      if (const auto further = to_.bodies.further_of.find(at.first); further != to_.bodies.further_of.end())
-        bodies.insert(bodies.end(), further->second.begin(), further->second.end());
-      const auto [direction, course] = along(at.first, at.second, given.course);
-      for (const int body : bodies) {
-        HeldAlike& alike = held[{body, direction, course}];
-        alike.nodes.push_back(at.first);
-        if (alike.label.empty()) alike.label = given.label, alike.at = given.at;
-      }
-    }
-    tell_many_directions(held);
-    std::map<std::pair<int, std::string>, std::string> fixed;  // body and set: the axes along which it is held
-    for (const auto& [key, of] : held) {
-      const auto& [body, direction, course] = key;
-      const std::string set = to_.set_of(to_.sets.nodes, of.nodes, of.label);
-      const auto axis = std::find(direction.begin(), direction.end(), 1.0);
-      if (is_zero(course) && axis != direction.end()) {
-        std::string& axes = fixed[{body, set}];
-        axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[axis - direction.begin()]);
-      } else {
-        write_support(body, set, direction, course);
-      }
-    }
-    for (const auto& [at, axes] : fixed) {
-      to_.parts.supports += fmt::format("  - {{on: {}.{}, fix: [{}], name: {}}}\n", to_.name_of(at.first), at.second,
-                                        axes, yaml_word(to_.names.take(at.second)));
-      ++to_.result.supports;
-    }
-  }
-
-  void write_support(int body, const std::string& set, const std::array<double, 3>& direction, const Course& course) {
-    const std::string name = to_.names.take(set);
-    const double scale = is_zero(course) ? 0.0 : scale_of(course);
-    std::string what;
-    if (direction == radial) {
-      what = "fix: normal";
-    } else if (const auto axis = std::find(direction.begin(), direction.end(), 1.0); axis != direction.end()) {
-      std::array<std::string, 3> values{"null", "null", "null"};
-      values[static_cast<std::size_t>(axis - direction.begin())] = number_text(scale);
-      what = fmt::format("displacement: [{}]", fmt::join(values, ", "));
-    } else if (scale == 0.0) {
-      what = fmt::format("fix: {{along: {}}}", yaml_vector(direction));
-    } else {
-      what = fmt::format("displacement: {{along: {}, value: {}}}", yaml_vector(direction), number_text(scale));
-    }
-    to_.parts.supports +=
-        fmt::format("  - {{on: {}.{}, {}, name: {}}}\n", to_.name_of(body), set, what, yaml_word(name));
-    if (scale != 0.0) to_.driven.push_back({name, scaled(course, 1.0 / scale)});
-    ++to_.result.supports;
-  }
-
-  /// The direction of a degree of freedom and the displacement along it; rounded, and with its largest component
-  /// positive, so that nodes of one plane have the same one.
-  std::pair<std::array<double, 3>, Course> along(int node, int component, const Course& course) const {
-    std::array<double, 3> direction{};
-    const auto own = to_.axes.find(node);
-    if (own == to_.axes.end()) {
-      direction[static_cast<std::size_t>(component)] = 1.0;
-      return {direction, course};
-    }
-    if (component == 0 && own->second.radius > 0.0 && is_zero(course)) return {radial, course};
-    const Eigen::Vector3d axis = own->second.rows.row(component);
-    Eigen::Index largest = 0;
-    (axis.cwiseAbs().array() > 0.5 * axis.cwiseAbs().maxCoeff()).maxCoeff(&largest);  // the first large one
-    const double sense = axis[largest] > 0.0 ? 1.0 : -1.0;
-    for (int k = 0; k < 3; ++k)
-      direction[static_cast<std::size_t>(k)] = std::round(1e10 * sense * axis[k]) / 1e10 + 0.0;
-    return {direction, sense > 0.0 ? course : scaled(course, sense)};
-  }
-
-  /// Directions that turn from node to node, as radii of a cylinder do.
-  template <typename Held>
-  void tell_many_directions(const Held& held) {
-    constexpr int most = 4;  // for one label, as of two planes
-    std::map<std::pair<int, std::string>, int> directions;
-    for (const auto& [key, of] : held) {
-      const auto radius = [&](int node) { return to_.axes.at(node).radius; };
-      if (std::get<1>(key) == radial &&
-          std::any_of(of.nodes.begin(), of.nodes.end(), [&, first = of.nodes.front()](int node) {
-            return std::abs(radius(node) - radius(first)) > 1e-6 * radius(first);
-          }))
-        to_.remarks.essential(of.at,
-                              fmt::format("nodes of '{}' are held along radii by *TRANSFORM, and do not lie on one "
-                                          "cylinder; hold the cylinders one by one",
-                                          files::printable(of.label)));
-      if (to_.axes.contains(of.nodes.front()) && ++directions[{std::get<0>(key), of.label}] == most + 1)
-        to_.remarks.essential(of.at, fmt::format("the axes of '{}' by *TRANSFORM turn from node to node; in the model, "
-                                                 "hold the face by {{on: {}.FACE, fix: normal}}",
-                                                 files::printable(of.label), to_.name_of(std::get<0>(key))));
-    }
   }
 
   /// Nodal forces that are consistent with a hexahedron act as points on tetrahedra.

@@ -5,12 +5,16 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "scabo/convert/deck_fields.hpp"
 #include "scabo/convert/deck_names.hpp"
 #include "scabo/files/abaqus_lines.hpp"
+#include "scabo/files/text_cursor.hpp"
 
 namespace scabo::convert {
 
@@ -52,9 +56,30 @@ std::optional<NodeAxes> axes_at(const Vector3d& x, const std::array<Vector3d, 2>
   return axes;
 }
 
+/// Whether the set of a *TRANSFORM has reference nodes; a remark about each.
+bool tell_reference_nodes(const files::AbaqusDeck& deck, const std::vector<DeckReference>& references,
+                          const DeckBlock& block, const std::string& name, Remarks& remarks) {
+  std::vector<std::int64_t> numbers(1, 0);
+  if (const auto set = deck.loose_sets.find(files::upper(name)); set != deck.loose_sets.end())
+    numbers = set->second;
+  else if (!files::parse_number(std::string_view(name), numbers[0]))
+    return false;
+  bool any = false;
+  for (const std::int64_t number : numbers) {
+    if (!reference_at(references, number)) continue;
+    any = true;
+    remarks.essential(block.at,
+                      fmt::format("node {} of *TRANSFORM is a reference node, whose axes are not taken; take it out of "
+                                  "the set, and write its *BOUNDARY and *CLOAD along x, y and z",
+                                  number));
+  }
+  return any;
+}
+
 }  // namespace
 
-std::map<int, NodeAxes> transforms_of(const files::AbaqusDeck& deck, Remarks& remarks) {
+std::map<int, NodeAxes> transforms_of(const files::AbaqusDeck& deck, const std::vector<DeckReference>& references,
+                                      Remarks& remarks) {
   std::map<int, NodeAxes> axes;
   for (const DeckBlock& block : deck.blocks) {
     if (block.name != "TRANSFORM") continue;
@@ -65,7 +90,8 @@ std::map<int, NodeAxes> transforms_of(const files::AbaqusDeck& deck, Remarks& re
     const auto points = points_of(block, remarks);
     const std::string name = parameter(block, "NSET");
     const auto nodes = nodes_named(deck, name);
-    if (!nodes)
+    const bool of_references = tell_reference_nodes(deck, references, block, name, remarks);
+    if (!nodes && !of_references)
       remarks.essential(block.at, fmt::format("there is no node set '{}' with nodes of elements for *TRANSFORM; "
                                               "correct its name",
                                               files::printable(name)));

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <vector>
 
+#include "scabo/convert/deck_references.hpp"
 #include "scabo/convert/remark.hpp"
 #include "scabo/files/abaqus.hpp"
 
@@ -15,7 +17,8 @@ struct NodeAxes {
   files::DeckPlace at;
 };
 
-/// By node of the mesh; the last *TRANSFORM of a node counts.
-std::map<int, NodeAxes> transforms_of(const files::AbaqusDeck& deck, Remarks& remarks);
+/// By node of the mesh; the last *TRANSFORM of a node counts. Those of `references` become remarks.
+std::map<int, NodeAxes> transforms_of(const files::AbaqusDeck& deck, const std::vector<DeckReference>& references,
+                                      Remarks& remarks);
 
 }  // namespace scabo::convert
