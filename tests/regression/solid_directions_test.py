@@ -213,6 +213,109 @@ loads: {{push: {{on: part.HIGH_3, {acts}}}}}
 
 
 
+    def test_fixed_supports_that_overlap_are_one(self):
+        """One ends after the other one begins, along a direction or its opposite: as one that lasts."""
+        text = """materials: {m: {young: 1e7, poisson: 0.3}}
+bodies: {block: {material: m, shape: {box: {corner: [0, 0, 0], size: [1, 1, 1]}}, mesh: {size: 0.5}}}
+supports: [{on: block.left, fix: [x, y, z], name: wall}, SUPPORTS]
+loads: {push: {on: block.top, traction: [10, 20, -300]}}
+steps: [{name: first}, {name: second, increments: 2, loads: {push: 2}}, {name: third, increments: 2, loads: {push: 3}}]
+"""
+        for along in ([1, 2, 2], [0.3, -0.7, 0.1], [0, 0, 1]):
+            one = f"{{on: block.right, fix: {{along: {along}}}, name: one}}"
+            two = f"{{on: block.right, fix: {{along: {[-3 * x for x in along]}}}, name: two, added: second}}"
+            ends = one.replace("}, name", "}, removed: third, name")
+            alone, both = (self.run_model(text.replace("SUPPORTS", supports))["increments"] for supports in (one, f"{ends}, {two}"))
+            for a, b in zip(both, alone, strict=True):
+                total = [sum(x) for x in zip(a["reactions"]["one"], a["reactions"].get("two", [0, 0, 0]))]
+                for x, y in zip(total + a["reactions"]["wall"], b["reactions"]["one"] + b["reactions"]["wall"], strict=True):
+                    self.assertAlmostEqual(x, y, delta=TOLERANCE * 300)
+                self.assertAlmostEqual(a["energy"]["elastic"], b["energy"]["elastic"], delta=TOLERANCE * b["energy"]["elastic"])
+            self.assertEqual(both[-1]["reactions"]["one"], [0, 0, 0])
+
+    def test_supports_that_overlap_are_one(self):
+        """One ends after the other one begins, with the same displacement along a direction, however that is written: as one that lasts."""
+        def model(supports, second, third):
+            steps = "{name: first, loads: {push: 1}}, "
+            steps += f"{{name: second, increments: 2, loads: {{{second}}}}}, {{name: third, increments: 2, loads: {{push: 2, {third}}}}}"
+            return f"""materials: {{m: {{young: 1e7, poisson: 0.3}}}}
+bodies: {{block: {{material: m, shape: {{box: {{corner: [0, 0, 0], size: [1, 1, 1]}}}}, mesh: {{size: 0.5}}}}}}
+supports: [{{on: block.left, fix: [x, y, z], name: wall}}, {", ".join(f"{{on: block.right, displacement: {support}}}" for support in supports)}]
+loads: {{push: {{on: block.top, traction: [10, 20, -300]}}}}
+steps: [{steps}]
+output: {{points: [[1, 0.5, 0.5]]}}
+"""
+
+        for along, again, value in (([1, 2, 2], [1, 2, 2], 1e-3), ([1, 2, 2], [-2, -4, -4], -1e-3), ([0.3, -0.7, 0.1], [0.9, -2.1, 0.3], 1e-3),
+                                    ([1, 0, 0], [-3, 0, 0], -1e-3)):
+            with self.subTest(along=along, again=again):
+                one = f"{{along: {along}, value: 1e-3}}, name: one"
+                alone, moved_alone = self.run_model(model([one], "one: 1", "one: 2"))["increments"], self.rows("points.csv")
+                first, second = one + ", removed: third", f"{{along: {again}, value: VALUE}}, name: two, added: second"
+                text = model([first, second], "one: 1, two: 1", "two: 2")
+                both = self.run_model(text.replace("VALUE", repr(value)))["increments"]
+                self.assertEqual(both[-1]["reactions"].get("one", [0, 0, 0]), [0, 0, 0])
+                size = max(abs(x) for x in alone[-1]["reactions"]["wall"])
+                for a, b in zip(both, alone, strict=True):
+                    total = [sum(a["reactions"].get(name, [0, 0, 0])[k] for name in ("one", "two")) for k in range(3)]
+                    for x, y in zip(total + a["reactions"]["wall"], b["reactions"]["one"] + b["reactions"]["wall"], strict=True):
+                        self.assertAlmostEqual(x, y, delta=TOLERANCE * size)
+                    self.assertAlmostEqual(a["energy"]["elastic"], b["energy"]["elastic"], delta=TOLERANCE * alone[-1]["energy"]["elastic"])
+                for a, b in zip(self.rows("points.csv"), moved_alone, strict=True):
+                    for axis in "xyz":
+                        self.assertAlmostEqual(float(a[f"u{axis}"]), float(b[f"u{axis}"]), delta=TOLERANCE * 1e-3)
+                said = self.refused(text.replace("VALUE", repr(value * (1 + 1e-6))))
+                self.assertRegex(said, r"supports.2.on: support 'two' prescribes another displacement .* than support 'one'")
+
+    def refused(self, text):
+        (self.directory / "refused.yaml").write_text(HEAD + text, encoding="utf-8")
+        done = scabo("run", self.directory / "refused.yaml", "-o", self.directory / "refused.results", "--quiet")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        return done.stderr
+
+    def pyramid(self, turn):
+        """Four tetrahedra on a square of 2 m around a node in its middle, 1.5 m high, pointing down: node sets of its sides, each and together."""
+        nodes = [(-1, -1, 1.5), (1, -1, 1.5), (1, 1, 1.5), (-1, 1, 1.5), (0, 0, 1.5), (0, 0, 0)]
+        around = ((1, 2), (2, 3), (3, 4), (4, 1))
+        lines = ["*NODE", *(f"{k + 1}, " + ", ".join(repr(float(x)) for x in moved(turn, node)) for k, node in enumerate(nodes)), "*ELEMENT, TYPE=C3D4, ELSET=ALL",
+                 *(f"{k + 1}, {b}, {a}, 5, 6" for k, (a, b) in enumerate(around))]
+        for name, members in {"SEAT": (1, 2, 3, 4, 6), "BASE": (1, 2, 3, 4, 5), **{f"SIDE_{k + 1}": (*ends, 6) for k, ends in enumerate(around)}}.items():
+            lines += [f"*NSET, NSET={name}", *(f"{node}," for node in members)]
+        (self.directory / "part.inp").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    def test_a_pyramid_in_a_seat_that_moves(self):
+        """Its tip has four normals, of which one follows from three. What moves out along all of them at once lowers the pyramid: u / n_z, without a
+        force, at every factor; and the seat balances what presses."""
+        un, normal_z = 2e-3, 1 / math.hypot(1, 1.5)
+        for turn in (IDENTITY, rotation(3), rotation(10)):
+            self.pyramid(turn)
+            model = f"""materials: {{m: {{young: 1e6, poisson: 0.3}}}}
+bodies: {{part: {{material: m, mesh: {{file: part.inp}}}}}}
+supports: [SUPPORTS]
+loads: {{press: {{on: part.BASE, force: {text_of(product(turn, [10, -20, -100]))}}}}}
+steps: [STEPS]
+output: {{points: [{text_of(moved(turn, [0.1, 0.2, 1.2]))}, {text_of(moved(turn, [0, 0, 0.2]))}]}}
+"""
+            steps = "{name: lower, increments: 2, loads: {seat: 1}}, {name: lift, loads: {seat: -0.5}}, {name: press, loads: {press: 1}}"
+            summary = self.run_model(model.replace("SUPPORTS", f"{{on: part.SEAT, displacement: {{normal: {un}}}, name: seat}}").replace("STEPS", steps))
+            back, rows = list(zip(*turn)), self.rows("points.csv")
+            for k, (increment, factor) in enumerate(zip(summary["increments"][:3], (0.5, 1, -0.5), strict=True)):
+                self.assertLess(max(map(abs, increment["reactions"]["seat"])), TOLERANCE * 1e6 * un)
+                for row in rows[2 * k:2 * k + 2]:
+                    for u, expected in zip(product(back, [float(row[f"u{axis}"]) for axis in "xyz"]), (0, 0, -factor * un / normal_z), strict=True):
+                        self.assertAlmostEqual(u, expected, delta=TOLERANCE * un)
+            for reaction, expected in zip(product(back, summary["increments"][3]["reactions"]["seat"]), (-10, 20, 100), strict=True):
+                self.assertAlmostEqual(reaction, expected, delta=TOLERANCE * 100)
+            # Without displacements also as four supports; with them their factors might differ.
+            sides = ", ".join(f"{{on: part.SIDE_{k}, HOW, name: side_{k}}}" for k in (1, 2, 3, 4))
+            model = model.replace("SUPPORTS", sides).replace("STEPS", "{name: all}")
+            fixed = self.run_model(model.replace("HOW", "fix: normal"))["increments"][0]
+            total = [sum(reaction[axis] for reaction in fixed["reactions"].values()) for axis in range(3)]
+            for reaction, expected in zip(product(back, total), (-10, 20, 100), strict=True):
+                self.assertAlmostEqual(reaction, expected, delta=TOLERANCE * 100)
+            self.assertIn("prescribes another displacement", self.refused(model.replace("HOW", f"displacement: {{normal: {un}}}")))
+
+
 FIX = {"X": ("x", [1, 0, 0]), "Y": ("y", [0, 1, 0]), "BOTTOM": ("z", [0, 0, 1]), "RIGHT": ("x", [1, 0, 0])}
 
 
@@ -237,12 +340,15 @@ loads: {none: {gravity: [0, 0, 0]}}
             lines += [f"*NSET, NSET={set_name}", *(f"{k + 1}," for k, node in enumerate(nodes) if inside(node))]
         (self.directory / f"{name}.inp").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
-    def model(self, meshes, turn, how, steps, restart=""):
-        """`how`: axes, normals or directions."""
+    def model(self, meshes, turn, how, steps, restart="", places=False):
+        """`how`: axes, normals or directions. `places`: also supports, springs and bars on edges and at points."""
+        if places:
+            steps = steps.replace("drive: 1, push", "drive: 1, pin: 1, push").replace("jack: 1", "jack: 1, knob: 1")
         near = {"X": lambda p: abs(p[0]) < 1e-9, "Y": lambda p: abs(p[1]) < 1e-9}
         self.write("base", meshes[0], {**near, "BOTTOM": lambda p: p[2] < -0.4 + 1e-9, "TOP": lambda p: abs(p[2]) < 1e-9, "RIGHT": lambda p: p[0] > 0.8 - 1e-9,
-                                       "BACK": lambda p: p[1] > 0.7 - 1e-9}, turn)
-        self.write("ball", meshes[1], {**near, "BALL": lambda p: abs(math.dist(p, (0, 0, 0.5)) - 0.5) < 1e-6, "HEAD": lambda p: abs(p[2] - 0.5) < 1e-9}, turn)
+                                       "BACK": lambda p: p[1] > 0.7 - 1e-9, "SKIN": lambda p: True}, turn)
+        self.write("ball", meshes[1], {**near, "BALL": lambda p: abs(math.dist(p, (0, 0, 0.5)) - 0.5) < 1e-6, "HEAD": lambda p: abs(p[2] - 0.5) < 1e-9,
+                                       "SKIN": lambda p: True}, turn)
         vector = lambda v: text_of(product(turn, v))
 
         def held(place):
@@ -254,7 +360,8 @@ loads: {none: {gravity: [0, 0, 0]}}
         supports = [f"{{on: {place}, {held(place)}, name: {place.replace('.', '_').lower()}}}" for place in ("base.X", "base.Y", "base.BOTTOM", "ball.X", "ball.Y")]
         slope = product(turn, [10.0, -4.0, 3.0])
         shift = 20.0 - sum(a * b for a, b in zip(slope, moved(turn, [0, 0, 0])))
-        faces = ("base.X", "base.Y", "base.BOTTOM", "base.RIGHT", "ball.X", "ball.Y", "ball.HEAD")
+        faces = ("base.X", "base.Y", "base.BOTTOM", "base.RIGHT", "ball.X", "ball.Y", "ball.HEAD") + (("base.BACK", "base.SKIN", "ball.SKIN") if places else ())
+        supports_there, springs_there, bars_there = self.on_places(turn, how, steps) if places else ("", "", "")
         about = text_of(moved(turn, [0, 0, 0]))
         history = ", ".join(f"{face.replace('.', '_').lower()}: {{face: {face}, about: {about}}}" for face in faces)
         return f"""materials: {{m: {{young: 1e9, poisson: 0.2, expansion: 1e-5}}}}
@@ -262,8 +369,8 @@ bodies: {{base: {{material: m, mesh: {{file: base.inp}}}}, ball: {{material: m, 
 supports:
 """ + "".join(f"  - {text}\n" for text in supports) + f"""  - {{on: ball.HEAD, {drive}, name: drive}}
   - {{on: base.RIGHT, {held("base.RIGHT")}, name: prop{", removed: strike" if "strike" in steps else ""}}}
-{self.jack(turn, how) if "strike" in steps else ""}springs: [{{on: base.BACK, k_n: 1e8, k_t: 5e7, name: soft}}]
-bars: {{tie: {{between: [{{body: ball, at: {text_of(moved(turn, [0, 0.25, 0.5]))}}}, {text_of(moved(turn, [0, 1, 1]))}], k: 1e6}}}}
+{self.jack(turn, how) if "strike" in steps else ""}{supports_there}springs: [{{on: base.BACK, k_n: 1e8, k_t: 5e7, name: soft}}{springs_there}]
+bars: {{{bars_there}tie: {{between: [{{body: ball, at: {text_of(moved(turn, [0, 0.25, 0.5]))}}}, {text_of(moved(turn, [0, 1, 1]))}], k: 1e6}}}}
 loads:
   push: {{on: base.BACK, traction: {vector([0, -3e5, 1e5])}}}
   heat: {{on: ball, temperature: {{constant: {shift!r}, x: {slope[0]!r}, y: {slope[1]!r}, z: {slope[2]!r}}}}}
@@ -277,6 +384,23 @@ output: {{points: [{text_of(moved(turn, [0.3, 0.3, 0.0]))}, {text_of(moved(turn,
         """It pulls the right side on from where that is then."""
         along = {"axes": "[1e-4, null, null]", "normals": "{normal: 1e-4}", "directions": f"{{along: {text_of(product(turn, [-2, 0, 0]))}, value: -1e-4}}"}[how]
         return f"  - {{on: base.RIGHT, displacement: {along}, name: jack, added: back}}\n"
+
+    def on_places(self, turn, how, steps):
+        """An edge that is held until the prop goes, a point that is pulled on where its face is held along another direction, springs along an edge and
+        at a node, and bars between edges, a point and the ground."""
+        vector, later = lambda v: text_of(product(turn, v)), "strike" in steps
+        tightened = ", tightened: push" if "name: push" in steps else ""  # not in the second one of two runs
+        tangent = "fix: z" if how == "axes" else f"fix: {{along: {vector([0, 0, -2])}}}"
+        supports = f"  - {{on: {{body: base, edge: [RIGHT, TOP]}}, {tangent}, name: rim{', removed: strike' if later else ''}}}\n"
+        supports += f"  - {{on: {{body: base, point: [BACK, RIGHT, BOTTOM]}}, displacement: {{along: {vector([-1, -2, 2])}, value: 1e-5}}, name: pin}}\n"
+        if later:
+            supports += f"  - {{on: {{body: base, edge: [BACK, X]}}, displacement: {{along: {vector([0, 2, 1])}, value: -1e-4}}, name: knob, added: back}}\n"
+        even = lambda k: f"k_x: {k}, k_y: {k}, k_z: {k}"
+        springs = f", {{on: {{body: base, edge: [BACK, BOTTOM]}}, {even('1e7')}, name: bed}}"
+        springs += f", {{on: {{body: base, at: {text_of(moved(turn, [0.8, 0, 0]))}}}, {even('1e6')}, name: nail}}"
+        return (supports, springs,
+                f"stay: {{between: [{{body: ball, edge: [X, HEAD]}}, {text_of(moved(turn, [-1, 0.25, 1]))}], k: 1e6}}, "
+                f"brace: {{between: [{{body: base, edge: [BACK, TOP]}}, {{body: ball, point: [X, Y, HEAD]}}], k: 2e6, preload: 30{tightened}}}, ")
 
     FIRST = "{name: press, increments: 2, loads: {drive: 1, push: 0, heat: 0}}, {name: push, increments: 2, loads: {push: 1}}"
     SECOND = "{name: strike, increments: 2, loads: {heat: 1}}, {name: back, increments: 2, loads: {drive: 0.8, jack: 1}}"
@@ -295,7 +419,9 @@ output: {{points: [{text_of(moved(turn, [0.3, 0.3, 0.0]))}, {text_of(moved(turn,
                 values += [*product(back, force), *moment(increment["moments"][support_name], force)]
             joint = increment["contacts"]["joint"]
             values += [*product(back, joint["normal_force"]), *product(back, joint["tangential_force"]), *product(back, joint["moment"])]
-            values += [*product(back, increment["springs"]["soft"]), increment["bars"]["tie"]["tension"]]
+            for _, force in sorted(increment["springs"].items()):
+                values += product(back, force)
+            values += [bar["tension"] for _, bar in sorted(increment["bars"].items())]
             values += [1e4 * increment["energy"][kind] for kind in ("external", "elastic", "friction")]
             told.append((values, [joint[state] for state in ("open", "stick", "slip")]))
         points = [[1e7 * x for x in product(back, [float(row[f"u{axis}"]) for axis in "xyz"])] for row in self.rows("points.csv", name)]
@@ -337,6 +463,55 @@ output: {{points: [{text_of(moved(turn, [0.3, 0.3, 0.0]))}, {text_of(moved(turn,
             size = max(map(abs, others))
             for a, b in zip(values, others, strict=True):
                 self.assertAlmostEqual(a, b, delta=TOLERANCE * size)
+
+    def assert_balanced(self, summary, turn, name="model"):
+        """All that acts through the sides of a body is in balance, also on edges and at points; and the back of the base has all that acts there."""
+        back = list(zip(*turn))
+        for increment, row in zip(summary["increments"], self.rows("history.csv", name), strict=True):
+            for body, kind in itertools.product(("base", "ball"), ("force", "moment")):
+                size = max(abs(float(value)) for key, value in row.items() if key.startswith(f"{body}_") and f".{kind}_" in key)
+                for axis in "xyz":
+                    self.assertLess(abs(float(row[f"{body}_skin.{kind}_{axis}"])), TOLERANCE * size)
+            brace = [a - b for a, b in zip((0, 0, 0.5), (0.4, 0.7, 0.0))]
+            acting = [[x * increment["bars"]["brace"]["tension"] / math.hypot(*brace) for x in brace], [x * 0.8 * 0.4 * increment["factors"]["push"] for x in (0, -3e5, 1e5)],
+                      *(product(back, increment["springs"][springs]) for springs in ("soft", "bed")),
+                      *(product(back, increment["reactions"].get(support_name, [0, 0, 0])) for support_name in ("pin", "knob"))]
+            through = product(back, [float(row[f"base_back.force_{axis}"]) for axis in "xyz"])
+            if any(increment["reactions"].get("rim", [0, 0, 0])):  # it ends at a node of the back, which it holds along z
+                through, acting = through[:2], [force[:2] for force in acting]
+            for found, *forces in zip(through, *acting, strict=True):
+                self.assertAlmostEqual(found, sum(forces), delta=TOLERANCE * 1e5)
+
+    def test_twins_on_edges_and_points(self):
+        meshes = self.meshes()
+        steps = f"{self.FIRST}, {self.SECOND}"
+        summary = self.run_model(self.model(meshes, IDENTITY, "axes", steps, places=True))
+        self.assert_balanced(summary, IDENTITY)
+        one = self.told(summary, IDENTITY)
+        reactions = [increment["reactions"] for increment in summary["increments"]]
+        self.assertGreater(math.hypot(*reactions[3]["rim"]), 1.0)
+        self.assertGreater(math.hypot(*reactions[4]["rim"]), 0.1)
+        for name, increment in (("rim", 5), ("rim", 7), ("knob", 5)):
+            self.assertEqual(reactions[increment].get(name, [0, 0, 0]), [0, 0, 0])
+        self.assertGreater(math.hypot(*reactions[7]["knob"]), 1.0)
+        for turn, how in ((IDENTITY, "normals"), (rotation(7), "normals"), (rotation(11), "directions")):
+            with self.subTest(turned=turn is not IDENTITY, how=how):
+                summary = self.run_model(self.model(meshes, turn, how, steps, places=True))
+                self.assert_balanced(summary, turn)
+                self.assert_same(one, self.told(summary, turn))
+
+    def test_two_runs_on_edges_and_points_are_one(self):
+        """Of all that acts on edges and at points: forces, displacements and resultants of faces; an edge that is held in the first run ends in the second."""
+        meshes = self.meshes()
+        for turn, how in ((IDENTITY, "axes"), (rotation(7), "directions")):
+            with self.subTest(turned=turn is not IDENTITY, how=how):
+                whole = self.told(self.run_model(self.model(meshes, turn, how, f"{self.FIRST}, {self.SECOND}", places=True), "whole"), turn, "whole")
+                self.run_model(self.model(meshes, turn, how, self.FIRST, places=True), "one")
+                second = self.run_model(self.model(meshes, turn, how, "{name: wait, loads: {}}, " + self.SECOND, "restart: one.results", places=True), "two")
+                self.assert_balanced(second, turn, "two")
+                later = self.told(second, turn, "two")
+                faces = len(whole[2]) // 8
+                self.assert_same((later[0][1:], later[1][2:], later[2][faces:]), (whole[0][4:], whole[1][8:], whole[2][4 * faces:]))
 
 
 if __name__ == "__main__":

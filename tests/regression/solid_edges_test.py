@@ -5,7 +5,7 @@ import unittest
 
 import support
 from solid_bars_test import solution_of
-from solid_resultants_test import box, cross, less
+from solid_resultants_test import FACES, box, cross, less
 from solid_twins_test import IDENTITY, product, rotation, text_of
 from solids import HEAD
 from support import scabo, summary_of
@@ -110,6 +110,84 @@ loads:
             self.on_points(turn, scale, force)
         again = self.on_points(IDENTITY, 1e3, 1e-3)
         self.assertAlmostEqual(again, energy, delta=1e-9 * energy)
+
+    def on_skew_directions(self, turn=IDENTITY, scale=1.0, force=1.0):
+        """The block on three, two and one directions of three corners, at no right angles. Returns the reactions by name, in its axes."""
+        (self.directory / "block.inp").write_text(box((0, 0, 0), SIZE, (2, 2, 2), turn, scale), encoding="utf-8")
+        vector = lambda *v, unit=force: text_of([unit * x for x in product(turn, v)])  # noqa: E731
+        places = {"a": ("point: [LEFT, FRONT, BOTTOM]", (0, 0, 0)), "b": ("point: [RIGHT, BOTTOM, FRONT]", (1.2, 0, 0)),
+                  "c": (f"at: {vector(0, 1, 0, unit=scale)}", (0, 1.0, 0))}
+        held = {"a_1": (1, 2, 2), "a_2": (0, -3, 1), "a_3": (-4, 0, 1), "b_1": (0.5, 1, 3), "b_2": (1, -2, 0), "c_1": (0.2, -0.1, 1)}
+        line, pin = (30.0, 40.0, -200.0), (100.0, -50.0, 80.0)
+        supports = "".join(f"  - {{on: {{body: block, {places[name[0]][0]}}}, fix: {{along: {vector(*along, unit=1.0)}}}, name: {name}}}\n" for name, along in held.items())
+        last = self.solve(f"""materials: {{m: {{young: {1e7 * force / scale**2!r}, poisson: 0.3}}}}
+bodies: {{block: {{material: m, mesh: {{file: block.inp}}}}}}
+supports:
+{supports}loads:
+  crest: {{on: {{body: block, edge: [RIGHT, TOP]}}, line_load: {vector(*line, unit=force / scale)}}}
+  pin: {{on: {{body: block, point: [TOP, BACK, LEFT]}}, force: {vector(*pin)}}}
+""")
+        columns = [[*along, *cross(places[name[0]][1], along)] for name, along in held.items()]
+        right = [0.0] * 6
+        for load, at in ((line, (1.2, 0.5, 0.8)), (pin, (0.0, 1.0, 0.8))):
+            right = [a - b for a, b in zip(right, [*load, *cross(at, load)])]
+        exact = solution_of([[column[i] for column in columns] for i in range(6)], right)
+        found = {name: [x / force for x in product(list(zip(*turn)), last["reactions"][name])] for name in held}
+        for (name, along), part in zip(held.items(), exact, strict=True):
+            self.near(found[name], [part * x for x in along], 2000)
+        return found
+
+    def test_a_block_on_directions_of_three_points(self):
+        """Each reaction lies along its direction, and all six follow from statics."""
+        one = self.on_skew_directions()
+        for turn, scale, force in ((rotation(4), 1.0, 1.0), (MIRROR, 1.0, 1.0), (rotation(9), 1e3, 1e-3)):
+            other = self.on_skew_directions(turn, scale, force)
+            for name, reaction in one.items():
+                self.near(other[name], reaction, 2000)
+
+    def on_directions_of_edges(self, how, turn=IDENTITY, scale=1.0, force=1.0):
+        """A block on two edges, of which one is moved, and on a point; along axes, or along the same directions. Reactions, moments, resultants of
+        faces, and the displacement of a point, in the axes and units of the original."""
+        (self.directory / "block.inp").write_text(box((0, 0, 0), SIZE, (3, 2, 2), turn, scale), encoding="utf-8")
+        vector = lambda *v, unit=1.0: text_of([unit * x for x in product(turn, v)])  # noqa: E731
+        places = {"a": "edge: [LEFT, BOTTOM]", "b": "edge: [RIGHT, BOTTOM]", "c": "point: [LEFT, FRONT, TOP]"}
+        supports, lengths = "", (-1.0, 2.0, 0.25)  # what directions are given by does not count
+        for place, axis, value in (("a", 0, 0), ("a", 2, 0), ("b", 0, 1e-4), ("b", 2, -3e-4), ("c", 1, 0)):
+            along = vector(*(lengths[axis] * (k == axis) for k in range(3)))
+            value *= scale * (math.copysign(1, lengths[axis]) if how == "directions" else 1)
+            hold = f"displacement: {{along: {along}, value: {value!r}}}" if value else f"fix: {{along: {along}}}"
+            if how == "axes":
+                hold = f"displacement: {text_of([value if k == axis else None for k in range(3)]).replace('None', 'null')}" if value else f"fix: {'xyz'[axis]}"
+            supports += f"  - {{on: {{body: block, {places[place]}}}, {hold}, name: {place}_{axis}}}\n"
+        faces = ", ".join(f"{name.lower()}: {{face: block.{name}}}" for name in FACES)
+        stiff = f"{1e4 * force / scale**2!r}"
+        last = self.solve(f"""materials: {{m: {{young: {1e7 * force / scale**2!r}, poisson: 0.3}}}}
+bodies: {{block: {{material: m, mesh: {{file: block.inp}}}}}}
+supports:
+{supports}loads:
+  crest: {{on: {{body: block, edge: [FRONT, TOP]}}, force: {vector(30, 40, -200, unit=force)}}}
+  pin: {{on: {{body: block, point: [TOP, BACK, LEFT]}}, force: {vector(100, -50, 80, unit=force)}}}
+springs: [{{on: {{body: block, edge: [BACK, TOP]}}, k_x: {stiff}, k_y: {stiff}, k_z: {stiff}}}]
+output: {{points: [{{at: {vector(*[0.999 * x for x in SIZE], unit=scale)}, name: tip}}], history: {{{faces}}}}}
+""")
+        back = list(zip(*turn))
+        told = [[1e6 * x / scale for x in product(back, self.point_row())]]
+        sense = round(sum(a * b for a, b in zip(turn[0], cross(turn[1], turn[2]))))  # of moments in a mirror
+        for name in sorted(last["reactions"]):
+            told += [[x / force for x in product(back, last["reactions"][name])], [sense * x / (force * scale) for x in product(back, last["moments"][name])]]
+        row = table(self.directory / "results" / "history.csv")[-1]
+        for name in FACES:
+            told += [[unit * x for x in product(back, [float(row[f"{name.lower()}.{kind}_{axis}"]) for axis in "xyz"])]
+                     for kind, unit in (("force", 1 / force), ("moment", sense / (force * scale)))]
+        return told
+
+    def test_twins_along_directions(self):
+        """Along axes and along directions, turned, seen in a mirror, and in other units."""
+        one = self.on_directions_of_edges("axes")
+        size = max(abs(x) for told in one for x in told)
+        for turn, scale, force in ((IDENTITY, 1.0, 1.0), (rotation(5), 1.0, 1.0), (MIRROR, 1.0, 1.0), (IDENTITY, 1e3, 1e-3), (rotation(2), 1e-3, 1e6)):
+            for found, expected in zip(self.on_directions_of_edges("directions", turn, scale, force), one, strict=True):
+                self.near(found, expected, size)
 
     def loaded_along_an_edge(self, turn=IDENTITY, scale=1.0, force=1.0):
         (self.directory / "block.inp").write_text(box((0, 0, 0), SIZE, (3, 2, 2), turn, scale), encoding="utf-8")
@@ -300,6 +378,26 @@ loads: {{push: {{on: block.EDGE, {load}}}}}
 """)
             self.near(last["reactions"]["ground"], [0, 0, 100], 100)
             self.near(last["moments"]["ground"], [50, -120, 0], 100)
+
+    def test_loads_on_sets_that_do_not_suit_them(self):
+        """A set along an edge has no side through which a force could act at a point, and one with sides is no edge; each is said at its place."""
+        deck = box((0, 0, 0), SIZE, (2, 2, 2), IDENTITY, 1.0)
+        sets = {part.split("\n", 1)[0]: part.split("\n", 1)[1].split() for part in deck.split("*NSET, NSET=")[1:]}
+        edge = "\n".join(node for node in sets["RIGHT"] if node in sets["TOP"])
+        (self.directory / "block.inp").write_text(deck + f"*NSET, NSET=EDGE\n{edge}\n", encoding="utf-8")
+        for place, load, words in (("EDGE", "force: [0, 0, -100], at: [0.6, 0.5, 0.8]", "'block.EDGE' .*'at'"),
+                                   ("TOP", "line_load: [0, 0, -100]", "'block.TOP' .*'line_load'"),
+                                   ("TOP", 'line_load: {formula: [null, null, "-x"]}', "'block.TOP' .*'line_load'")):
+            (self.directory / "model.yaml").write_text(HEAD + f"""materials: {{m: {{young: 1e7, poisson: 0.3}}}}
+bodies: {{block: {{material: m, mesh: {{file: block.inp}}}}}}
+supports: [{{on: block.BOTTOM, fix: [x, y, z], name: ground}}]
+loads: {{push: {{on: block.{place}, {load}}}}}
+""", encoding="utf-8")
+            for command in ("check", "run"):
+                with self.subTest(place=place, load=load, command=command):
+                    done = scabo(command, self.directory / "model.yaml")
+                    self.assertEqual(done.returncode, 1)
+                    self.assertRegex(done.stderr, rf"model.yaml:6:\d+: loads.push(\.\w+)?: .*{words}")
 
     def test_a_support_along_an_edge_that_ends(self):
         """A prop under the end of a cantilever has its share of the load, and nothing once it is gone."""

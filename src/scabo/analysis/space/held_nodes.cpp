@@ -40,10 +40,9 @@ std::vector<std::size_t> order_of_supports(const model::SpaceModel& model) {
   return order;
 }
 
-bool HeldNodes::Follows::agrees(double wanted) const {
+bool HeldNodes::Follows::is(double wanted) const {
   constexpr double same = 1e-9;
-  const double all = size + std::abs(wanted);
-  return std::abs(value - wanted) <= same * all && (all == 0.0 || !has_factor);
+  return std::abs(value - wanted) <= same * (size + std::abs(wanted));
 }
 
 std::optional<HeldNodes::Follows> HeldNodes::follows(const std::vector<const Held*>& others, std::size_t support,
@@ -83,12 +82,14 @@ std::optional<std::size_t> HeldNodes::hold(std::size_t support, int node, const 
     else if (stay.meets(of.stay))
       at_times.push_back(&other);
   }
-  if (const auto known = follows(always, support, along))
-    return known->agrees(along.value) ? std::nullopt : std::optional(known->first);
+  if (const auto known = follows(always, support, along)) {
+    const bool at_rest = known->size == 0.0 && along.value == 0.0;
+    return known->is(along.value) && (at_rest || !known->has_factor) ? std::nullopt : std::optional(known->first);
+  }
   for (const Held* other : at_times) {
     always.push_back(other);
     const auto there = follows(always, support, along);
-    if (there && !there->agrees(along.value)) return other->support;
+    if (there && !there->is(along.value)) return other->support;  // factors may still part them: a hand-over
     always.pop_back();
   }
   add(support, node, along);

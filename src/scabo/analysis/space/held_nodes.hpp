@@ -49,7 +49,7 @@ class HeldNodes {
     double value, size;  // what others hold along a direction, and the sum of the absolute values of its parts
     bool has_factor;     // one of another support, if either has a name: factors of steps may then differ
     std::size_t first;   // the support with the largest part
-    bool agrees(double wanted) const;
+    bool is(double wanted) const;  // but for rounding
   };
   /// What `others` make of a direction of this support; nothing: it is not in their span.
   std::optional<Follows> follows(const std::vector<const Held*>& others, std::size_t support,
