@@ -144,14 +144,15 @@ class SupportWriter {
     return files::nodes_of_side(to_.deck.solid->cells[static_cast<std::size_t>(side / 4)], side % 4);
   }
 
-  /// Sides of a body between nodes that are fixed along their radii, or in all directions. A side at the end of a shaft
-  /// may have all of its corners on the rim: its normal is not a radius, and it is left out.
+  /// Outer sides of a body between nodes that are fixed along their radii, or in all directions. A side at the end of a
+  /// shaft may have all of its corners on the rim: its normal is not a radius, and it is left out.
   std::vector<int> sides_of_cylinder(int body, const std::set<int>& held, double radius) const {
     std::set<int> among = held;
     for (const auto& [node, axes] : to_.axes)
       if (axes.radius > 0.0 && are_equal(axes.radius, radius) && is_clamped(node)) among.insert(node);
     std::vector<int> sides;
-    for (const int side : boundary_of(body)) {
+    for (const int side : to_.bodies.outer) {
+      if (to_.bodies.of_cell[static_cast<std::size_t>(side / 4)] != body) continue;
       const std::vector<int> corners =
           files::corners_of(to_.deck.solid->cells[static_cast<std::size_t>(side / 4)], side % 4);
       const std::vector<int> nodes = nodes_of(side);
@@ -160,18 +161,6 @@ class SupportWriter {
           faces_radii(corners))
         sides.push_back(side);
     }
-    return sides;
-  }
-
-  /// Sides of cells of a body with none of its cells behind them, also where another body is.
-  std::vector<int> boundary_of(int body) const {
-    std::map<std::array<int, 3>, std::vector<int>> at_corners;
-    for (std::size_t c = 0; c < to_.bodies.of_cell.size(); ++c)
-      for (int side = 0; side < 4 && to_.bodies.of_cell[c] == body; ++side)
-        at_corners[key_of_corners(to_.deck.solid->cells[c], side)].push_back(4 * static_cast<int>(c) + side);
-    std::vector<int> sides;
-    for (const auto& [corners, of] : at_corners)
-      if (of.size() == 1) sides.push_back(of.front());
     return sides;
   }
 
