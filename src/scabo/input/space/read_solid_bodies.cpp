@@ -188,8 +188,8 @@ void SpaceReader::add_parts(const Value& value, std::vector<files::ImportedSolid
 /// `{body: block, near: [0, 0, 1]}`: the face that is nearest to the point. `{body: block, normal: [0, 0, 1]}`: the
 /// part of the boundary, or of a `face`, that looks in a direction.
 std::optional<SpaceFace> SpaceReader::face_found(const Value& value) {
-  const MapReader map(report_, value, {"body", "near", "normal", "face"}, "{body: block, near: [0, 0, 1]}",
-                      only_in_the_plane({"edge"}));
+  const MapReader map(report_, value, {"body", "near", "normal", "face", "edge", "point", "at"},  // edge_or_point()
+                      "{body: block, near: [0, 0, 1]}");
   const auto name = map.need("body"), near = map.get("near"), normal = map.get("normal"), part = map.get("face");
   if (map.all_known() && near.has_value() == normal.has_value())
     report_.error(value, "needs either 'near', a point, or 'normal', a direction");
